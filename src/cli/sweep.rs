@@ -116,7 +116,7 @@ mod tests {
             ("v", "NAME=LOW..HIGH:COUNT"),
             ("=1;2", "NAME=VALUE;VALUE"),
             ("v=1;;2", "NAME=VALUE;VALUE"),
-            ("v=0..1", "how many"),
+            ("v=0..1", "needs a count"),
             ("v=0..1:1", "2 to"),
             ("v=a..1:3", "not \"a\""),
             ("v=0..inf:3", "not \"inf\""),

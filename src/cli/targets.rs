@@ -234,7 +234,7 @@ mod tests {
             ("x/a.json y/a.json --out o", "x/a.json and y/a.json"),
             ("fluid fluid --out o", "would both be written"),
             ("a --out x.png --format npy", "do not agree"),
-            ("a --out x.exr", "does not write exr"),
+            ("a --out x.exr", "cannot write exr"),
         ] {
             let message = targets(line).expect_err(line);
             assert!(message.contains(says), "{line}: {message}");

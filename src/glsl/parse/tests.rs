@@ -357,7 +357,7 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         format!("void f() {{ x = {}a; }}", "a + (".repeat(100_000)),
     ] {
         let found = messages(&deep);
-        let is_told = |m: &String| m.contains("300 deep") || m.contains("10000 deep");
+        let is_told = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
         assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
@@ -413,10 +413,10 @@ fn one_mistake_is_one_message() {
     refuses_stmt("vec3 a(1.0, 2.0);", &["with `=`"]);
     refuses_stmt("f(float a);", &["`float` is a type"]);
     refuses_stmt("a = vec3;", &["`vec3` is a type"]);
-    refuses_stmt("retrun a;", &["`retrun` is no keyword"]);
+    refuses_stmt("retrun a;", &["`retrun` is not a keyword"]);
     refuses_stmt("float2 a = b; a.x;", &["no type `float2`"]);
-    refuses_stmt("let a = 1.0;", &["`let` declares nothing"]);
-    refuses_stmt("var a = 1.0;", &["`var` declares nothing"]);
+    refuses_stmt("let a = 1.0;", &["`let` cannot declare"]);
+    refuses_stmt("var a = 1.0;", &["`var` cannot declare"]);
     refuses_stmt("const a = 1.0;", &["without a type"]);
     refuses_stmt("float input = 1.0; input += input;", &["`input` is a reserved word"]);
     refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
@@ -449,13 +449,13 @@ fn mistakes_at_file_scope() {
     refuses("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["have no functions"]);
     refuses("struct S { float a; }\nfloat b;", &["missing `;` after `}`"]);
     refuses("struct S : T { float a; };", &["cannot extend"]);
-    refuses("function f() { }\nfloat b;", &["`function` declares nothing"]);
+    refuses("function f() { }\nfloat b;", &["`function` cannot declare"]);
     refuses("enum A { B };\nfloat b;", &["`enum` is a reserved word"]);
     refuses("void f() { a; } }\nvoid g() { }", &["`}` closes nothing"]);
     refuses("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements belong inside functions"]);
     refuses("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` starts inside `f`"]);
     refuses("void g() { }\nvoid f() {\n if (a) {\n b;\n}\n", &["missing `}` at the end"]);
-    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` stands outside"]);
+    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` is outside"]);
     refuses("%", &["expected a declaration"]);
     refuses("float a; b", &["statements belong inside functions"]);
     refuses(

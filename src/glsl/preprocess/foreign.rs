@@ -167,9 +167,9 @@ mod tests {
     #[test]
     fn each_form_has_its_mend() {
         for (rest, message, hint) in [
-            ("", "has no file name", "the form is"),
-            ("\"\"", "has no file name", "the form is"),
-            ("< >", "has no file name", "the form is"),
+            ("", "has no file name", "write #include \"noise.glsl\""),
+            ("\"\"", "has no file name", "write #include \"noise.glsl\""),
+            ("< >", "has no file name", "write #include \"noise.glsl\""),
             ("<lib.glsl>", "not in angle brackets", "write #include \"lib.glsl\""),
             ("<lib/a b.glsl", "not in angle brackets", "write #include \"lib/a b.glsl\""),
             ("<common>", "chunk of three.js", "#include \"common.glsl\""),
@@ -177,10 +177,10 @@ mod tests {
             ("<metal_stdlib>", "Metal", "GLSL ES 3.00"),
             ("'lib.glsl'", "not in single quotes", "write #include \"lib.glsl\""),
             ("\"lib.glsl", "closing quote", "write #include \"lib.glsl\""),
-            ("\"lib.glsl\" ; x", "`; x` is too much", "write #include \"lib.glsl\""),
+            ("\"lib.glsl\" ; x", "unexpected `; x`", "write #include \"lib.glsl\""),
             ("lib.glsl", "in double quotes", "write #include \"lib.glsl\""),
             ("lib/noise.glsl;", "in double quotes", "write #include \"lib/noise.glsl\""),
-            ("FILE \"a\"", "one file in double quotes", "the form is"),
+            ("FILE \"a\"", "one file in double quotes", "write #include \"noise.glsl\""),
         ] {
             let (said, mend) = include_mistake(rest);
             assert!(said.contains(message) && mend.contains(hint), "{rest}: {said}; {mend}");

@@ -248,7 +248,7 @@ fn a_radiance_picture_is_upright_however_its_scanlines_run() {
     let xyz = read(b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n\0\0\0\0").unwrap_err();
     assert!(xyz.to_string().ends_with("a.hdr: its colours are CIE XYZ, and Eddy reads RGB: ra_xyze -r converts them"));
     let long = read(b"#?RGBE\n\n+X 40000 +Y 1\n").unwrap_err().to_string();
-    assert!(long.contains("a side may have 32768"), "{long}");
+    assert!(long.contains("the limit per side is 32768"), "{long}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn lines_as_the_extension_has_them() {
 #[test]
 fn a_wrong_line_says_where_and_how_to_mend_it() {
     for (line, marked, message) in [
-        ("#iUniform flaot a", "flaot", "no uniform of type flaot"),
+        ("#iUniform flaot a", "flaot", "unknown slider type flaot"),
         ("#iUniform float", "t", "the uniform's name"),
         ("#iUniform float 3", "3", "the uniform's name"),
         ("#iUniform float a 1.0", "1.0", "expected `=`, `in` or the end"),
@@ -149,7 +149,7 @@ fn values_are_set_as_people_write_them() {
     let before = p.custom_uniform_values.clone();
     for (set, message) in [
         ("sped=1", "did you mean speed?"),
-        ("colour=1", "there are speed, tint, on, n and at"),
+        ("colour=1", "the uniforms are speed, tint, on, n and at"),
         ("speed", "viscosity=0.3"),
         ("speed=fast", "viscosity=0.3"),
         ("speed=7", "speed is outside its range, 0.0 to 5.0"),

@@ -66,7 +66,7 @@ fn a_wrong_directive_says_where_and_how_to_mend_it() {
         ("#iChannel0 self", "double quotes", "write #i"),
         ("#iChannel0 \"self", "double quotes", "write #i"),
         ("#iChannel0 \"keybord\"", "not an input that a channel can read", "keyboard"),
-        ("#iChannel0 \"image\"", "cannot read Image", "only buffers"),
+        ("#iChannel0 \"image\"", "cannot read Image", "a channel can read buffers"),
         ("#iChannel0 \"https://x/y.png\"", "not downloaded", "file://pic.png"),
         ("#iChannel0 \"self\"\n#iChannel0::WrapMode \"Mirror\"", "unknown wrap mode", "Clamp and Repeat"),
         ("#iChannel0 \"self\"\n#iChannel0::WrapMod \"Clamp\"", "unknown setting", "WrapMode"),

@@ -92,7 +92,7 @@ fn a_circle_is_an_error_with_the_way_round_it() {
     ]));
     let text = said(&project);
     assert!(text.contains("a.glsl -> b.glsl -> c.glsl -> a.glsl") && text.contains("c.glsl:3:1"), "{text}");
-    assert!(text.contains("circle: d.glsl -> d.glsl") && text.contains("d.glsl:1:1"), "{text}");
+    assert!(text.contains("circular: d.glsl -> d.glsl") && text.contains("d.glsl:1:1"), "{text}");
     assert_eq!(project.include_lines().diagnostics.len(), 2);
     assert_eq!(image(&project), "int a;\n\n\n#include \"a.glsl\"\nint c;\n\n\n\n#include \"d.glsl\"\nint d;\n");
 }

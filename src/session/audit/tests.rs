@@ -263,7 +263,7 @@ fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_ther
     ] {
         let code = format!("{SEED}{}", image(body));
         let audit = audited(&code);
-        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("their order is undefined"));
         let found: Vec<_> = orders.map(|f| (&code[f.span.unwrap().range()], f.pixels)).collect();
         assert_eq!(found, [(text, pixels)], "{body}");
     }
@@ -277,7 +277,7 @@ fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_ther
     ] {
         let code = format!("{SEED}{}", image(body));
         let audit = audited(&code);
-        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("their order is undefined"));
         assert_eq!(orders.count(), 0, "{body}: {:?}", named(&code, &audit));
     }
 }

@@ -79,7 +79,7 @@ mod tests {
         ];
         let why = |name: &str| reason(&PassId::Buffer(name.into()), &all).unwrap();
         assert_eq!(reason(&PassId::Image, &all), None);
-        assert!(why("A").starts_with("at rest"));
+        assert!(why("A").starts_with("unchanged"));
         assert_eq!(why("B"), "not drawn: iChannel1 of Image is set to it, but the code never reads that channel");
         assert_eq!(why("C"), "not drawn: no channel reads it");
         assert_eq!(why("D"), "not drawn: read only by Buffer C, which is not drawn either");

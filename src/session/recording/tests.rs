@@ -89,7 +89,7 @@ fn a_file_that_is_no_recording_says_why_and_where() {
         (head.into(), "no frame"),
         (format!("{head}{{\"size\":[4,4]}}"), "line 2: the first frame has no `time`"),
         (format!("{head}{{\"time\":0.0}}"), "line 2: the first frame has no `size`"),
-        (format!("{head}{frame}{{\"size\":[0,4]}}"), "line 3: a `size` of 0"),
+        (format!("{head}{frame}{{\"size\":[0,4]}}"), "line 3: a `size` must"),
         (format!("{head}{frame}{{\"mouse\":[1]}}"), "line 3: "),
         (format!("{head}{frame}{{\"set\":{{\"a\":\"x\"}}}}"), "line 3: `a` has a value"),
     ] {

@@ -25,7 +25,7 @@ fn a_quantity_names_a_reduction_a_pass_and_a_component() {
         ("sum(image.xy)", "not `xy`"),
         ("sum(image:one)", "a number from 0"),
         ("sum(image", "but the text ends"),
-        ("sum(image) + 1", "`+ 1` stands behind"),
+        ("sum(image) + 1", "unexpected `+ 1`"),
     ] {
         let message = Quantity::parse(text).expect_err(text);
         assert!(message.contains(says), "{text}: {message}");

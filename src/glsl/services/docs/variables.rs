@@ -6,7 +6,7 @@ pub(super) const VARIABLES: &[(&str, &str)] = &[
     // The site's uniforms.
     ("iResolution", "Resolution of this pass in pixels; z is the pixel aspect ratio, always 1. A cubemap pass has \
                      1024 x 1024."),
-    ("iTime", "Seconds since the start or the last reset. Stands still while paused."),
+    ("iTime", "Seconds since the start or the last reset. Does not advance while paused."),
     ("iTimeDelta", "Seconds from the last frame to this one. 1/60 in the first frame after a reset or a pause, and in \
                     frames that are drawn while paused."),
     ("iFrame", "Frame number, 0 after a reset: initialise buffers where `iFrame == 0`."),

@@ -125,7 +125,7 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
     says(&named("file:///etc/passwd"), "m.gltf is broken", "neither a file nor data");
     // Percent signs that make no Unicode: the crate's own reader panics.
     says(&named("%ff%fe"), "m.gltf refers to a file", "there is no such file");
-    says(&named(&"x".repeat(5000)), "m.gltf is broken", "a name of 5000 bytes");
+    says(&named(&"x".repeat(5000)), "m.gltf is broken", "a file name of 5000 bytes");
     let short = "40 bytes by its byteLength, and its data: address 3";
     says(&named("data:;base64,AAAA"), "m.gltf is broken", short);
     says(&named("data:;base64,A"), "m.gltf is broken", "the data: address of buffer 0");
@@ -146,7 +146,7 @@ fn an_obj_is_counted_and_its_numbers_are_looked_at() {
         for (corner, element) in
             [(far.to_owned(), "vertex"), (format!("1/{far}"), "texture coordinate"), (format!("1//{far}"), "normal")]
         {
-            let what = format!("line 6: {corner} names {element} {far}, and ");
+            let what = format!("line 6: {corner} uses {element} {far}, but ");
             says(&error("m.obj", format!("{points}f {corner} 2 3\n")), "m.obj is broken", &what);
         }
     }
@@ -161,5 +161,5 @@ fn tangents_of_many_corners_at_one_place_are_refused() {
     // Each corner is compared with each other: 70,000 are five thousand million pairs.
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
     let fan = format!("{points}{}", "f 1/1 2/2 3/3\n".repeat(70_000));
-    says(&error("m.obj", fan), "m.obj is too large", "70000 corners of its triangles meet at one place");
+    says(&error("m.obj", fan), "m.obj is too large", "70000 corners of its triangles meet at one point");
 }

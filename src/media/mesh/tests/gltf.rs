@@ -418,7 +418,7 @@ fn what_holds_no_triangles_says_what_it_holds() {
     assert_eq!(more.set("/meshes/0/primitives/0/indices", indices.into()).load().unwrap().indices.len(), 3);
     let mut restarts = Model::triangle();
     let indices = restarts.accessor(UNSIGNED_BYTE, "SCALAR", 4, &[0, 1, 2, 255]);
-    restarts.set("/meshes/0/primitives/0/indices", indices.into()).refused("begin anew at 255 (primitive restart)");
+    restarts.set("/meshes/0/primitives/0/indices", indices.into()).refused("use primitive restart at 255");
 }
 
 #[test]

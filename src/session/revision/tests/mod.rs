@@ -114,7 +114,7 @@ fn what_is_not_there_is_named_with_a_mend() {
         ("HEAD^{", "is not a valid revision"),
         ("--upload-pack=x", "is not a branch"),
         ("config", "config is not a branch"),
-        ("../HEAD", "is no"),
+        ("../HEAD", "does not support a range"),
         (&format!("{two}^{{tag}}"), "is a commit, not a tag"),
     ] {
         let said = repo.refusal(revision);
@@ -171,7 +171,7 @@ fn a_project_is_a_folder_within_the_repository_or_a_file_of_one() {
         assert!(said.starts_with(says) && said.contains(project), "{said}");
     }
     let said = super::at("no such place", "HEAD").unwrap_err().to_string();
-    assert!(said.contains("no such place is no file or folder"), "{said}");
+    assert!(said.contains("no such place is not a file or folder"), "{said}");
     let elsewhere = tempfile::tempdir().unwrap();
     let said = super::at(elsewhere.path().to_str().unwrap(), "HEAD").unwrap_err().to_string();
     assert!(said.contains("git has no such revision") && said.contains("git init"), "{said}");
