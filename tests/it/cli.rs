@@ -268,7 +268,7 @@ fn uniforms_are_set_on_the_command_line_and_become_constants_of_an_export() {
     b.line("check p.json").expect(0);
     for (args, says) in [
         ("rde=1", "did you mean red?"),
-        ("red=2", "outside of its range, 0.0 to 1.0"),
+        ("red=2", "outside its range, 0.0 to 1.0"),
         ("red=1,2", "is a float and takes a number"),
         ("red", "viscosity=0.3"),
     ] {

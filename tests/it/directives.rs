@@ -30,7 +30,7 @@ fn a_broken_directive_is_one_error_at_its_line_in_every_command() {
         ("#include 'tone.glsl'", &["single quotes", "write #include \"tone.glsl\""]),
         ("#include tone.glsl", &["double quotes", "write #include \"tone.glsl\""]),
         ("#include \"tone.glsl", &["closing quote"]),
-        ("#include \"tone.glsl\" int x;", &["`int x;` is too much"]),
+        ("#include \"tone.glsl\" int x;", &["unexpected `int x;`"]),
         ("#include \"nothere.glsl\"", &["there is no file nothere.glsl"]),
         ("#include <common>", &["chunk of three.js"]),
         ("#Include \"tone.glsl\"", &["upper and lower case differ", "write #include \"tone.glsl\""]),

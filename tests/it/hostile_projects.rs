@@ -391,7 +391,7 @@ fn limits_are_named_with_the_file_and_the_line() {
     let said = |files: &[(&str, &str)]| refusal(&place(files).path().join("p"));
     let steps = "[passes.image]\n[passes.buffer_a]\n[groups.g]\npasses = [\"buffer_a\"]\nsteps = 1000000\n";
     let text = said(&[("eddy.toml", steps), ("image.glsl", IMAGE), ("buffer_a.glsl", IMAGE)]);
-    assert!(text.contains("eddy.toml:5:") && text.contains(&format!("the most is {}", limits::DRAWS)), "{text}");
+    assert!(text.contains("eddy.toml:5:") && text.contains(&format!("the limit is {}", limits::DRAWS)), "{text}");
 
     let mut many = "[passes.image]\n".to_owned();
     (0..60_000).for_each(|n| many.push_str(&format!("[passes.buffer_x{n}]\nfile=\"a\"\n")));
@@ -425,7 +425,7 @@ fn included_texts_are_limited_together_before_they_are_put_together() {
     let project = load(&dir.path().join("p")).unwrap();
     let lines = project.include_lines();
     let said = eddy::diag::render_all(&lines.diagnostics, &project.sources());
-    assert!(said.contains("image.glsl has more than 64 MiB in it") && said.contains("image.glsl:1:1"), "{said}");
+    assert!(said.contains("image.glsl includes more than 64 MiB") && said.contains("image.glsl:1:1"), "{said}");
     assert!(lines.lines.is_empty());
     // 9,000 files of 1 MiB that hold no memory of the disk.
     let all: String = (0..9_000).map(|n| format!("#include \"f{n}\"\n")).collect();
@@ -448,7 +448,7 @@ fn lists_of_a_json_file_have_limits_and_what_is_not_read_takes_no_memory() {
     let many: Vec<_> = (0..70_000).map(|_| json!({ "code": "", "type": "buffer" })).collect();
     let said = read(json!({ "ver": "0.1", "renderpass": many })).unwrap_err();
     assert!(
-        said.contains(&format!("more than {} entries", limits::PASSES + 1)) && said.contains("x.json:1:"),
+        said.contains(&format!("more than the limit of {} entries", limits::PASSES + 1)) && said.contains("x.json:1:"),
         "{said}"
     );
     let inputs: Vec<_> = (0..1000).map(|_| json!({ "channel": 0 })).collect();

@@ -215,7 +215,7 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     let compared = parted["compared"].as_u64().unwrap();
     assert!(compared >= 4 && Some(compared) < parted["assignments"].as_u64(), "y and s thrice, then t: {parted}");
     let words = b.line("trace p --pixel 2,1 --size 4x4").expect(0).out;
-    assert!(words.contains("parts   First difference at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
+    assert!(words.contains("differs first at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
     // Of fewer probes half of the assignments are looked at first, and none is too few.
     assert_eq!(json("--probes 4")["parted"]["compared"], 4);
     assert!(json("--probes 0")["parted"].is_null());
@@ -250,7 +250,7 @@ fn eddy_probe_writes_the_format_that_is_asked_for() {
     // Nothing is written over unasked.
     b.write("p_image_2_18.npy", "mine");
     let again = b.line("probe p image:2:18 --size 4x2 --format npy").expect(2);
-    assert!(again.err.contains("p_image_2_18.npy is there already") && again.err.contains("--out"), "{}", again.err);
+    assert!(again.err.contains("p_image_2_18.npy already exists") && again.err.contains("--out"), "{}", again.err);
     assert_eq!(b.bytes("p_image_2_18.npy"), b"mine");
     b.line("probe p image:2:18 --size 4x2 --out p_image_2_18.npy").expect(0);
     assert_eq!(b.npy("p_image_2_18.npy").at(0, 0)[0], 0.25);
