@@ -98,8 +98,12 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut 
         Then::Recover(_) => "by restoring the recovered project",
         Then::Close => "by closing the window",
     };
-    let list: Vec<String> = tabs.iter().map(Tab::title).collect();
-    let list = if list.is_empty() { "channels or passes".into() } else { list.join(", ") };
+    let mut list = session.unsaved_parts();
+    // A question may have come before the edit that is saved since.
+    if list.is_empty() {
+        list.extend(tabs.iter().map(Tab::title));
+    }
+    let list = list.join(", ");
     ui.label(format!("Unsaved changes: {list}. They are lost {what} unless you save them."));
     let answers_ = [("Save", Answer::Save), ("Discard", Answer::Discard), ("Cancel", Answer::Cancel)];
     answers(ui, &answers_, out);

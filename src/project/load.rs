@@ -55,7 +55,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
             continue;
         }
         if texts.len() == limits::PASSES {
-            let message = format!("the project has more than the limit of {} passes", limits::PASSES);
+            let message = format!("the project has more than {} passes, the limit", limits::PASSES);
             diagnostics.push(Diagnostic::error(None, message).hint("remove some of their files from the folder"));
             break;
         }

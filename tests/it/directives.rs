@@ -51,7 +51,7 @@ fn a_broken_directive_is_one_error_at_its_line_in_every_command() {
         ("#iChannel0 \"file://blur.glsl\"", &["there is no file blur.glsl"]),
         ("#iChannel0 \"buffer_c.glsl\"", &["there is no file buffer_c.glsl", "did you mean \"buffer_b.glsl\"?"]),
         ("#iChannel0 \"buffer_b\"\n#iChannel0::WrapMode \"Wrap\"", &["unknown wrap mode", ":3:1"]),
-        ("#iUniform flaot x = 1.0", &["no uniform of type flaot"]),
+        ("#iUniform flaot x = 1.0", &["unknown slider type flaot"]),
         ("#iuniform float x = 1.0", &["no directive `#iuniform`", "did you mean `#iUniform`?"]),
     ] {
         let b = Bench::new();

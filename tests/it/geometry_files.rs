@@ -126,7 +126,7 @@ fn mistakes_in_the_file_are_told_at_their_place() {
         ("mesh = \"models/tri.obj\", ", "", "draw 0 has no mesh"),
         ("vertex = \"scene.vert.glsl\", ", "", "draw 0 has no vertex"),
         ("\"scene.vert.glsl\"", "\"scen.vert.glsl\"", "did you mean scene.vert.glsl?"),
-        ("\"rgba16f\"]", "\"rgba16\"]", "targets is an array, not a list of one to 4 formats"),
+        ("\"rgba16f\"]", "\"rgba16\"]", "targets is an array, not a list of one to 4 of the formats"),
         (camera, "camera = { yow = 45 }", "did you mean yaw?"),
         (camera, "camera = { near = 5, far = 1 }", "the far plane is in front of the near plane"),
         (camera, "camera = { pitch = 95 }", "pitch is an integer, not degrees from -89 to 89"),

@@ -159,6 +159,41 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
 }
 
 #[test]
+fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
+    let Some(gpu) = gpu() else { return };
+    let toml = "eddy = 1\n\n[passes.image]\n";
+    let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
+    assert_eq!(stage.session.unsaved_parts(), [""; 0]);
+    // A drag is many values and one step; another uniform is another step.
+    for red in [0.3, 0.5, 0.8] {
+        stage.session.apply(set("red", CustomUniformValue::Float(red)));
+    }
+    stage.session.apply(set("n", CustomUniformValue::Int(0)));
+    assert_eq!(stage.session.unsaved_parts(), ["uniform n and red"]);
+    let title = |stage: &Stage| stage.session.pass_undo().map(|step| step.title.to_owned());
+    assert_eq!(title(&stage).as_deref(), Some("change n"));
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), title(&stage).as_deref()), (204, Some("change red")));
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), stage.session.is_dirty(), title(&stage)), (51, false, None), "the whole drag is one step");
+    stage.session.apply(Command::RedoPassEdit);
+    stage.tick();
+    assert_eq!(stage.red(), 204);
+    stage.session.apply(Command::ResetCustomUniforms);
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!(stage.red(), 204, "resetting all is a step, too");
+    // Steps of passes lie in the same history, and each brings back its own.
+    stage.session.apply(Command::AddTab(eddy::project::Tab::Common));
+    assert_eq!(stage.session.unsaved_parts(), ["Common", "the list of passes", "uniform red"]);
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), stage.session.unsaved_parts()), (204, vec!["uniform red".to_owned()]));
+}
+
+#[test]
 fn custom_uniforms_follow_the_text_and_the_disk() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER)]);

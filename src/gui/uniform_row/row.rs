@@ -69,8 +69,10 @@ fn title(ui: &mut Ui, custom_uniform: &CustomUniform, place: Rect) -> bool {
     child(ui, place).add(label).on_hover_text(tip(custom_uniform)).double_clicked()
 }
 
+/// The author's description, then what the line declares.
 fn tip(custom_uniform: &CustomUniform) -> String {
-    let mut text = format!(
+    let mut text = if custom_uniform.about.is_empty() { String::new() } else { format!("{}\n", custom_uniform.about) };
+    text += &format!(
         "{} {}, default {}",
         custom_uniform.ty.name(),
         custom_uniform.name,

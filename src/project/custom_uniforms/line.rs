@@ -9,6 +9,9 @@
 //! #iUniform bool wrapped = true                           // this type the extension does not have
 //! ```
 //!
+//! The comment after a declaration describes it to who turns it. A line `//@group Light` puts the declarations after it
+//! in the same text into a group of that name, until the next such line; one without a name ends the group.
+//!
 //! Without a default it is the least of the range, else zero.
 
 use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
@@ -34,8 +37,24 @@ pub(super) struct Line {
     pub default: Option<[f64; 4]>,
     pub range: Option<CustomUniformRange>,
     pub step: Option<[f64; 4]>,
+    /// The comment after it.
+    pub about: String,
+    /// The group that it stands in.
+    pub group: String,
     /// The name.
     pub span: Span,
+}
+
+/// Returns the name that a line `//@group NAME` gives to what follows; empty: it ends a group.
+pub(super) fn group(line: &str) -> Option<&str> {
+    let rest = line.trim_start().strip_prefix("//")?.trim_start().strip_prefix("@group")?;
+    (rest.is_empty() || rest.starts_with(char::is_whitespace)).then(|| rest.trim())
+}
+
+/// Returns the words of the comment at the end of a declaration; those of `//@print` and its like are not for people.
+fn about(rest: &str) -> String {
+    let comment = rest.split_once("//").map_or("", |(_, comment)| comment.trim_start_matches(['/', '!', '<']).trim());
+    if comment.starts_with('@') { String::new() } else { comment.to_owned() }
 }
 
 impl Line {
@@ -46,6 +65,8 @@ impl Line {
             default: CustomUniformValue::new(self.ty, &[0.0; 4]),
             range: None,
             step: None,
+            about: String::new(),
+            group: self.group.clone(),
             span: self.span,
             declared_in: vec![source],
         }
@@ -67,6 +88,9 @@ impl Line {
                 _ => Ok(()),
             }
         }
+        if self.about.is_empty() {
+            self.about.clone_from(&other.about);
+        }
         one(&mut self.default, other.default, "default")?;
         one(&mut self.range, other.range, "range")?;
         one(&mut self.step, other.step, "step")
@@ -75,6 +99,7 @@ impl Line {
     /// Gives a custom uniform everything, now that all lines are read.
     pub fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
         custom_uniform.step = self.step;
+        custom_uniform.about.clone_from(&self.about);
         let unit = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };
         custom_uniform.range = self.range.or((self.ty == CustomUniformType::Color3).then_some(unit));
         let default = self.default.or(self.range.map(|r| r.min)).unwrap_or_default();
@@ -131,13 +156,14 @@ pub(in crate::project) fn value(text: &str) -> Option<CustomUniformValue> {
     }
 }
 
-/// Reads a line that [`is_declaration`].
-pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagnostic> {
+/// Reads a line that [`is_declaration`], in a group.
+pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Line, Diagnostic> {
     let skipped = "iUniform".len();
     let mut words = Words::new(&line.body[skipped..], line.body_at + skipped, source);
     let ty = words.ty()?;
     let (name, span) = words.name()?;
-    let mut out = Line { name, ty, default: None, range: None, step: None, span };
+    let (default, range, step, group) = (None, None, None, group.to_owned());
+    let mut out = Line { name, ty, default, range, step, about: String::new(), group, span };
     if words.peek() == Word::Sign('=') {
         words.next();
         out.default = Some(words.value(ty)?);
@@ -154,6 +180,7 @@ pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagn
         }
         out.step = Some(step);
     }
+    out.about = about(&words.text[words.at..]);
     match words.peek() {
         // Some write it as the end of a declaration.
         Word::End | Word::Sign(';') => Ok(out),

@@ -67,6 +67,29 @@ fn lines_as_the_extension_has_them() {
 }
 
 #[test]
+fn a_comment_describes_and_a_line_groups() {
+    assert_eq!(
+        one("#iUniform float a = 1.0 in { 0.0, 5.0 } step 0.25 // how dense, per metre").about,
+        "how dense, per metre"
+    );
+    assert_eq!(one("#iUniform float a; //! of the lamp // and more").about, "of the lamp // and more");
+    for without in
+        ["#iUniform float a", "#iUniform float a //", "#iUniform float a //@print a", "#iUniform float a /* b */"]
+    {
+        assert_eq!(one(without).about, "", "{without}");
+    }
+    let text = "#iUniform float a\n//@group Light and shade\n#iUniform float b // first\n/*\n//@group no\n*/\n\
+                #iUniform float c\n  // @group\n#iUniform float d\n//@groups e\n#iUniform float e\n//@group Fog\n";
+    let all = read(&[text, "#iUniform float f\n#iUniform float b // second"]);
+    assert_eq!(all.diagnostics, []);
+    let groups: Vec<_> = all.list.iter().map(|one| (one.name.as_str(), one.group.as_str())).collect();
+    let wanted = [("a", ""), ("b", "Light and shade"), ("c", "Light and shade"), ("d", ""), ("e", ""), ("f", "")];
+    assert_eq!(groups, wanted, "a group is of one text");
+    assert_eq!(all.get("b").unwrap().about, "first");
+    assert_eq!(read(&["#iUniform float a", "#iUniform float a // later"]).list[0].about, "later");
+}
+
+#[test]
 fn a_wrong_line_says_where_and_how_to_mend_it() {
     for (line, marked, message) in [
         ("#iUniform flaot a", "flaot", "unknown slider type flaot"),

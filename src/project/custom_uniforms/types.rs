@@ -128,6 +128,10 @@ pub struct CustomUniform {
     pub range: Option<CustomUniformRange>,
     /// The step of a slider, where the author gives one.
     pub step: Option<[f64; 4]>,
+    /// The author's description: the `//` comment after the first declaration that has one, else empty.
+    pub about: String,
+    /// The group that it is shown in: that of the `//@group` line before its first declaration, else empty.
+    pub group: String,
     /// The name, where it is first declared.
     pub span: Span,
     /// The texts that declare it.

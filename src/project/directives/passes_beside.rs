@@ -63,7 +63,7 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
         return Ok(None);
     }
     if project.passes.len() == limits::PASSES {
-        let message = format!("with {name} the project has more than the limit of {} passes", limits::PASSES);
+        let message = format!("with {name} the project has more than {} passes, the limit", limits::PASSES);
         return refuse(message, "use fewer lines with files".into());
     }
     let text = match files.read(&name, limits::GLSL_TEXT) {

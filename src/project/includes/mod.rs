@@ -85,7 +85,7 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
             }
             let content = match known.len() > limits::TEXTS {
                 true => Err(Trouble {
-                    why: format!("with {name} the project has more than the limit of {} files", limits::TEXTS),
+                    why: format!("with {name} the project has more than {} files, the limit", limits::TEXTS),
                     is_limit: true,
                 }),
                 false => {

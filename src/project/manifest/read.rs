@@ -191,7 +191,7 @@ impl Reader<'_> {
                 continue;
             };
             if passes.len() == limits::PASSES {
-                let message = format!("the project has more than the limit of {} passes", limits::PASSES);
+                let message = format!("the project has more than {} passes, the limit", limits::PASSES);
                 self.error(at, message, "split it into two projects");
                 break;
             }

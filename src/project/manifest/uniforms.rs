@@ -14,7 +14,7 @@ impl Reader<'_> {
         let Some(table) = root.get("uniforms").and_then(|item| self.table("uniforms", item)) else { return values };
         for (name, item) in table.iter() {
             if values.len() == limits::UNIFORMS {
-                let message = format!("[uniforms] has more than the limit of {} values", limits::UNIFORMS);
+                let message = format!("[uniforms] has more than {} values, the limit", limits::UNIFORMS);
                 self.error(item.span(), message, "remove the values that no pass declares");
                 break;
             }
