@@ -4,6 +4,7 @@ use super::{
     actions::Action,
     dock::Panel,
     icons::{self, Icon},
+    menus,
     outbox::{Outbox, Pick, Wish},
     settings::{Change, Settings, Theme},
     theme,
@@ -98,14 +99,14 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
                 panel => Action::Panel(panel),
             };
             let is_open = state.open.contains(&panel) && !state.is_gallery;
-            let entry = ui.add(Button::selectable(is_open, panel.title()).shortcut_text(out.keys.hint(action)));
+            let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
             if out.clicked(&format!("view:{}", panel.name()), &entry) {
                 out.act(action);
                 ui.close();
             }
         }
         let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
-            let entry = ui.add(Button::new(label).shortcut_text(out.keys.hint(action)));
+            let entry = menus::entry(ui, label, out.keys.hint(action));
             if out.clicked(name, &entry) {
                 out.act(action);
                 ui.close();
@@ -150,13 +151,12 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
             }
         });
         ui.separator();
-        let wraps = Button::selectable(state.settings.word_wrap, "Word wrap");
-        let wraps = ui.add(wraps.shortcut_text(out.keys.hint(Action::WordWrap)));
+        let wraps = menus::switch(ui, state.settings.word_wrap, "Word wrap", out.keys.hint(Action::WordWrap));
         if out.clicked("view:word-wrap", &wraps) {
             out.act(Action::WordWrap);
             ui.close();
         }
-        let file = ui.button("Open settings file");
+        let file = menus::entry(ui, "Open settings file", String::new());
         if out.clicked("view:settings", &file) {
             out.act(Action::SettingsFile);
             ui.close();

@@ -6,6 +6,7 @@ use super::{
     dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
+    menus,
     outbox::{Outbox, Wish},
     theme, timeline,
 };
@@ -13,7 +14,7 @@ use crate::{
     project::{PassId, Tab},
     session::{Command, Session},
 };
-use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
+use egui::{Button, ComboBox, Popup, RichText, ScrollArea, Ui, vec2};
 
 /// Height of the bar.
 pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
@@ -80,7 +81,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            options(ui, session, out);
+            options(ui, session, (!roomy).then_some(shape), out);
             shown_pass(ui, session, out);
             if roomy {
                 size(ui, session, shape, out);
@@ -173,34 +174,37 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
         .width(96.0)
         .height(360.0)
         .selected_text(RichText::new(format!("{width}×{height}")).monospace().size(12.0))
-        .show_ui(ui, |ui| {
-            for (choice, name) in [(Shape::Site, "16:9, as on Shadertoy"), (Shape::Fill, "Fill the panel")] {
-                let on = transport.fixed_size.is_none() && shape == choice;
-                if ui.selectable_label(on, name).clicked() {
-                    out.act(Action::Picture(PictureAction::Shape(choice)));
-                }
-            }
-            ui.separator();
-            ui.colored_label(theme::of(ui).weak, "Scale");
-            for scale in SCALES {
-                let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
-                if ui.selectable_label(on, scale.name()).clicked() {
-                    out.act(Action::Picture(PictureAction::Scale(scale)));
-                }
-            }
-            ui.separator();
-            ui.colored_label(theme::of(ui).weak, "Fixed size");
-            for size in SIZES {
-                if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked()
-                {
-                    out.act(Action::Picture(PictureAction::Size(size)));
-                }
-            }
-        })
+        .show_ui(ui, |ui| sizes(ui, session, shape, out))
         .response
         .on_hover_text("Resolution of the picture in pixels (iResolution)");
     accessible::name(&response, egui::Role::ComboBox, "Resolution");
     out.place("combo:size", response.rect);
+}
+
+/// The resolutions to choose from.
+fn sizes(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+    let transport = session.transport();
+    for (choice, name) in [(Shape::Site, "16:9, as on Shadertoy"), (Shape::Fill, "Fill the panel")] {
+        let on = transport.fixed_size.is_none() && shape == choice;
+        if ui.selectable_label(on, name).clicked() {
+            out.act(Action::Picture(PictureAction::Shape(choice)));
+        }
+    }
+    ui.separator();
+    ui.colored_label(theme::of(ui).weak, "Scale");
+    for scale in SCALES {
+        let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
+        if ui.selectable_label(on, scale.name()).clicked() {
+            out.act(Action::Picture(PictureAction::Scale(scale)));
+        }
+    }
+    ui.separator();
+    ui.colored_label(theme::of(ui).weak, "Fixed size");
+    for size in SIZES {
+        if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked() {
+            out.act(Action::Picture(PictureAction::Size(size)));
+        }
+    }
 }
 
 fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
@@ -226,15 +230,23 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     out.place("combo:pass", response.rect);
 }
 
-fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+/// The menu at the right. `shape`: the resolution has no place in the bar, so it is here.
+fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbox) {
     let more = icons::button(ui, Icon::More, "More");
     out.place("button:options", more.rect);
     Popup::menu(&more).show(|ui| {
-        let mut reset = session.reset_on_reload();
-        let switch = ui.checkbox(&mut reset, "Reset when a file is reloaded");
-        out.place("switch:reset-on-reload", switch.rect);
-        if switch.changed() {
-            out.ask(Command::SetResetOnReload(reset));
+        if let Some(shape) = shape {
+            let (width, height) = session.transport().resolution;
+            let menu = ui.menu_button(format!("Resolution: {width}×{height}"), |ui| {
+                ScrollArea::vertical().max_height(360.0).show(ui, |ui| sizes(ui, session, shape, out));
+            });
+            out.place("options:resolution", menu.response.rect);
+            ui.separator();
+        }
+        let reset = session.reset_on_reload();
+        let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
+        if out.clicked("switch:reset-on-reload", &switch) {
+            out.ask(Command::SetResetOnReload(!reset));
         }
         ui.separator();
         let all = [
@@ -247,14 +259,13 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             Action::Compile,
         ];
         for action in all {
-            let item = Button::new(action.title()).shortcut_text(out.keys.hint(action));
-            if ui.add(item).clicked() {
+            if menus::entry(ui, action.title(), out.keys.hint(action)).clicked() {
                 out.act(action);
                 ui.close();
             }
         }
         ui.separator();
-        let close = ui.button("Close picture");
+        let close = menus::entry(ui, "Close picture", String::new());
         if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
             out.wishes.push(Wish::ClosePanel(Panel::Picture));
         }

@@ -84,7 +84,7 @@ pub fn choose(
 }
 
 fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatches: &mut Swatches<'_>) {
-    ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).accent_fill } else { theme::of(ui).background });
+    ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).chosen } else { theme::of(ui).background });
     let place = Rect::from_center_size(pos2(rect.center().x, rect.top() + 34.0), vec2(60.0, 60.0));
     swatches.show(ui, place, input);
     let mut job =

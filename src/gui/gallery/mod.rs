@@ -135,11 +135,22 @@ impl Gallery {
     }
 }
 
+/// Returns how many cards fit beside each other, and how wide each is.
+fn columns(room: f32) -> (f32, f32) {
+    let columns = ((room + GAP) / (230.0 + GAP)).floor().clamp(1.0, 6.0);
+    (columns, ((room - GAP * (columns - 1.0)) / columns).min(360.0).floor())
+}
+
+/// Returns the width of a whole row of cards, which everything in the gallery keeps to.
+fn grid_width(room: f32) -> f32 {
+    let (columns, width) = columns(room);
+    columns * width + (columns - 1.0) * GAP
+}
+
 /// Shows cards in rows, each as high as its longest text asks.
 fn grid(ui: &mut Ui, cards: &[&'static Card], thumbnails: &mut Thumbnails, out: &mut Outbox) -> Option<&'static str> {
     let room = ui.available_width();
-    let columns = ((room + GAP) / (230.0 + GAP)).floor().clamp(1.0, 6.0);
-    let width = ((room - GAP * (columns - 1.0)) / columns).min(360.0).floor();
+    let (columns, width) = columns(room);
     let mut hovered = None;
     for row in cards.chunks(columns as usize) {
         let texts: Vec<_> = row.iter().map(|card| card.text(ui, width)).collect();

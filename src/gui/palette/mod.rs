@@ -140,7 +140,7 @@ impl Palette {
                         let is_selected = i == open.selected;
                         accessible::choice(&response, egui::Role::ListBoxOption, is_selected, fit.title);
                         if i == open.selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).chosen);
                         } else if response.hovered() {
                             ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
                         }

@@ -82,7 +82,7 @@ fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let fill = match (tab == chosen, response.hovered()) {
-        (true, _) => theme::of(ui).accent_fill,
+        (true, _) => theme::of(ui).chosen,
         (false, true) => theme::of(ui).button,
         (false, false) => theme::of(ui).panel,
     };

@@ -9,6 +9,7 @@ mod list;
 use super::{
     accessible,
     actions::Action,
+    menus,
     outbox::{Outbox, Wish},
     theme,
 };
@@ -17,7 +18,7 @@ use crate::{
     session::{Command, Session},
 };
 use detail::Typed;
-use egui::{Frame, Id, Margin, Popup, PopupCloseBehavior, Response, RichText, Ui, Window, WindowDrag, vec2};
+use egui::{Frame, Id, Margin, Response, RichText, Ui, Window, WindowDrag, vec2};
 
 /// Width of the list; the rest is the chosen pass's.
 const LIST: f32 = 196.0;
@@ -151,8 +152,7 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 /// A button with a menu that stays while one types in it.
 pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     let button = ui.button(label);
-    let menu = Popup::from_toggle_button_response(&button);
-    menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
+    menus::below(&button, contents);
     button
 }
 

@@ -353,6 +353,12 @@ impl Shell {
         self.places.places.get(name).copied()
     }
 
+    /// Returns every named place.
+    #[cfg(test)]
+    pub fn places(&self) -> impl Iterator<Item = (&str, egui::Rect)> {
+        self.places.places.iter().map(|(name, rect)| (name.as_str(), *rect))
+    }
+
     /// Has no dialogs of the desktop's.
     #[cfg(test)]
     pub fn type_paths(&mut self) {

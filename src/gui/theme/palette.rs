@@ -23,8 +23,10 @@ pub struct Palette {
     pub weak: Color32,
     pub strong: Color32,
     pub accent: Color32,
-    /// Behind text of what is chosen.
+    /// Of what is wanted first, of a part that is filled, and of what is pressed.
     pub accent_fill: Color32,
+    /// Behind text of what is chosen: no blue, which means what is wanted first.
+    pub chosen: Color32,
     pub error: Color32,
     pub warning: Color32,
     /// A place found.
@@ -90,6 +92,7 @@ pub const DARK: Palette = Palette {
     strong: rgb(244, 246, 250),
     accent: rgb(92, 168, 255),
     accent_fill: rgb(36, 82, 138),
+    chosen: rgb(78, 86, 104),
     error: rgb(255, 120, 117),
     warning: rgb(240, 190, 100),
     found: rgb(196, 160, 60),
@@ -147,6 +150,7 @@ pub const LIGHT: Palette = Palette {
     strong: rgb(14, 17, 23),
     accent: rgb(20, 98, 204),
     accent_fill: rgb(190, 216, 250),
+    chosen: rgb(196, 203, 216),
     error: rgb(186, 26, 38),
     warning: rgb(146, 86, 0),
     found: rgb(196, 150, 20),
@@ -224,7 +228,9 @@ mod tests {
                     assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}: {}", contrast(text, ground));
                 }
             }
-            for ground in [p.button, p.button_hovered, p.accent_fill, p.code.selection, p.code.found, p.code.uses] {
+            for ground in
+                [p.button, p.button_hovered, p.accent_fill, p.chosen, p.code.selection, p.code.found, p.code.uses]
+            {
                 assert!(contrast(p.strong, ground) >= 4.5, "{ground:?}: {}", contrast(p.strong, ground));
             }
         }

@@ -70,17 +70,17 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
         if ui.available_width() > WIDE {
             ui.columns(2, |columns| {
                 watches(debugger, &mut columns[0], out);
+                breakpoints(debugger, &mut columns[0], out);
                 variables(debugger, &mut columns[0], out);
                 turns(debugger, &mut columns[1], out);
                 printed(debugger, &mut columns[1], out);
-                breakpoints(debugger, &mut columns[1], out);
             });
         } else {
             watches(debugger, ui, out);
+            breakpoints(debugger, ui, out);
             variables(debugger, ui, out);
             turns(debugger, ui, out);
             printed(debugger, ui, out);
-            breakpoints(debugger, ui, out);
         }
     });
     parting::show(&traced, session, ui, out);

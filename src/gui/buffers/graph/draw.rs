@@ -1,6 +1,6 @@
 //! The page of the graph: its nodes and edges, and what they mean.
 
-use super::layout::Layout;
+use super::layout::{LEGIBLE, Layout};
 use crate::{
     engine::{PassRead, PassRole, When},
     gui::{
@@ -19,8 +19,6 @@ use egui::{
 
 /// The foot with the legend.
 const LEGEND: f32 = 20.0;
-/// Figures can be read down to this.
-const LEGIBLE: f32 = 0.6;
 const BEGIN: f32 = 0.75;
 
 /// A read, from the pass that is read to its reader.
@@ -45,9 +43,9 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
     let (forth, back): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
         arrows.iter().partition(|arrow| arrow.read.when == When::ThisFrame && arrow.from != arrow.to);
     let ends = |arrows: &[&Arrow<'_>]| arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect::<Vec<_>>();
-    let layout = Layout::new(passes.len(), &ends(&forth), &ends(&back));
     let room = ui.available_rect_before_wrap();
     let area = room.with_max_y(room.bottom() - LEGEND);
+    let layout = Layout::new(passes.len(), &ends(&forth), &ends(&back), area.size());
     let shown = state.target(session.project()).map(|(pass, _)| pass);
     let middle =
         passes.iter().position(|p| shown.as_ref() == Some(&p.cost.pass)).map(|node| layout.nodes[node].center());
