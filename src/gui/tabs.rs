@@ -61,9 +61,10 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
 fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
     let id = Id::unique("current tab");
-    // Another project may have a tab of this name elsewhere.
-    let now = (current.title(), rect.width().to_bits(), tabs.iter().position(|tab| tab == current), tabs.len());
-    if ui.data_mut(|d| d.get_temp_mut_or_default::<(String, u32, Option<usize>, usize)>(id).clone()) != now {
+    // Another project may have a tab of this name elsewhere, and another layout another width of the row.
+    let widths = [rect.width(), ui.clip_rect().width()].map(f32::to_bits);
+    let now = (current.title(), widths, tabs.iter().position(|tab| tab == current), tabs.len());
+    if ui.data_mut(|d| d.get_temp::<(String, [u32; 2], Option<usize>, usize)>(id)).as_ref() != Some(&now) {
         ui.data_mut(|d| d.insert_temp(id, now));
         ui.scroll_to_rect_animation(*rect, None, ScrollAnimation::none());
     }

@@ -3,6 +3,7 @@
 //! Owns what is searched for and which category is shown.
 
 mod card;
+mod grid;
 mod start;
 
 use super::{
@@ -14,9 +15,9 @@ use super::{
 use crate::{project::presets, session::Session};
 use card::Card;
 use egui::{Frame, Margin, RichText, ScrollArea, TextEdit, Ui, pos2, vec2};
+use grid::{GAP, columns};
 use std::time::Instant;
 
-const GAP: f32 = 16.0;
 /// A picture comes alive when the pointer has rested on its card for so long.
 const RESTS: f32 = 0.15;
 
@@ -133,18 +134,6 @@ impl Gallery {
         }
         hovered
     }
-}
-
-/// Returns how many cards fit beside each other, and how wide each is.
-fn columns(room: f32) -> (f32, f32) {
-    let columns = ((room + GAP) / (230.0 + GAP)).floor().clamp(1.0, 6.0);
-    (columns, ((room - GAP * (columns - 1.0)) / columns).min(360.0).floor())
-}
-
-/// Returns the width of a whole row of cards, which everything in the gallery keeps to.
-fn grid_width(room: f32) -> f32 {
-    let (columns, width) = columns(room);
-    columns * width + (columns - 1.0) * GAP
 }
 
 /// Shows cards in rows, each as high as its longest text asks.

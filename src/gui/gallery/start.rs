@@ -1,5 +1,6 @@
 //! The first row: a new shader, what is on the clipboard, a file or a folder, and what was open before.
 
+use super::grid::{self, GAP};
 use crate::{
     gui::{
         accessible,
@@ -12,7 +13,6 @@ use crate::{
 use egui::{FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
 
 const HEIGHT: f32 = 54.0;
-const GAP: f32 = super::GAP;
 /// As many as fill two rows of a usual window.
 const RECENT: usize = 8;
 
@@ -67,7 +67,7 @@ fn recent_row(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
 /// Shows tiles of one size, as many beside each other as there is room for.
 fn rows<T>(ui: &mut Ui, tiles: &[T], mut show: impl FnMut(&mut Ui, Rect, &T)) {
     // As wide together as the cards below, whose edge they share.
-    let room = super::grid_width(ui.available_width());
+    let room = grid::width(ui.available_width());
     let columns = ((room + GAP) / (190.0 + GAP)).floor().clamp(1.0, 4.0);
     let width = (room - GAP * (columns - 1.0)) / columns;
     for row in tiles.chunks(columns as usize) {

@@ -23,7 +23,7 @@ pub struct Palette {
     pub weak: Color32,
     pub strong: Color32,
     pub accent: Color32,
-    /// Of what is wanted first, of a part that is filled, and of what is pressed.
+    /// Fills what is wanted first, parts of rails, and what is pressed.
     pub accent_fill: Color32,
     /// Behind text of what is chosen: no blue, which means what is wanted first.
     pub chosen: Color32,
@@ -88,7 +88,7 @@ pub const DARK: Palette = Palette {
     line: rgb(53, 58, 68),
     surround: rgb(15, 16, 19),
     text: rgb(214, 219, 228),
-    weak: rgb(146, 154, 169),
+    weak: rgb(166, 174, 188),
     strong: rgb(244, 246, 250),
     accent: rgb(92, 168, 255),
     accent_fill: rgb(36, 82, 138),
@@ -104,7 +104,7 @@ pub const DARK: Palette = Palette {
         uses: rgb(52, 60, 74),
         found: rgb(94, 80, 36),
         bracket: Color32::from_rgba_premultiplied(14, 14, 14, 14),
-        numbers: rgb(98, 106, 121),
+        numbers: rgb(134, 142, 157),
         row: Color32::TRANSPARENT,
     },
 };
@@ -146,7 +146,7 @@ pub const LIGHT: Palette = Palette {
     line: rgb(211, 215, 222),
     surround: rgb(221, 224, 229),
     text: rgb(40, 45, 56),
-    weak: rgb(92, 100, 115),
+    weak: rgb(82, 90, 105),
     strong: rgb(14, 17, 23),
     accent: rgb(20, 98, 204),
     accent_fill: rgb(190, 216, 250),
@@ -162,7 +162,7 @@ pub const LIGHT: Palette = Palette {
         uses: rgb(225, 231, 240),
         found: rgb(255, 228, 150),
         bracket: Color32::from_rgba_premultiplied(0, 0, 0, 16),
-        numbers: rgb(140, 148, 161),
+        numbers: rgb(100, 108, 122),
         row: Color32::TRANSPARENT,
     },
 };

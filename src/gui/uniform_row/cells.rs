@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         fill(ui, place, custom_uniform, all[i], i);
         let name = format!("{}.{component}", custom_uniform.name);
         let number = number(ui, place, custom_uniform, all, i, &name);
-        let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).weak);
+        let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).text);
         // In a narrow panel the number alone has room.
         let at = place.left_center() + vec2(PADDING, -label.size().y / 2.0);
         if at.x + label.size().x <= number.left() + PADDING {

@@ -32,7 +32,7 @@ impl Layout {
     pub fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
         let layers = Layers::new(nodes, forth);
         let middles = middles(&layers, nodes);
-        let rows = Rows::new(&layers, &middles, nodes, area);
+        let rows = Rows::new(&layers, &middles, (nodes, forth, back), area);
         let at = |node: usize| rows.place(layers.layer_of[node], middles[node]);
         let row_of = |node: usize| rows.row(layers.layer_of[node]);
         // Ways between rows, and ways back, have lanes of their own below the row that they come from.
@@ -83,44 +83,54 @@ impl Layout {
 
 /// Below this scale a node's words cannot be read.
 pub const LEGIBLE: f32 = 0.6;
-/// Between two rows: room for the lanes of usual graphs.
-const BETWEEN_ROWS: f32 = 62.0;
+/// Below a row, beside its lanes.
+const BELOW: f32 = 28.0;
+
+/// Nodes, and edges forth and back.
+type Graph<'a> = (usize, &'a [Edge], &'a [Edge]);
 
 /// The rows that layers are broken into: each has as many, and lies below the one before.
 struct Rows {
     /// Layers of a row.
     length: usize,
-    /// Where each begins on the sheet.
+    /// The upper edge of each on the sheet.
     tops: Vec<f32>,
-    /// Where each would begin and end if all were one row.
+    /// The upper and lower edge of each, if all were one row.
     spans: Vec<(f32, f32)>,
+    /// The lower edge of all, with the lanes.
+    end: f32,
 }
 
 impl Rows {
-    fn new(layers: &Layers, middles: &[f32], nodes: usize, area: Vec2) -> Rows {
+    fn new(layers: &Layers, middles: &[f32], graph: Graph<'_>, area: Vec2) -> Rows {
         let count = layers.layers.len().max(1);
-        let one = Rows::of_length(layers, middles, nodes, count);
+        let one = Rows::of_length(layers, middles, graph, count);
         if one.scale(area) >= LEGIBLE {
             return one;
         }
-        let broken = (2..=count).map(|rows| Rows::of_length(layers, middles, nodes, count.div_ceil(rows)));
+        let broken = (2..=count).map(|rows| Rows::of_length(layers, middles, graph, count.div_ceil(rows)));
         // The fewest rows of equals.
         broken.fold(one, |best, rows| if rows.scale(area) > best.scale(area) * 1.001 { rows } else { best })
     }
 
-    fn of_length(layers: &Layers, middles: &[f32], nodes: usize, length: usize) -> Rows {
+    fn of_length(layers: &Layers, middles: &[f32], (nodes, forth, back): Graph<'_>, length: usize) -> Rows {
         let length = length.max(1);
+        let row_of = |node: usize| layers.layer_of[node] / length;
+        let lanes = |row: usize| {
+            let forth = forth.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
+            forth.count() + back.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
+        };
         let (mut tops, mut spans, mut top) = (Vec::new(), Vec::new(), MARGIN);
-        for row in layers.layers.chunks(length) {
+        for (n, row) in layers.layers.chunks(length).enumerate() {
             let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
             let all = || row.iter().flatten().map(|&node| (middles[node], height(node) / 2.0));
             let first = all().map(|(middle, half)| middle - half).fold(f32::INFINITY, f32::min).min(f32::MAX);
             let last = all().map(|(middle, half)| middle + half).fold(first, f32::max);
             tops.push(top);
             spans.push((first, last));
-            top += last - first + BETWEEN_ROWS;
+            top += last - first + BELOW + LANE * lanes(n) as f32;
         }
-        Rows { length, tops, spans }
+        Rows { length, tops, spans, end: top }
     }
 
     fn row(&self, layer: usize) -> usize {
@@ -136,10 +146,9 @@ impl Rows {
         self.spans.get(row).map_or(MARGIN, |(first, last)| last - first + self.tops[row])
     }
 
-    /// How large the whole is where it fits into an area.
+    /// Returns how large the whole is where it fits into an area.
     fn scale(&self, area: Vec2) -> f32 {
-        let (width, height) = (left_of(self.length), self.bottom(self.tops.len().saturating_sub(1)) + BETWEEN_ROWS);
-        (area.x / width).min(area.y / height)
+        (area.x / left_of(self.length)).min(area.y / self.end)
     }
 }
 
