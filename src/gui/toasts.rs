@@ -9,7 +9,7 @@ use super::{
 use crate::session::{Command, Level, Notice, Session};
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Margin, Order, Panel, Rect, RichText, ScrollArea,
-    Sense, Stroke, Ui, UiBuilder, pos2, vec2,
+    Sense, Stroke, Ui, pos2, vec2,
 };
 use std::time::{Duration, Instant};
 
@@ -77,11 +77,16 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
     let most = (ui.available_height() * 0.4).max(40.0);
     let frame = Frame::NONE.fill(theme::of(ui).raised);
-    let shown = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false).show(ui, |ui| {
+    // As high as what is in it was in the last frame: what scrolls does not say by itself how high it would be.
+    let id = Id::unique("height of notices");
+    let height = ui.data(|d| d.get_temp(id)).unwrap_or(ROW * told.len().min(SHOWN) as f32);
+    let panel = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false);
+    let shown = panel.exact_size(height.min(most)).show(ui, |ui| {
         out.stop(PLACE, ui);
         ui.painter().hline(ui.max_rect().x_range(), ui.max_rect().top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical().id_salt(PLACE).max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+        let area = ScrollArea::vertical().id_salt(PLACE).min_scrolled_height(0.0).auto_shrink([false, true]);
+        let shown = area.show(ui, |ui| {
             told.iter().take(SHOWN).for_each(|told| row(ui, session, told, out));
             let older = told.get(SHOWN..).unwrap_or_default();
             if !older.is_empty() {
@@ -94,6 +99,10 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
                 });
             }
         });
+        if (shown.content_size.y - height).abs() > 0.5 {
+            ui.data_mut(|d| d.insert_temp(id, shown.content_size.y));
+            ui.ctx().request_repaint();
+        }
     });
     out.place(PLACE, shown.response.rect);
 }
@@ -133,8 +142,9 @@ fn color(ui: &Ui, level: Level) -> Color32 {
 /// Around the text of a row: the mark at the left, and above and below.
 const MARK: f32 = 25.0;
 const PADDING: f32 = 4.0;
-/// Height of a row's buttons.
+/// Height of a row's buttons, and of a row with one line.
 const BUTTON: f32 = 20.0;
+const ROW: f32 = BUTTON + 2.0 * PADDING;
 
 /// Shows one, as high as its text and its buttons need.
 fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut Outbox) {
@@ -147,39 +157,29 @@ fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut Outbox) {
         let spacing = ui.spacing_mut();
         (spacing.item_spacing, spacing.interact_size.y) = (vec2(6.0, 0.0), BUTTON);
         spacing.button_padding.y = 1.0;
-        // The buttons first, at the right of the first line: the text then has what is left, and says how high it is.
-        let place = ui.available_rect_before_wrap();
-        let line = Rect::from_min_size(place.min, vec2(place.width(), BUTTON));
-        let mut buttons = ui.new_child(UiBuilder::new().max_rect(line).layout(Layout::right_to_left(Align::Center)));
-        let close = icons::flat(&mut buttons, Icon::Close, "Close this notice");
-        if out.clicked(&format!("toast:{}:close", notice.id), &close.on_hover_text("Close")) {
-            told.dismiss(out);
-        }
-        if undoes {
-            let undo = buttons.button("Undo");
-            if out.clicked(&format!("toast:{}:undo", notice.id), &undo) {
-                out.ask(Command::UndoPassEdit);
+        ui.with_layout(Layout::right_to_left(Align::TOP), |ui| {
+            let close = icons::flat(ui, Icon::Close, "Close this notice");
+            if out.clicked(&format!("toast:{}:close", notice.id), &close.on_hover_text("Close")) {
                 told.dismiss(out);
             }
-        }
-        if let Some(path) = &notice.path {
-            let copy = buttons.button("Copy path").on_hover_text(path.display().to_string());
-            if out.clicked(&format!("toast:{}:copy", notice.id), &copy) {
-                ui.ctx().copy_text(path.display().to_string());
+            if undoes {
+                let undo = ui.button("Undo");
+                if out.clicked(&format!("toast:{}:undo", notice.id), &undo) {
+                    out.ask(Command::UndoPassEdit);
+                    told.dismiss(out);
+                }
             }
-        }
-        let width = (place.width() - buttons.min_rect().width() - 8.0).max(80.0);
-        let text = RichText::new(told.text()).size(12.5);
-        let size = ui
-            .scope(|ui| {
-                ui.set_max_width(width);
+            if let Some(path) = &notice.path {
+                let copy = ui.button("Copy path").on_hover_text(path.display().to_string());
+                if out.clicked(&format!("toast:{}:copy", notice.id), &copy) {
+                    ui.ctx().copy_text(path.display().to_string());
+                }
+            }
+            ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
                 ui.add_space(2.0);
-                ui.add(Label::new(text).wrap().selectable(true));
-            })
-            .response
-            .rect;
-        ui.set_min_height(size.height().max(BUTTON));
-        ui.expand_to_include_rect(line);
+                ui.add(Label::new(RichText::new(told.text()).size(12.5)).wrap().selectable(true));
+            });
+        });
     });
     let rect: Rect = shown.response.rect;
     let mark = pos2(rect.left() + 13.0, rect.top() + PADDING + BUTTON / 2.0);

@@ -82,3 +82,21 @@ impl Entry {
             || again.contains(&self.action)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::gui::actions::ACTIONS;
+
+    /// People look for what they want to do, so that comes first: "Open settings file", not "The file of settings".
+    #[test]
+    fn titles_begin_with_what_is_done() {
+        let never = ["a", "all", "an", "back", "every", "in", "on", "one", "the", "this", "to", "what"];
+        for entry in ACTIONS {
+            let first = entry.title.split([' ', ':']).next().unwrap_or_default();
+            assert!(first.starts_with(char::is_uppercase), "{}", entry.title);
+            assert!(!never.contains(&first.to_lowercase().as_str()), "{}", entry.title);
+            assert!(!entry.title.ends_with('.') && !entry.title.contains(", or "), "{}", entry.title);
+            assert!(entry.synonyms.chars().all(|c| c.is_lowercase() || !c.is_alphabetic()), "{}", entry.synonyms);
+        }
+    }
+}
