@@ -39,7 +39,5 @@ fn open(window: Window) -> anyhow::Result<()> {
 
 #[cfg(not(feature = "gui"))]
 fn open(_: Window) -> anyhow::Result<()> {
-    anyhow::bail!(
-        "this Eddy was built without the feature `gui`, so it has no window; `eddy --help` says what it can do"
-    )
+    anyhow::bail!("this build of Eddy has no window (feature `gui` is off); `eddy --help` lists the commands")
 }

@@ -145,7 +145,7 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
     stage.until("the halt of the newest edit", |s| !s.compile_state().compiling && halted(s));
     stage.session.apply(Command::DrawLastGood);
     let frame = stage.session.transport().frame;
-    stage.until("the last good picture", |s| is_last_good(s) && s.transport().frame > frame + 1);
+    stage.until("the last working version", |s| is_last_good(s) && s.transport().frame > frame + 1);
     assert_eq!(stage.red(), 51);
     assert!(stage.session.transport().playing, "it ran before");
     assert_eq!(stage.session.text(&IMAGE), text, "the text is untouched");
@@ -222,7 +222,7 @@ fn gives_a_device_up(gpu: Gpu) {
     assert!(matches!(stage.session.halt(), Some(Halt::Drawing { .. })), "{:?}", stage.session.halt());
     stage.until("the fresh device", |s| !halted(s) && s.notices().iter().any(|n| n.level == Level::Error));
     assert_eq!(stage.session.text(&buffer), endless());
-    stage.until("the last good picture", is_last_good);
+    stage.until("the last working version", is_last_good);
     assert_eq!((stage.red(), stage.session.transport().playing), (51, true));
 
     // Mended at once, before anything is given up: the newest code does not wait for what hangs.

@@ -1,14 +1,14 @@
 // What can be turned, and the spoons. The fluid's method is in solver.glsl, one sub-step of it in step.glsl.
 
 // Image hatches the foot of the picture where these ask for more than the method can do.
-#iUniform float viscosity = 0.35 in { 0.0, 1.25 }
-#iUniform float stiffness = 2.2 in { 0.0, 10.0 }
-#iUniform float dt = 0.2 in { 0.02, 2.0 }
+#iUniform float viscosity = 0.35 in { 0.0, 1.25 } // thickness of the fluid. Red hatching: more than the method can do, which then uses less
+#iUniform float stiffness = 2.2 in { 0.0, 10.0 } // resistance to compression. Red hatching: more than the method can do, which then uses less
+#iUniform float dt = 0.2 in { 0.02, 2.0 } // time step. Red hatching: more than the method can do, which then uses less
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward
 // (solver.glsl).
-#iUniform int form = 1 in { 0, 1 }
+#iUniform int form = 1 in { 0, 1 } // method: 0 as published (stiffness 0.4, viscosity 0.5), 1 forward-backward
 // 0: the picture, 1: Mach's number, 2: the density.
-#iUniform int view = 0 in { 0, 2 }
+#iUniform int view = 0 in { 0, 2 } // shows: 0 picture, 1 Mach number, 2 density
 #iUniform float confinement = 0.05 in { 0.0, 2.0 }
 #iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }

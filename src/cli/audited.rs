@@ -232,15 +232,15 @@ pub fn words(audited: &Audited) -> String {
     if let Some(Walked { same, median_ulps, largest_ulps, visible, furthest }) = walker {
         let _ = writeln!(
             out,
-            "  against the walker's single precision: {same} of {pixels} pixels have the same bits; numbers of single \
-             precision between them: median {median_ulps}, most {largest_ulps}; {visible} differ by more than 1/255"
+            "  against single precision on the CPU: {same} of {pixels} pixels are identical; difference in ULPs: \
+             median {median_ulps}, largest {largest_ulps}; {visible} differ by more than 1/255"
         );
         if let Some(Furthest { pixel: [x, y], device, walker }) = furthest {
-            let _ = writeln!(out, "  {x},{y}: ({}) is ({}) by the walker", list(device), list(walker));
+            let _ = writeln!(out, "  {x},{y}: ({}) is ({}) on the CPU", list(device), list(walker));
         }
     }
     if findings.is_empty() {
-        out.push_str("  nothing undefined, no NaN, and no operation that stands out\n");
+        out.push_str("  no undefined behaviour, no NaN, and no operation with large errors\n");
     }
     for found in findings {
         let at = found.written.place().unwrap_or_else(|| "in Eddy's own code".into());
@@ -251,10 +251,10 @@ pub fn words(audited: &Audited) -> String {
             let _ = write!(line, "    {}", found.numbers);
         }
         if !found.constant {
-            let _ = write!(line, "    in {} of {pixels} pixels, as {x},{y}", found.pixels);
+            let _ = write!(line, "    in {} of {pixels} pixels, for example {x},{y}", found.pixels);
         }
         if let (Some(error), Some(left)) = (&found.error, &found.error_left) {
-            let _ = write!(line, "; its error of {:.1e} would be {:.1e} were this exact", error.0, left.0);
+            let _ = write!(line, "; the error of {:.1e} would be {:.1e} if this were exact", error.0, left.0);
         }
         let _ = writeln!(out, "{line}");
     }

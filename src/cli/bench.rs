@@ -191,7 +191,7 @@ fn words(report: &Report, costs: &Costs) -> String {
     let mib = |bytes: f64| bytes / f64::from(1 << 20);
     let _ = writeln!(
         out,
-        "{}: {:.3} ms a frame (slowest {:.3}), {} frames of {}x{} on {}",
+        "{}: {:.3} ms per frame (slowest {:.3}), {} frames of {}x{} on {}",
         report.title(),
         report.frame_ms.unwrap_or_default(),
         costs.worst_ms,
@@ -207,7 +207,7 @@ fn words(report: &Report, costs: &Costs) -> String {
         let steps = if pass.steps > 1 { format!(", {} steps", pass.steps) } else { String::new() };
         let _ = writeln!(
             out,
-            "  {:name$} {time:>14}  {size:>9} {:8} {:>8.2} MiB held {:>8.2} MiB moved{steps}",
+            "  {:name$} {time:>14}  {size:>9} {:8} {:>8.2} MiB memory {:>8.2} MiB traffic{steps}",
             pass.title,
             pass.formats.join(" "),
             mib(pass.held_bytes as f64),
@@ -218,22 +218,22 @@ fn words(report: &Report, costs: &Costs) -> String {
     let held: u64 = costs.passes.iter().map(|p| p.held_bytes).sum();
     let _ = writeln!(
         out,
-        "  {:name$} {sum:>11.3} ms  {:18} {:>8.2} MiB held {:>8.2} MiB moved",
+        "  {:name$} {sum:>11.3} ms  {:18} {:>8.2} MiB memory {:>8.2} MiB traffic",
         "all passes",
         "",
         mib(held as f64),
         mib(costs.moved_bytes as f64)
     );
     if costs.clock == "waited" {
-        out.push_str("  (no timestamps here: each pass was handed in and waited for by itself, by the wall's clock)\n");
+        out.push_str("  (this GPU has no timestamps: each pass was submitted and timed separately by wall clock)\n");
     }
-    let _ = writeln!(out, "  {:12} {:>11.1} µs a pass a frame", "engine", costs.cpu_us_per_pass);
+    let _ = writeln!(out, "  {:12} {:>11.1} µs per pass and frame", "engine", costs.cpu_us_per_pass);
     let _ = writeln!(out, "  {:12} {:>10.1} MiB", "targets", mib(costs.target_bytes as f64));
     if costs.target_bytes_saved > 0 || !costs.passes_skipped.is_empty() {
         let _ = writeln!(
             out,
             "  {:12} {} of {} passes, {:.1} MiB",
-            "left out",
+            "skipped",
             costs.passes_skipped.len(),
             costs.passes_skipped.len() + costs.passes.len(),
             mib(costs.target_bytes_saved as f64)
@@ -242,8 +242,8 @@ fn words(report: &Report, costs: &Costs) -> String {
     if costs.passes_rested > 0.0 {
         let _ = writeln!(
             out,
-            "  {:12} {:.1} passes a frame, nothing they read having changed: {:.1} MiB not written",
-            "at rest",
+            "  {:12} {:.1} passes per frame, as their inputs had not changed: {:.1} MiB not written",
+            "unchanged",
             costs.passes_rested,
             mib(costs.bytes_rested)
         );

@@ -119,7 +119,7 @@ fn compare(
     let (a, b) = (ours.read(&pass.pass, pass.target)?, theirs.read(&pass.pass, pass.target)?);
     let Some(apart) = Apart::new(&a, &b) else {
         let size = |p: &Pixels| format!("{} x {}", p.width, p.height);
-        return Err(anyhow!("pictures of two sizes cannot be compared: {} and {}", size(&a), size(&b)).into());
+        return Err(anyhow!("cannot compare pictures of different sizes: {} and {}", size(&a), size(&b)).into());
     };
     let mut compared = Compared::new(args, &a, &apart);
     if let Some(path) = &args.out {
@@ -195,7 +195,7 @@ fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time,
         let reference = turn(theirs)?;
         turns.push((first.map_or_else(|| turn(ours), Ok)?, reference));
     }
-    let times = Times::new(&turns).ok_or_else(|| anyhow!("no turns were taken"))?;
+    let times = Times::new(&turns).ok_or_else(|| anyhow!("no runs were timed"))?;
     Ok(Time {
         project_ms: times.ours,
         reference_ms: times.theirs,
@@ -215,7 +215,7 @@ fn words(project: &str, reference: &str, compared: &Compared) -> String {
     };
     let mut out = format!("{project} against {reference}: {pass} in frame {frame}, {width}x{height}\n");
     if *texels_apart == 0 {
-        out.push_str("  the same in every bit\n");
+        out.push_str("  identical in every bit\n");
     } else {
         let ssim = ssim.map_or("none, as the picture is too small".into(), |ssim| format!("{ssim:.5}"));
         let _ = writeln!(out, "  {texels_apart} of {} texels differ, by at most {}", width * height, short(largest, 6));
@@ -225,7 +225,7 @@ fn words(project: &str, reference: &str, compared: &Compared) -> String {
     if let Some(time) = time {
         let _ = writeln!(
             out,
-            "  {:.3} ms a frame against {:.3}: {:.3} times (quartiles {:.3} to {:.3}, {} turns)",
+            "  {:.3} ms per frame against {:.3}: ratio {:.3} (quartiles {:.3} to {:.3}, {} runs)",
             time.project_ms, time.reference_ms, time.ratio, time.ratio_low, time.ratio_high, time.repeats
         );
     }

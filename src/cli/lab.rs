@@ -22,7 +22,7 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
     match &args.command {
         Some(LabCommand::Merge { from, out }) => return finish(merge(from, out)),
         Some(LabCommand::Precision(args)) if args.project.is_empty() && args.out.is_none() => {
-            return Ok(trouble("name a PROJECT, or --out DIR for the study of all presets"));
+            return Ok(trouble("give a PROJECT, or --out DIR to run the study of all presets"));
         }
         Some(LabCommand::Precision(args)) if args.project.is_empty() => {
             let (study, out) = (vec!["precision".to_owned()], args.out.clone());
@@ -135,7 +135,7 @@ impl Progress {
                         point.grid
                     )
                 }
-                Step::Cost { study, points } => format!("[{}] {study}: costs of {points} points", "#".repeat(WIDTH)),
+                Step::Cost { study, points } => format!("[{}] {study}: timing {points} points", "#".repeat(WIDTH)),
                 Step::Known(_) | Step::Measured(_) | Step::Estimate { .. } | Step::Turn { .. } | Step::Costed(_) => {
                     return;
                 }

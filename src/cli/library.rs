@@ -30,7 +30,7 @@ pub fn import(args: &ImportArgs) -> io::Result<u8> {
     let to = args.out.display();
     one(&file, |report| {
         if !args.out.is_dir() && is_file_name(&args.out) {
-            return Err(anyhow::anyhow!("--out {to}: a project is imported into a folder").into());
+            return Err(anyhow::anyhow!("--out {to}: give a folder to import into").into());
         }
         let project = read(report, &file)?;
         if !matches!(project.origin, Origin::Json(_)) {
@@ -45,7 +45,7 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
     let to = args.out.display();
     one(&args.project, |report| {
         if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("json")) || args.out.is_dir() {
-            return Err(anyhow::anyhow!("--out {to}: a project is exported as a file that ends in .json").into());
+            return Err(anyhow::anyhow!("--out {to}: give a file name that ends in .json").into());
         }
         let project = read(report, &args.project)?;
         check_directives(&project)?;
@@ -57,14 +57,14 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
         let custom_uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|k| k.name).collect();
         let note = match custom_uniforms.len() {
             0 => String::new(),
-            1 => format!("; {} is a constant there", custom_uniforms[0]),
-            _ => format!("; {} are constants there", project::listed(&custom_uniforms)),
+            1 => format!("; {} becomes a constant", custom_uniforms[0]),
+            _ => format!("; {} become constants", project::listed(&custom_uniforms)),
         };
         let has_settings =
             !project.groups.is_empty() || project.passes.iter().any(|p| p.settings != Default::default());
         let lost = if has_settings {
-            "; the sizes, formats, regions, initial states, boundaries and groups of passes are left out: the site \
-            has none"
+            "; Shadertoy has no sizes, formats, regions, initial states, boundaries or groups of passes, so they \
+             are left out"
         } else {
             ""
         };

@@ -135,7 +135,7 @@ impl Machine {
         }
         // What the device said too late belongs to this project and not to the next.
         if let Some(gpu) = &self.gpu
-            && let Err(GpuError::Lost(_)) = gpu.take_trouble("a project that failed")
+            && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
         {
             self.gpu = None;
         }

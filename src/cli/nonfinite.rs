@@ -114,7 +114,7 @@ fn born(
 
 pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
     let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
-        return format!("{spec}: every texel of every pass is a finite number in {frames} frames");
+        return format!("{spec}: all texels of all passes are finite in {frames} frames");
     };
     let mut out = format!("{spec}: the first is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n");
     let place = born.as_ref().and_then(|born| Some((born, born.written.place()?)));
@@ -123,7 +123,10 @@ pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
             writeln!(out, "  {place}: {message}\n      {}    of {numbers}", written.text)
         }
         None => {
-            writeln!(out, "  no operation makes it: it is too large for the pass's format, or was read from a texture")
+            writeln!(
+                out,
+                "  no operation produces it: it is too large for the pass's format, or was read from a texture"
+            )
         }
     };
     out

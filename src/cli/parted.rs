@@ -86,9 +86,9 @@ pub fn find(
 
 pub fn words(parted: &Parted) -> String {
     let Parted { compared, assignments, first } = parted;
-    let of = format!("of {assignments} assignments, {compared} were compared");
+    let of = format!("{compared} of {assignments} assignments compared");
     let Some(First { written, name, visit, walker, device, ulps }) = first else {
-        return format!("  parts   at none: {of}\n");
+        return format!("  differs nowhere: {of}\n");
     };
     let list = |values: &[Number]| match values {
         [one] => one.to_string(),
@@ -96,21 +96,21 @@ pub fn words(parted: &Parted) -> String {
     };
     let mut out = String::new();
     let place = written.place().unwrap_or_default();
-    let _ = writeln!(out, "  parts   first found at {place}: {}    {of}", written.text);
-    let again = if *visit > 0 { format!(", when it was evaluated {visit} times before") } else { String::new() };
+    let _ = writeln!(out, "  differs first at {place}: {}    {of}", written.text);
+    let again = if *visit > 0 { format!(", at evaluation {visit} (counted from 0)") } else { String::new() };
     let _ = match device {
         Some(device) => {
             let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
             let ulps = ulps.join(", ");
             writeln!(
                 out,
-                "          {name} is {} by the walker and {} on the device, {ulps} numbers apart{again}",
+                "          {name} is {} on the CPU and {} on the GPU, {ulps} ULPs apart{again}",
                 list(walker),
                 list(device)
             )
         }
         None => {
-            writeln!(out, "          {name} is {} by the walker; the device does not come there{again}", list(walker))
+            writeln!(out, "          {name} is {} on the CPU; the GPU does not reach this line{again}", list(walker))
         }
     };
     out

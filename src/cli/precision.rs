@@ -108,10 +108,10 @@ fn words(spec: &str, compared: &Compared) -> String {
     let mut out =
         format!("{spec}: 16-bit floats against 32, {width}x{height}, {} frames, {device}\n", comparison.frames);
     out.push_str(if *cuts_off {
-        "This device cuts 16-bit stores off; one that rounds them to the nearest, as GPUs do, errs by half as \
-         much, on both sides.\n"
+        "This device truncates 16-bit stores; one that rounds to nearest, as GPUs do, has half the error, in both \
+         directions.\n"
     } else {
-        "This device rounds 16-bit stores to the nearest.\n"
+        "This device rounds 16-bit stores to nearest.\n"
     });
     let _ = writeln!(
         out,

@@ -74,7 +74,7 @@ pub fn words(all: &[Printed]) -> String {
             let _ = writeln!(out, "    {:>5}  {list}", turn + 1);
         }
         if values.is_empty() {
-            out.push_str("    its turn never came\n");
+            out.push_str("    never reached\n");
         }
         if *cut {
             out.push_str("    … and more\n");

@@ -73,7 +73,7 @@ fn probed(
     // A file that nobody named is written over nothing.
     if let Some(path) = out.as_ref().filter(|path| args.out.is_none() && path.exists()) {
         let path = path.display();
-        return Err(anyhow::anyhow!("{path} is there already: to write over it, name it by --out").into());
+        return Err(anyhow::anyhow!("{path} already exists: to overwrite it, give it with --out").into());
     }
     let probe = |project: &Project| {
         let (source, at) = args.at.find(project).map_err(anyhow::Error::msg)?;
@@ -87,7 +87,7 @@ fn probed(
     let pixels = offline.read(&BuildOptions::probed(), 0)?;
     if let Some((x, y)) = args.pixel.filter(|&(x, y)| x >= pixels.width || y >= pixels.height) {
         let (width, height) = (pixels.width, pixels.height);
-        return Err(anyhow::anyhow!("pixel {x},{y} is outside of the pass, which has {width} x {height} texels").into());
+        return Err(anyhow::anyhow!("pixel {x},{y} is outside the pass, which has {width} x {height} texels").into());
     }
     if let Some(path) = &out {
         targets::write(path, &pixels, args.format())?;
@@ -137,7 +137,7 @@ fn words(project: &str, probed: &Probed) -> String {
         let _ = writeln!(out, "  mean  {}", list(&probed.mean));
     }
     if *nonfinite > 0 {
-        let _ = writeln!(out, "  {nonfinite} components are no finite numbers");
+        let _ = writeln!(out, "  {nonfinite} components are not finite");
     }
     if let Some([x, y]) = probed.pixel {
         let value = probed.value.as_ref().map_or("not evaluated".into(), list);

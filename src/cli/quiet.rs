@@ -22,7 +22,7 @@ pub fn ask_for_no_wayland() {
         command.arg0(name);
     }
     let failed = command.args(arguments).env("WAYLAND_DISPLAY", "/dev/null").exec();
-    log::debug!("not started anew: {failed}");
+    log::debug!("cannot restart: {failed}");
 }
 
 #[cfg(not(target_os = "linux"))]

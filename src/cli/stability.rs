@@ -44,7 +44,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
     }
     let of_these: Vec<_> = results.cases.iter().filter(|c| names.contains(&c.project)).cloned().collect();
     if of_these.is_empty() && options.shard == Shard::WHOLE {
-        return Ok(trouble("there is no such case"));
+        return Ok(trouble("no case has this text in its name or kind"));
     }
     let mut out = io::stdout().lock();
     write!(out, "{}", stability::table(&of_these))?;

@@ -16,7 +16,7 @@ impl Sweep {
     /// Reads `NAME=VALUE;VALUE` or `NAME=LOW..HIGH:COUNT`, with `:log` after that for even ratios.
     pub fn parse(text: &str) -> Result<Sweep, String> {
         let shape =
-            || "a sweep is written NAME=VALUE;VALUE or NAME=LOW..HIGH:COUNT, as in viscosity=0..0.01:5".to_owned();
+            || "write a sweep as NAME=VALUE;VALUE or NAME=LOW..HIGH:COUNT, as in viscosity=0..0.01:5".to_owned();
         let (name, values) = text.split_once('=').ok_or_else(shape)?;
         let (name, values) = (name.trim(), values.trim());
         if name.is_empty() || values.is_empty() {
@@ -32,7 +32,7 @@ impl Sweep {
         // Files are named after them, and not every disk tells a from A.
         let mut seen = BTreeSet::new();
         match values.iter().find(|value| !seen.insert(value.to_lowercase())) {
-            Some(twice) => Err(format!("{twice} stands there twice: its pictures would have one name")),
+            Some(twice) => Err(format!("{twice} is listed twice, which would give two files the same name")),
             None => Ok(Sweep { name: name.to_owned(), values }),
         }
     }
@@ -41,9 +41,9 @@ impl Sweep {
 fn range(low: &str, rest: &str) -> Result<Vec<String>, String> {
     let number = |text: &str| match text.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!("the ends of a range are numbers, not \"{}\"", text.trim())),
+        _ => Err(format!("the ends of a range must be numbers, not \"{}\"", text.trim())),
     };
-    let (high, count) = rest.split_once(':').ok_or("a range says how many values: LOW..HIGH:COUNT")?;
+    let (high, count) = rest.split_once(':').ok_or("a range needs a count: LOW..HIGH:COUNT")?;
     let (count, scale) = match count.split_once(':') {
         None => (count, None),
         Some((count, scale)) => (count, Some(scale.trim())),
@@ -63,8 +63,8 @@ fn range(low: &str, rest: &str) -> Result<Vec<String>, String> {
     match scale {
         None => {}
         Some("log") if low > 0.0 && high > 0.0 => {}
-        Some("log") => return Err("the ends of a range of even ratios lie above 0".into()),
-        Some(other) => return Err(format!("a range is even, or of even ratios with :log, not \"{other}\"")),
+        Some("log") => return Err("the ends of a logarithmic range must be above 0".into()),
+        Some(other) => return Err(format!("after the count only :log is allowed, not \"{other}\"")),
     }
     Ok((0..count).map(|k| short(value(k))).collect())
 }
@@ -79,7 +79,7 @@ fn short(value: f64) -> String {
 pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, String> {
     let mut names = BTreeSet::new();
     if let Some(twice) = sweeps.iter().find(|sweep| !names.insert(&sweep.name)) {
-        return Err(format!("--sweep: {} is swept twice", twice.name));
+        return Err(format!("--sweep: {} is listed twice", twice.name));
     }
     let count = sweeps.iter().map(|s| s.values.len() as u64).try_fold(1u64, u64::checked_mul);
     if count.is_none_or(|count| count > u64::from(MOST)) {
@@ -116,7 +116,7 @@ mod tests {
             ("v", "NAME=LOW..HIGH:COUNT"),
             ("=1;2", "NAME=VALUE;VALUE"),
             ("v=1;;2", "NAME=VALUE;VALUE"),
-            ("v=0..1", "how many"),
+            ("v=0..1", "needs a count"),
             ("v=0..1:1", "2 to"),
             ("v=a..1:3", "not \"a\""),
             ("v=0..inf:3", "not \"inf\""),

@@ -67,7 +67,7 @@ impl Targets {
         }
         let pictures = args.project.len() * sweep.len() * at.len();
         if pictures != 1 {
-            return Err(format!("--out {shown} is one file, and {pictures} pictures are to be written: name a folder"));
+            return Err(format!("--out {shown} is one file, but {pictures} pictures would be written: give a folder"));
         }
         Ok(Targets { format: named, at, frames, sweep, place: Place::File(out.clone()) })
     }
@@ -82,7 +82,7 @@ impl Targets {
                 fs::read_dir(folder).map(drop).with_context(what)
             }
             Place::Folder(folder, _) => {
-                fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))
+                fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))
             }
         }
     }
@@ -230,11 +230,11 @@ mod tests {
             ("a b --out x.png", "2 pictures"),
             ("a --out x.png --at 1,2", "2 pictures"),
             ("a --out x.png --sweep b=1;2", "2 pictures"),
-            ("a --out o --sweep b=1;2 --sweep b=3;4", "swept twice"),
+            ("a --out o --sweep b=1;2 --sweep b=3;4", "listed twice"),
             ("x/a.json y/a.json --out o", "x/a.json and y/a.json"),
             ("fluid fluid --out o", "would both be written"),
             ("a --out x.png --format npy", "do not agree"),
-            ("a --out x.exr", "does not write exr"),
+            ("a --out x.exr", "cannot write exr"),
         ] {
             let message = targets(line).expect_err(line);
             assert!(message.contains(says), "{line}: {message}");

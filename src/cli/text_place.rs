@@ -16,7 +16,7 @@ pub struct TextPlace {
 impl TextPlace {
     /// Reads TAB:LINE:COLUMN.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let wrong = || format!("{text} is no place: write a tab, a line and a column, as in image:12:9");
+        let wrong = || format!("{text} is not a position: write tab, line and column, as in image:12:9");
         let mut parts = text.rsplitn(3, ':');
         let mut number = || parts.next().and_then(|part| part.parse::<usize>().ok()).filter(|&n| n > 0);
         let (column, line) = (number().ok_or_else(wrong)?, number().ok_or_else(wrong)?);

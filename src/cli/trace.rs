@@ -246,7 +246,7 @@ fn words(spec: &str, traced: &Traced) -> String {
         let what = match (step.kind, &step.name, step.turn) {
             ("enter", Some(name), _) => format!("{name}()"),
             ("set", Some(name), _) => format!("{name} = {}", vector(&step.value)),
-            (_, _, Some(turn)) => format!("turn {turn}"),
+            (_, _, Some(turn)) => format!("iteration {turn}"),
             _ => continue,
         };
         let _ = writeln!(out, "{at:<24} {:indent$}{what}", "", indent = 2 * step.depth as usize);
@@ -259,21 +259,19 @@ fn words(spec: &str, traced: &Traced) -> String {
     let _ = writeln!(out, "{spec}: {pass} at {x},{y} in frame {frame}, {statements} statements");
     if let Some(MeshSaid { draw, name, triangle, front }) = &traced.mesh {
         let side = if *front { "front" } else { "back" };
-        let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, seen from its {side}");
+        let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, {side} side");
     }
     if traced.clear {
-        out.push_str(
-            "  no triangle of the meshes is drawn here: the texel holds the zeros that the pass begins with\n",
-        );
+        out.push_str("  no triangle is drawn here: the texel keeps the zeros from the start of the pass\n");
     }
     if let Some([x, y, width, height]) = traced.outside {
         let held = match traced.initial.as_ref().and_then(|initial| Some((initial.place()?, &initial.text))) {
-            Some((place, text)) => format!("what {place} gave it before frame 0, {text}"),
-            None => "the zeros that it held before frame 0".to_owned(),
+            Some((place, text)) => format!("its initial state from {place}, {text}"),
+            None => "its initial zeros".to_owned(),
         };
         let _ = writeln!(
             out,
-            "  outside of the region of the pass, {width} x {height} texels from {x},{y} on: the texel is not drawn and \
+            "  outside the region of the pass, {width} x {height} texels from {x},{y}: the texel is not drawn and \
              keeps {held}"
         );
     }
@@ -284,14 +282,14 @@ fn words(spec: &str, traced: &Traced) -> String {
     let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
     let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
         let is_unwalked = traced.boundary.is_some();
-        let walker = if is_unwalked { "walks no pictures" } else { "draws nothing" };
-        let _ = writeln!(out, "  walker  {walker}\n  device  {device}");
+        let walker = if is_unwalked { "cannot be traced" } else { "draws nothing" };
+        let _ = writeln!(out, "  CPU     {walker}\n  GPU     {device}");
         return out;
     };
-    let _ = writeln!(out, "  walker  {}\n  device  {device}", vector(value));
+    let _ = writeln!(out, "  CPU     {}\n  GPU     {device}", vector(value));
     if let Some(ulps) = &traced.ulps {
         let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
-        let _ = writeln!(out, "  apart   ({}) numbers of single precision", ulps.join(", "));
+        let _ = writeln!(out, "  apart   ({}) ULPs", ulps.join(", "));
     }
     let _ = writeln!(out, "  double  {}", vector(double));
     if let Some(parted) = &traced.parted {

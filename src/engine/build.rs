@@ -210,10 +210,7 @@ impl Builder {
         for (index, pass) in project.passes.iter().enumerate() {
             if !is_drawn(pass) {
                 let what = pass.id.title();
-                diagnostics.push(Diagnostic::warning(
-                    None,
-                    format!("the pass {what} is not drawn; what reads it reads black"),
-                ));
+                diagnostics.push(Diagnostic::warning(None, format!("the pass {what} is not drawn; it reads as black")));
                 continue;
             }
             let options = self.options(project, media, index, build);
@@ -234,7 +231,7 @@ impl Builder {
                 }
             });
             if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && pass.settings.meshes().is_some() {
-                said.push(Diagnostic::error(None, "a pass of meshes cannot be probed: put the probe into another"));
+                said.push(Diagnostic::error(None, "a pass that draws meshes cannot be probed: probe another pass"));
             }
             if let Some((PassId::Image, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {

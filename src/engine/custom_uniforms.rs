@@ -20,7 +20,7 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
             custom_uniforms.diagnostics.push(
                 Diagnostic::error(
                     custom_uniform.span,
-                    format!("no uniform can be called `{}`: {why}", custom_uniform.name),
+                    format!("a uniform cannot be named `{}`: {why}", custom_uniform.name),
                 )
                 .hint("choose another name"),
             );
@@ -30,9 +30,12 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
         custom_uniforms.diagnostics.push(
             Diagnostic::error(
                 custom_uniform.span,
-                format!("a project has at most {MAX_CUSTOM_UNIFORMS} uniforms of its own"),
+                format!("a project can declare at most {MAX_CUSTOM_UNIFORMS} uniforms"),
             )
-            .hint("that is what a uniform buffer holds on every device; put some of them into a picture or a buffer"),
+            .hint(
+                "this is the limit of a uniform buffer on every device; move some values to an image file or a \
+                   buffer",
+            ),
         );
     }
     custom_uniforms

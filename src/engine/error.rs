@@ -11,11 +11,11 @@ use crate::{
 pub enum EngineError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    #[error("the project has no pass {0}, or nothing reached it")]
+    #[error("the project has no pass {0}, or nothing reads it")]
     NoSuchPass(String),
     #[error("{pass} has no target {index}")]
     NoSuchTarget { pass: String, index: usize },
-    #[error("{reader} reads {read}, which has been drawn several times since: what it held then is gone")]
+    #[error("{reader} reads {read}, which has been drawn several times since; its earlier contents are gone")]
     Overwritten { reader: String, read: String },
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -36,7 +36,7 @@ pub struct Engine {
 impl Engine {
     /// An engine with no program: its picture is black. Fails for a size no target can have.
     pub fn new(gpu: Gpu, width: u32, height: u32) -> Result<Engine, EngineError> {
-        gpu.check_size("the canvas", width, height)?;
+        gpu.check_size("the picture", width, height)?;
         Ok(Engine {
             canvas: (width, height),
             running: None,
@@ -86,7 +86,7 @@ impl Engine {
         if (width, height) == self.canvas {
             return Ok(());
         }
-        self.shared.gpu.check_size("the canvas", width, height)?;
+        self.shared.gpu.check_size("the picture", width, height)?;
         let texture = Presenter::texture(&self.shared.gpu, width, height)?;
         if let Some(running) = &mut self.running {
             running.resize(&mut self.shared, (width, height))?;

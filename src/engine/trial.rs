@@ -64,7 +64,7 @@ impl fmt::Debug for Trial {
 /// A trial that did not come to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TrialError {
-    #[error("it takes more than {} s of processor time", .0.as_secs_f64())]
+    #[error("it takes more than {} s of CPU time", .0.as_secs_f64())]
     Time(Duration),
     #[error("it takes more than {} of memory", limits::in_bytes(limits::DRIVER_BYTES))]
     Memory,
@@ -75,14 +75,14 @@ pub enum TrialError {
 impl TrialError {
     /// Returns what to do about it, for a program of so many statements.
     fn hint(self, size: u64) -> String {
-        let written = format!("with all calls written out the pass has {size} operations, most of them here");
+        let written = format!("with all calls inlined the pass has {size} operations, most of them here");
         match self {
             TrialError::Time(_) => format!(
-                "{written}: call what is called often in a loop, split the pass into buffers, or give the driver more \
-                 time by --compile-timeout"
+                "{written}: call repeated functions in a loop, split the pass into buffers, or give the driver more \
+                 time with --compile-timeout"
             ),
             TrialError::Memory | TrialError::Crash => {
-                format!("{written}: call what is called often in a loop, or split the pass into buffers")
+                format!("{written}: call repeated functions in a loop, or split the pass into buffers")
             }
         }
     }

@@ -40,8 +40,7 @@ fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamb
         all.diagnostics = vec![named];
     }
     if let Some((None, _)) = probed {
-        all.diagnostics
-            .push(Diagnostic::error(None, "there is no value at the probe's place: put it on an expression"));
+        all.diagnostics.push(Diagnostic::error(None, "there is nothing to probe here: put the caret on an expression"));
     }
     let judged = Judged { module: checked.module, diagnostics: all.diagnostics, bulk: checked.bulk };
     (judged, interface, probed.and_then(|(found, visit)| Some((found?.0, visit))))
@@ -153,7 +152,7 @@ impl Compiled {
     pub fn validate(&self) -> Result<(), Diagnostic> {
         on_deep_stack(|| emit::validate(&self.module)).map(drop).map_err(|reason| {
             let bug = format!("this is a bug in Eddy: the generated program is not valid: {reason}");
-            Diagnostic::error(None, bug).hint("the program itself is right; please report it with this text")
+            Diagnostic::error(None, bug).hint("the program itself is correct; please report it with this text")
         })
     }
 }

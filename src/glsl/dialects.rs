@@ -25,12 +25,12 @@ const ENTRY: &str = "write `void mainImage(out vec4 fragColor, in vec2 fragCoord
     fragColor for gl_FragColor and fragCoord for gl_FragCoord.xy";
 const NOT_GLSL: &str = "write the shader in GLSL ES 3.00, with \
     `void mainImage(out vec4 fragColor, in vec2 fragCoord)` as its entry point";
-const SLIDER: &str = "another input is a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`";
+const SLIDER: &str = "for other inputs use a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`";
 
 /// The more certain first. A word with other signs than letters is looked for as it stands.
 const DIALECTS: &[Dialect] = &[
     Dialect {
-        is: "an ISF shader: its inputs are in the JSON at its head, which Eddy does not read",
+        is: "an ISF shader: its inputs are in the JSON header, which Eddy does not read",
         any: &["isf_FragNormCoord", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL", "IMG_THIS_NORM_PIXEL", "IMG_PIXEL", "IMG_SIZE"],
         all: &[],
         mends: ISF,
@@ -98,7 +98,7 @@ const DIALECTS: &[Dialect] = &[
             "push_constant",
         ],
         all: &[],
-        mends: &[ENTRY, "its Source is a picture: `#iChannel0 \"file://pic.png\"`, read by texture(iChannel0, uv)"],
+        mends: &[ENTRY, "its Source is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)"],
     },
     Dialect {
         is: "a shader of mpv",
@@ -172,7 +172,7 @@ const DIALECTS: &[Dialect] = &[
         all: &["main"],
         mends: &[
             ENTRY,
-            "vUv is fragCoord / iResolution.xy, its time iTime; what a mesh hands over needs a pass that draws one",
+            "vUv is fragCoord / iResolution.xy, its time iTime; varyings of a mesh need a pass that draws one",
         ],
     },
     Dialect {
@@ -192,8 +192,8 @@ const DIALECTS: &[Dialect] = &[
         any: &["FC"],
         all: &["r", "t"],
         mends: &[
-            "put it into `void mainImage(out vec4 o, in vec2 fragCoord) { .. }`, with fragCoord for FC, iTime for t and \
-             iResolution.xy for r",
+            "wrap it in `void mainImage(out vec4 o, in vec2 fragCoord) { .. }`, with fragCoord for FC, iTime for t \
+             and iResolution.xy for r",
         ],
     },
 ];
@@ -204,7 +204,7 @@ const ISF: &[&str] = &[
     "an input becomes a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`",
 ];
 const GODOT: &str = "UV is fragCoord / iResolution.xy, TIME is iTime, COLOR is fragColor";
-const PICTURE: &str = "its input is a picture: `#iChannel0 \"file://pic.png\"`, read by texture(iChannel0, uv)";
+const PICTURE: &str = "its input is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)";
 
 /// Uniforms of Ghostty's custom shaders, which are the site's programs but for these.
 const GHOSTTY: [&str; 20] = [
@@ -256,7 +256,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         let place = words.place(name)?;
         let mends = ["give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
              `#iUniform float iTimeCursorChange = 0.0` another"];
-        let is = format!("a custom shader of Ghostty: `{name}` is a uniform that its terminal gives");
+        let is = format!("a custom shader of Ghostty: `{name}` is a uniform set by the terminal");
         return Some(named(&is, span(place, name.len()), &mends));
     }
     if let Some(range) = isf_header(source.code) {

@@ -154,7 +154,7 @@ impl Linker<'_> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
                     let all = Attribute::ALL.map(|a| format!("vec{} {}", a.components(), a.name()));
-                    format!("a vertex has {}", all.join(", "))
+                    format!("the attributes are {}", all.join(", "))
                 }
             };
             let message = format!("a vertex has no attribute `{name}`");
@@ -173,14 +173,14 @@ impl Linker<'_> {
         for &id in all {
             let global = self.module[id];
             let Some(slots) = slots(self.module, global.ty) else {
-                let message = format!("`{}` cannot be handed from stage to stage", self.name(&global));
-                self.error(&global, message, "hand on numbers, vectors, matrices or arrays of them");
+                let message = format!("`{}` cannot be passed between stages", self.name(&global));
+                self.error(&global, message, "pass numbers, vectors, matrices or arrays of them");
                 continue;
             };
             if next + slots.len() as u32 > MAX_SLOTS {
                 let message = format!("there is no room for `{}`", self.name(&global));
                 let hint =
-                    format!("{MAX_SLOTS} slots of up to four components are handed on; a matrix takes one a column");
+                    format!("the limit is {MAX_SLOTS} slots of up to four components; a matrix takes one per column");
                 return self.error(&global, message, hint);
             }
             let name = self.name(&global).to_owned();
@@ -200,7 +200,7 @@ impl Linker<'_> {
                 self.error(
                     &global,
                     format!("`{name}` cannot be handed from stage to stage"),
-                    "hand on numbers, vectors, matrices or arrays of them",
+                    "pass numbers, vectors, matrices or arrays of them",
                 );
                 continue;
             };
@@ -214,11 +214,11 @@ impl Linker<'_> {
             let (message, hint) = match varyings.iter().find(|v| v.name == name) {
                 Some(v) if v.ty != ty => (
                     format!("`{name}` is a `{ty}` here and a `{}` in the vertex stage", v.ty),
-                    "make both the same".to_owned(),
+                    "declare both the same way".to_owned(),
                 ),
                 Some(v) if v.flat != global.flat => {
                     let with = if v.flat { "`flat`" } else { "not `flat`" };
-                    (format!("`{name}` is {with} in the vertex stage"), "make both the same".to_owned())
+                    (format!("`{name}` is {with} in the vertex stage"), "declare both the same way".to_owned())
                 }
                 Some(v) => {
                     self.made.inputs.push((id, v.location));
@@ -255,18 +255,18 @@ impl Linker<'_> {
                 None if all.len() == 1 => 0,
                 None => {
                     let hint = format!("write `layout(location = 0) out vec4 {name};`, with a number for each");
-                    self.error(&global, format!("of several outputs, `{name}` must say which target it is for"), hint);
+                    self.error(&global, format!("with several outputs, `{name}` needs a target number"), hint);
                     continue;
                 }
             };
             if let Some((_, other)) = taken.iter().find(|(l, _)| *l == location) {
                 let other = self.name(&self.module[*other]).to_owned();
-                let message = format!("`{name}` and `{other}` are both for target {location}");
-                self.error(&global, message, "give each a location of its own");
+                let message = format!("`{name}` and `{other}` both write target {location}");
+                self.error(&global, message, "give each its own location");
                 continue;
             }
             if let Some(targets) = self.link.targets.filter(|t| location as usize >= *t) {
-                let message = format!("`{name}` is for target {location}, and the pass has {targets}");
+                let message = format!("`{name}` writes target {location}, but the pass has {targets}");
                 let hint = "add a format to the pass's `targets` in eddy.toml, or choose another location";
                 self.error(&global, message, hint);
                 continue;

@@ -12,8 +12,8 @@ use super::{
 };
 use std::collections::BTreeSet;
 
-pub const OPERANDS: &str = "one side changes what the other uses, and which comes first is undefined (5.9)";
-pub const ARGUMENTS: &str = "one variable is written back twice, and which comes last is undefined (6.1.1)";
+pub const OPERANDS: &str = "one side changes a variable that the other uses, and their order is undefined (5.9)";
+pub const ARGUMENTS: &str = "one variable is written back twice, and their order is undefined (6.1.1)";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Variable {

@@ -28,22 +28,22 @@ impl Default for GpuOptions {
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     #[error(
-        "no graphics device was found ({0}). On Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that \
-         runs on the processor"
+        "no graphics device found ({0}). On Debian or Ubuntu, `apt-get install mesa-vulkan-drivers` installs one \
+         that runs on the CPU"
     )]
     NoAdapter(String),
-    #[error("{adapter} did not give a device: {reason}")]
+    #[error("cannot open {adapter}: {reason}")]
     NoDevice { adapter: String, reason: String },
     #[error("{what} of {width}x{height} pixels: this device draws at most {limit}x{limit}")]
     TooLarge { what: String, width: u32, height: u32, limit: u32 },
-    #[error("{what} of {width}x{height} pixels: a size of 0 holds no pixel")]
+    #[error("{what} of {width}x{height} pixels: a size must be at least 1")]
     Empty { what: String, width: u32, height: u32 },
     #[error(
-        "the targets of {what} take {bytes} bytes a texel; this device draws into at most {limit} at once: give them \
-         smaller formats"
+        "the targets of {what} take {bytes} bytes per texel, but this device draws into at most {limit} at once: \
+         choose smaller formats"
     )]
     TargetsTooLarge { what: String, bytes: u32, limit: u32 },
-    #[error("{what} has {count} targets; this device draws into at most {limit} at once")]
+    #[error("{what} has {count} targets, but this device draws into at most {limit} at once")]
     TooManyTargets { what: String, count: u32, limit: u32 },
     #[error("the graphics device ran out of memory for {0}")]
     OutOfMemory(String),
@@ -186,7 +186,7 @@ impl Gpu {
         }))
         .map_err(|e| GpuError::NoDevice { adapter: info.name.clone(), reason: e.to_string() })?;
         if !features.contains(wgpu::Features::FLOAT32_FILTERABLE) {
-            log::warn!("{} cannot filter 32-bit float textures: such reads are written as four fetches", info.name);
+            log::warn!("{} cannot filter 32-bit float textures: filtered reads use four fetches", info.name);
         }
         let state = Arc::new(State::default());
         let lost = state.clone();

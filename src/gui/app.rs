@@ -391,7 +391,7 @@ impl Running {
         }
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
         if let Some(file) = self.lose_device.take_if(|file| std::fs::remove_file(file).is_ok()) {
-            log::warn!("{} was there: the device is lost", file.display());
+            log::warn!("{} appeared: the device is lost", file.display());
             self.surface.gpu().lose();
         }
         if let Some(texture) = self.shell.take_new_texels(&self.session) {
@@ -530,7 +530,7 @@ mod tests {
     fn a_missing_display_is_told_in_plain_words() {
         let error = no_display("os error at /somewhere/linux/mod.rs:788: Failed to open connection to X server.");
         let text = error.to_string();
-        assert!(text.starts_with("no display was found: Failed to open connection to X server. "), "{text}");
+        assert!(text.starts_with("no display found: Failed to open connection to X server. "), "{text}");
         assert!(text.contains("eddy render"));
     }
 }

@@ -54,15 +54,19 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
 fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
     let p = theme::of(ui);
     ui.horizontal(|ui| {
-        ui.label(RichText::new(format!("Off double precision, {} pixels", map.pixels)).color(p.strong).size(12.5));
-        let close = icons::flat(ui, Icon::Close, "Hide the map").on_hover_text("Hide the map of errors");
+        ui.label(
+            RichText::new(format!("Error against double precision ({} sampled pixels)", map.pixels))
+                .color(p.strong)
+                .size(12.5),
+        );
+        let close = icons::flat(ui, Icon::Close, "Hide the error map").on_hover_text("Hide the error map");
         if out.clicked("audit:close", &close) {
             out.ask(Command::HideAudit);
         }
     });
     scale(ui, out);
     if map.worst.is_empty() {
-        ui.colored_label(p.good, "Every pixel is that of double precision");
+        ui.colored_label(p.good, "No difference from double precision");
     }
     for (index, worst) in map.worst.iter().enumerate() {
         let WorstPixel { pixel: (x, y), error, device, double } = worst;
@@ -70,7 +74,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
         let color = if *error > VISIBLE { p.warning } else { p.text };
         let list = |values: [f64; 4]| values.map(|x| format!("{x:.6}")).join(", ");
         let tip = format!(
-            "the device ({})\nin double precision ({})\nClick to trace this pixel",
+            "GPU ({})\nDouble precision ({})\nClick to trace this pixel",
             list(device.map(f64::from)),
             list(*double)
         );

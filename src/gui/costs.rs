@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let costs = session.pass_costs();
     ui.spacing_mut().item_spacing.y = 0.0;
     let columns = Columns::of(ui.available_width());
-    line(ui, &columns, ["Pass", "Format", "Size", "Time", "Held", "Moved"], theme::of(ui).weak, theme::of(ui).weak);
+    line(ui, &columns, ["Pass", "Format", "Size", "Time", "Memory", "Traffic"], theme::of(ui).weak, theme::of(ui).weak);
     let list_height = (ui.available_height() - ROW - 6.0).max(ROW);
     let most = costs.passes.iter().filter_map(|p| p.millis).fold(0.0, f64::max);
     ScrollArea::vertical().id_salt("costs").max_height(list_height).auto_shrink([false, true]).show_rows(
@@ -64,24 +64,23 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
-            "device timestamps",
-            "Milliseconds between the device's timestamps before and after each pass: the median of the newest 30 \
-             frames",
+            "GPU timestamps",
+            "Milliseconds between GPU timestamps before and after each pass: median of the last 30 frames",
         ),
         CostClock::Waited => (
-            "passes one by one",
-            "This device has no timestamps. While this table is open each pass is handed in and waited for by itself, \
-             by the wall's clock, less the time of handing in nothing: the median of the newest 30 frames. Frames take \
-             longer so",
+            "passes timed one by one",
+            "This GPU has no timestamps. While this panel is open, each pass is submitted and timed separately by \
+             wall clock, minus the time of an empty submission: median of the last 30 frames. This slows frames \
+             down",
         ),
     };
     let text = RichText::new(short).size(11.5).color(theme::of(ui).weak);
     ui.add(egui::Label::new(text).truncate()).on_hover_text(long);
     if !session.transport().playing {
-        let text = RichText::new("before the pause").size(11.5).color(theme::of(ui).warning);
+        let text = RichText::new("from before the pause").size(11.5).color(theme::of(ui).warning);
         let label = ui.add(egui::Label::new(text).truncate());
         out.place("costs:paused", label.rect);
-        label.on_hover_text("The times are of the newest frames that were drawn: while paused no others come");
+        label.on_hover_text("Times of the last frames drawn; no new ones are measured while paused");
     }
 }
 
@@ -127,7 +126,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     }
     let (why, is_drawn) = match cost.role {
         PassRole::Drawn { is_cached: false } => (None, true),
-        PassRole::Drawn { is_cached: true } => (Some("at rest"), true),
+        PassRole::Drawn { is_cached: true } => (Some("unchanged"), true),
         PassRole::Unread | PassRole::Outside => (Some("not drawn"), false),
         PassRole::Unsupported => (Some("not played"), false),
     };
@@ -159,21 +158,19 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
         match cost.role {
             PassRole::Drawn { is_cached: false } => {}
             PassRole::Drawn { is_cached: true } => {
-                drop(ui.label("At rest: nothing that it reads has changed since it was drawn."));
+                drop(ui.label("Unchanged: none of its inputs has changed since it was drawn."));
             }
-            PassRole::Outside => drop(ui.label("Not drawn: its region lies outside of its texels.")),
-            PassRole::Unread => drop(ui.label("Not drawn: no picture that is shown needs it.")),
-            PassRole::Unsupported => {
-                drop(ui.label("Eddy does not draw passes of this kind; what reads it reads black."))
-            }
+            PassRole::Outside => drop(ui.label("Not drawn: its region is outside its texture.")),
+            PassRole::Unread => drop(ui.label("Not drawn: the shown pass does not need it.")),
+            PassRole::Unsupported => drop(ui.label("Eddy does not draw this kind of pass; it reads as black.")),
         }
-        ui.label(format!("{} × {} texels, {joined}, {} to draw a frame", cost.size.0, cost.size.1, count(cost.texels)));
-        ui.label(format!("{held} held: its textures, mip levels, the second one of a pair, the depth buffer"));
+        ui.label(format!("{} × {} texels, {joined}, {} per frame", cost.size.0, cost.size.1, count(cost.texels)));
+        ui.label(format!("{held} of memory: textures, mip levels, ping-pong copies, the depth buffer"));
         ui.label(format!(
-            "{moved} moved a frame at least: its texels written, and those of each pass it reads read once"
+            "At least {moved} of traffic per frame: its texels written, and those of each input pass read once"
         ));
         if let (Some(ms), true) = (pass.millis, cost.moved_bytes > 0) {
-            ui.label(format!("{:.2} GB/s of these", cost.moved_bytes as f64 / ms / 1e6));
+            ui.label(format!("{:.2} GB/s of traffic", cost.moved_bytes as f64 / ms / 1e6));
         }
     });
 }

@@ -1,26 +1,45 @@
 //! The author's own uniforms: sliders, numbers, colours, switches.
 
-use super::{outbox::Outbox, theme, uniform_row};
-use crate::session::{Command, Session};
-use egui::{Button, RichText, ScrollArea, Ui};
+use super::{dock::COLLAPSED, outbox::Outbox, theme, uniform_row};
+use crate::{
+    project::CustomUniform,
+    session::{Command, Session},
+};
+use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, Vec2};
 
 const ROW: f32 = uniform_row::HEIGHT;
-/// Three lines of text.
-const EMPTY: f32 = 62.0;
+/// Two lines of text.
+const EMPTY: f32 = COLLAPSED;
+/// A group's name.
+const GROUP: f32 = 24.0;
 
 /// Height of all of them.
 pub fn height(session: &Session) -> f32 {
+    let groups = groups(session.custom_uniforms());
+    let names = groups.iter().filter(|(name, _)| !name.is_empty()).count();
     match session.custom_uniforms().len() {
         0 => EMPTY,
-        n => ROW * n as f32 + 8.0,
+        n => ROW * n as f32 + GROUP * names as f32 + 8.0,
     }
+}
+
+/// Returns the uniforms by group, groups and uniforms in the order of the code; those of no group come first.
+fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)> {
+    let mut groups: Vec<(&str, Vec<&CustomUniform>)> = vec![("", Vec::new())];
+    for custom_uniform in custom_uniforms {
+        match groups.iter_mut().find(|(name, _)| *name == custom_uniform.group) {
+            Some((_, members)) => members.push(custom_uniform),
+            None => groups.push((&custom_uniform.group, vec![custom_uniform])),
+        }
+    }
+    groups
 }
 
 /// Shows at the right end of the panel's row what concerns them all.
 pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
-        let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Every uniform to its default");
+        let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
         if out.clicked("uniforms:reset", &reset) {
             out.ask(Command::ResetCustomUniforms);
         }
@@ -33,12 +52,44 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     ui.spacing_mut().item_spacing.y = 3.0;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         if custom_uniforms.is_empty() {
-            ui.colored_label(theme::of(ui).weak, "A line of code like this one has its slider here:");
+            ui.colored_label(theme::of(ui).weak, "Add a line like this to get a slider:");
             let line = "#iUniform float speed = 1.0 in { 0.0, 4.0 }";
             ui.add(egui::Label::new(RichText::new(line).monospace()).selectable(true));
         }
-        for custom_uniform in custom_uniforms {
-            ui.push_id(&custom_uniform.name, |ui| uniform_row::show(ui, session, custom_uniform, out));
+        for (name, members) in groups(custom_uniforms) {
+            if !name.is_empty() {
+                let title = RichText::new(name).size(12.5).color(theme::of(ui).strong);
+                let place = Vec2::new(ui.available_width(), GROUP - 3.0);
+                let layout = Layout::left_to_right(Align::Max);
+                let shown = ui.allocate_ui_with_layout(place, layout, |ui| {
+                    ui.set_min_size(place);
+                    ui.add(egui::Label::new(title).truncate());
+                });
+                out.place(format!("uniforms:group:{name}"), shown.response.rect);
+            }
+            for custom_uniform in members {
+                ui.push_id(&custom_uniform.name, |ui| uniform_row::show(ui, session, custom_uniform, out));
+            }
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::{Origin, Pass, PassId, Project, Source};
+
+    #[test]
+    fn groups_keep_the_order_of_the_code_and_what_is_in_none_comes_first() {
+        let text = "//@group Light\n#iUniform float a\n//@group\n#iUniform float b\n//@group Fog\n#iUniform float c\n\
+                    //@group Light\n#iUniform float d\n";
+        let source = Source { name: "image.glsl".into(), path: None, text: text.into() };
+        let project = Project::new("p", vec![Pass::new(PassId::Image, source)], Origin::Unsaved);
+        let list = project.custom_uniforms().list;
+        let shown: Vec<(&str, Vec<&str>)> = groups(&list)
+            .into_iter()
+            .map(|(name, members)| (name, members.iter().map(|one| one.name.as_str()).collect()))
+            .collect();
+        assert_eq!(shown, [("", vec!["b"]), ("Light", vec!["a", "d"]), ("Fog", vec!["c"])]);
+    }
 }

@@ -132,12 +132,12 @@ impl Files {
         let typing = self.typing.as_mut()?;
         let (mut done, mut cancelled) = (false, false);
         let (title, action) = match &typing.pick {
-            Pick::OpenFolder | Pick::OpenFile => ("Open a project", "Open"),
-            Pick::SaveAs(_) => ("Save into a folder", "Save"),
-            Pick::LabFolder => ("Keep the lab's results in a folder", "Keep"),
-            Pick::LabReport => ("Write the lab's report into a folder", "Write"),
-            Pick::Reference => ("Compare with a project", "Compare"),
-            Pick::Picture { .. } => ("A picture for the channel", "Use"),
+            Pick::OpenFolder | Pick::OpenFile => ("Open project", "Open"),
+            Pick::SaveAs(_) => ("Save to folder", "Save"),
+            Pick::LabFolder => ("Keep lab results in folder", "Keep"),
+            Pick::LabReport => ("Write lab report to folder", "Write"),
+            Pick::Reference => ("Compare with project", "Compare"),
+            Pick::Picture { .. } => ("Image file for the channel", "Use"),
         };
         // A modal takes the keyboard from all that lies below it.
         if typing.is_new {
@@ -202,8 +202,8 @@ impl Asked {
         let shown = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -52.0)).show(ui.ctx(), |ui| {
             Frame::popup(ui.style()).fill(theme::of(ui).raised).show(ui, |ui| {
                 ui.horizontal(|ui| {
-                    ui.label("Waiting for the desktop's file dialog");
-                    out.clicked("button:type-path", &ui.button("Type the path instead"))
+                    ui.label("Waiting for the file dialog");
+                    out.clicked("button:type-path", &ui.button("Type a path instead"))
                 })
             })
         });
@@ -216,11 +216,11 @@ fn help(pick: &Pick) -> &'static str {
         Pick::OpenFolder | Pick::OpenFile => {
             "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json"
         }
-        Pick::SaveAs(_) => "A folder for the project; it is made if it is not there",
-        Pick::LabFolder => "A folder for results.jsonl; a run that was stopped there goes on",
+        Pick::SaveAs(_) => "A folder for the project; it is created if missing",
+        Pick::LabFolder => "A folder for results.jsonl; a stopped run resumes there",
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
-        Pick::LabReport => "An empty or a new folder for tables, plots and index.html",
-        Pick::Picture { .. } => "png, jpg, webp, bmp, tga, gif or hdr",
+        Pick::LabReport => "An empty or new folder for tables, plots and index.html",
+        Pick::Picture { .. } => "A png, jpg, webp, bmp, tga, gif or hdr file",
     }
 }
 
@@ -233,13 +233,13 @@ fn expand_home(path: &str) -> PathBuf {
 
 fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
     let (title, kind) = match pick {
-        Pick::OpenFolder => ("Open a project's folder", Kind::OpenFolder),
-        Pick::OpenFile => ("Open a shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml"])),
-        Pick::LabFolder => ("Keep the lab's results in a folder", Kind::OpenFolder),
-        Pick::LabReport => ("Write the lab's report into a folder", Kind::OpenFolder),
-        Pick::Reference => ("Compare with a project's folder", Kind::OpenFolder),
-        Pick::SaveAs(name) => ("Save into a folder", Kind::Save(name.clone())),
-        Pick::Picture { .. } => ("A picture for the channel", Kind::OpenFile("Pictures", &PICTURES)),
+        Pick::OpenFolder => ("Open project folder", Kind::OpenFolder),
+        Pick::OpenFile => ("Open shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml"])),
+        Pick::LabFolder => ("Keep lab results in folder", Kind::OpenFolder),
+        Pick::LabReport => ("Write lab report to folder", Kind::OpenFolder),
+        Pick::Reference => ("Compare with project folder", Kind::OpenFolder),
+        Pick::SaveAs(name) => ("Save to folder", Kind::Save(name.clone())),
+        Pick::Picture { .. } => ("Image file for the channel", Kind::OpenFile("Image files", &PICTURES)),
     };
     Dialog { title, kind, start }
 }

@@ -34,10 +34,10 @@ pub fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
 fn read(path: &str) -> Result<Vec<u8>, String> {
     let data = fs::read(path).map_err(|error| format!("code-font: {path}: {error}"))?;
     let face = ttf_parser::Face::parse(&data, 0)
-        .map_err(|error| format!("code-font: {path} is no font in TrueType or OpenType: {error}"))?;
+        .map_err(|error| format!("code-font: {path} is not a TrueType or OpenType font: {error}"))?;
     match face.glyph_index('m') {
         Some(_) => Ok(data),
-        None => Err(format!("code-font: {path} has no letters for code")),
+        None => Err(format!("code-font: {path} has no glyphs for code")),
     }
 }
 

@@ -40,11 +40,11 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
                             out.ask(command);
                         }
                     };
-                    offer(GO_ON, go_on, "Draw it, however long it takes", true, true, Command::GoOn);
-                    let tip = "As few pixels as bring a frame below the limit";
-                    offer(SMALLER, "Smaller resolution", tip, false, true, Command::DrawSmaller);
+                    offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::GoOn);
+                    let tip = "Lower the resolution until a frame is below the limit";
+                    offer(SMALLER, "Lower resolution", tip, false, true, Command::DrawSmaller);
                     if !matches!(halt, Halt::Opened { .. }) {
-                        let tip = "The picture of the newest code that was fast enough. The text stays as it is";
+                        let tip = "Draw the last code that was fast enough. Your text stays as it is";
                         let is_on = session.has_last_good();
                         offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::DrawLastGood);
                     }
@@ -58,30 +58,28 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
 fn words(halt: &Halt) -> (String, String, &'static str) {
     match halt {
         Halt::Drawing { limit, .. } => (
-            format!("A frame takes longer than {}", time(*limit)),
-            "The device is still drawing it, and the picture waits. Your text is as you left it: change it, or".into(),
-            "Go on",
+            format!("This frame takes longer than {}", time(*limit)),
+            "The GPU is still drawing it and the picture waits. Your text is unchanged: edit it, or".into(),
+            "Continue",
         ),
         Halt::Drawn { limit, took } => (
-            format!("A frame took {}", time(*took)),
-            format!("That is longer than {}, so the picture is paused.", time(*limit)),
-            "Go on",
+            format!("The last frame took {}", time(*took)),
+            format!("That is longer than the limit of {}, so the picture is paused.", time(*limit)),
+            "Continue",
         ),
         Halt::Forecast { limit, would_take } => (
             format!("A frame of this code would take about {}", time(*would_take)),
-            format!("A small part of it was tried. Frames longer than {} are not drawn unasked.", time(*limit)),
-            "Draw it",
+            format!("Estimated from a small part. Eddy asks before drawing frames slower than {}.", time(*limit)),
+            "Draw anyway",
         ),
         Halt::Opened { after_trouble: true } => (
             "Opened paused".into(),
-            "The last time this project was open, its code froze the picture or ended Eddy. Nothing of it has been \
+            "The last time this project was open, its code froze the picture or crashed Eddy. Nothing has been \
              drawn yet."
                 .into(),
             "Play",
         ),
-        Halt::Opened { after_trouble: false } => {
-            ("Opened paused".into(), "Nothing of it has been drawn yet.".into(), "Play")
-        }
+        Halt::Opened { after_trouble: false } => ("Opened paused".into(), "Nothing has been drawn yet.".into(), "Play"),
     }
 }
 

@@ -1,6 +1,39 @@
 //! Menus of widgets: by a right click, and by the keys for it.
 
-use egui::{Event, Id, Key, Popup, PopupAnchor, Response, SetOpenCommand, Ui};
+use super::{accessible, theme};
+use egui::{
+    Atom, Button, Event, Id, IdSalt, Key, Popup, PopupAnchor, PopupCloseBehavior, Response, Role, SetOpenCommand,
+    Shape, Stroke, Ui, containers::menu::menu_style, pos2, vec2,
+};
+
+/// The room of a check mark before a title.
+const MARK: f32 = 16.0;
+
+/// An entry of a menu that is on or off: a check mark where it is on, its title, and its key at the right.
+pub fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Response {
+    let mark = IdSalt::new("mark");
+    let button = Button::new((Atom::custom(mark, vec2(MARK, 14.0)), title.to_owned())).shortcut_text(key);
+    let shown = button.atom_ui(ui);
+    accessible::choice(&shown.response, Role::CheckBox, is_on, title);
+    if let Some(rect) = shown.rect(mark).filter(|_| is_on) {
+        let at = rect.left_center() + vec2(6.0, 0.0);
+        let points = [(-4.0, 0.5), (-1.0, 3.5), (5.0, -4.0)].map(|(x, y)| pos2(at.x + x, at.y + y));
+        ui.painter().add(Shape::line(points.into(), Stroke::new(1.8, theme::of(ui).strong)));
+    }
+    shown.response
+}
+
+/// An entry below others that are on or off, with the same room before its title.
+pub fn entry(ui: &mut Ui, title: &str, key: String) -> Response {
+    let mark = Atom::custom(IdSalt::new("mark"), vec2(MARK, 14.0));
+    ui.add(Button::new((mark, title.to_owned())).shortcut_text(key))
+}
+
+/// A menu below a button that stays while one types in it, in the style of all menus.
+pub fn below(button: &Response, contents: impl FnOnce(&mut Ui)) {
+    let menu = Popup::from_toggle_button_response(button).style(menu_style);
+    menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
+}
 
 /// Shows a widget's menu: a right click opens it at the pointer, Shift+F10 and the menu key below the widget while that
 /// has the keyboard.

@@ -90,7 +90,7 @@ pub struct Options {
 /// The window cannot open, or cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum GuiError {
-    #[error("no display was found: {0}. Pictures can be drawn without one: use `eddy render`")]
+    #[error("no display found: {0}. To draw without a display, use `eddy render`")]
     NoDisplay(String),
     /// The device is gone, and with it every picture; `rescue` says what became of unsaved work.
     #[error("{reason}{rescue}")]
@@ -98,7 +98,7 @@ pub enum GuiError {
     /// The window stumbled over itself; `rescue` as above.
     #[error("this is a bug in Eddy: {reason}{rescue}")]
     Panicked { reason: String, rescue: String },
-    #[error("the window's surface: {0}")]
+    #[error("cannot draw to the window: {0}")]
     Surface(String),
     #[error(transparent)]
     Gpu(#[from] GpuError),

@@ -2,14 +2,14 @@
 //! things are.
 
 use super::{
-    actions::{Action, Keymap},
+    actions::{Action, KeysHere},
     dock::Panel,
     geometry::Area,
     settings::Change,
 };
 use crate::{project::Tab, session::Command};
 use egui::{Id, Rect, Response, Ui};
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, path::PathBuf};
 
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,11 +71,11 @@ pub struct Outbox {
     /// Says where F6 takes the keyboard.
     pub stops: Vec<Stop>,
     /// The keys of actions, for tips and menus.
-    pub keys: Arc<Keymap>,
+    pub keys: KeysHere,
 }
 
 impl Outbox {
-    pub fn new(keys: Arc<Keymap>) -> Self {
+    pub fn new(keys: KeysHere) -> Self {
         Self { keys, ..Self::default() }
     }
 

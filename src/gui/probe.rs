@@ -52,7 +52,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Out
                 visit(ui, view.place, out);
             }
         }
-        let close = icons::flat(ui, Icon::Close, "End the probe").on_hover_text("Show the picture again (Escape)");
+        let close = icons::flat(ui, Icon::Close, "Close probe").on_hover_text("Show the picture (Escape)");
         if out.clicked("probe:close", &close) {
             out.ask(Command::Probe(None));
         }
@@ -76,7 +76,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Out
 fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut Outbox) {
     let mut visit = place.visit;
     let field = DragValue::new(&mut visit).prefix("visit ").range(0..=100_000);
-    let response = ui.add(field).on_hover_text("The value when it is computed for the time after so many");
+    let response = ui.add(field).on_hover_text("Which evaluation to show: 0 is the first");
     out.place("probe:visit", response.rect);
     if visit != place.visit {
         out.ask(Command::Probe(Some(ProbePlace { visit, ..place.clone() })));
@@ -123,7 +123,8 @@ fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut Outb
     if is_typed {
         look.range = Some((low, high));
     }
-    let auto = ui.selectable_label(look.range.is_none(), "Auto").on_hover_text("From the least number to the largest");
+    let auto =
+        ui.selectable_label(look.range.is_none(), "Auto").on_hover_text("From the smallest to the largest value");
     if out.clicked("probe:auto", &auto) {
         look.range = if look.range.is_none() { Some((low, high)) } else { None };
     }
@@ -144,7 +145,7 @@ fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut 
     let label = ui.label(RichText::new(text).monospace().size(11.0).color(p.text));
     out.place("probe:extremes", label.rect);
     if statistics.nonfinite > 0 {
-        ui.colored_label(p.error, format!("{} numbers are NaN or infinite", statistics.nonfinite));
+        ui.colored_label(p.error, format!("{} values are NaN or infinite", statistics.nonfinite));
     }
 }
 

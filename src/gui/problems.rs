@@ -37,7 +37,7 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
     );
     let includes: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
     if !includes.is_empty() {
-        let shown = format!("with {}", crate::project::listed(&includes));
+        let shown = format!("includes {}", crate::project::listed(&includes));
         let font = FontId::proportional(12.0);
         let end = painter.text(
             pos2(rect.right() - 8.0, rect.center().y),
@@ -100,7 +100,7 @@ pub fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     let some = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
     let (errors, warnings) = counts(session);
     match &state.last {
-        None => ("Nothing compiled yet".into(), palette.weak),
+        None => ("Not compiled yet".into(), palette.weak),
         Some(Outcome::Ok { millis, .. }) if warnings == 0 => (format!("Compiled in {millis:.0} ms"), palette.good),
         Some(Outcome::Ok { millis, .. }) => {
             (format!("Compiled in {millis:.0} ms, {}", some(warnings, "warning")), palette.warning)

@@ -92,22 +92,26 @@ fn name_of(answer: &Answer) -> &'static str {
 fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut Outbox) {
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
-        Then::Open(_) | Then::OpenProject { .. } => "when another project is opened",
-        Then::Keep(_) => "when the new one takes their place",
-        Then::New => "when a new shader is begun",
-        Then::Recover(_) => "when the recovered work takes their place",
-        Then::Close => "when the window closes",
+        Then::Open(_) | Then::OpenProject { .. } => "by opening another project",
+        Then::Keep(_) => "by opening the new one",
+        Then::New => "by starting a new shader",
+        Then::Recover(_) => "by restoring the recovered project",
+        Then::Close => "by closing the window",
     };
-    let list: Vec<String> = tabs.iter().map(Tab::title).collect();
-    let list = if list.is_empty() { "channels or passes".into() } else { list.join(", ") };
-    ui.label(format!("Not saved yet: {list}. The changes are lost {what}, unless you save them."));
+    let mut list = session.unsaved_parts();
+    // A question may have come before the edit that is saved since.
+    if list.is_empty() {
+        list.extend(tabs.iter().map(Tab::title));
+    }
+    let list = list.join(", ");
+    ui.label(format!("Unsaved changes: {list}. They are lost {what} unless you save them."));
     let answers_ = [("Save", Answer::Save), ("Discard", Answer::Discard), ("Cancel", Answer::Cancel)];
     answers(ui, &answers_, out);
 }
 
 fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
     ui.heading("Replace files?");
-    ui.label(format!("{} holds a project already. These files would be replaced:", folder.display()));
+    ui.label(format!("{} already holds a project. These files would be replaced:", folder.display()));
     ScrollArea::vertical().max_height(160.0).show(ui, |ui| {
         for file in files {
             ui.monospace(file.strip_prefix(folder).unwrap_or(file).display().to_string());
@@ -118,27 +122,27 @@ fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
 
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {
     let name = tab.map_or_else(|| "The project's settings".into(), Tab::title);
-    ui.heading(format!("{name} changed on disk too"));
+    ui.heading(format!("{name} also changed on disk"));
     ui.label(
-        "Another program wrote the file while there are unsaved edits here. Whichever you take, the other text \
-    is kept in a file beside it.",
+        "Another program changed this file while you have unsaved edits. Either way, the other version is kept in a \
+         file next to it.",
     );
     ui.colored_label(theme::of(ui).weak, file.display().to_string());
     ui.add_space(8.0);
     both(ui, "Here, unsaved", "On disk", diff, room);
-    answers(ui, &[("Keep mine", Answer::KeepMine), ("Take the one on disk", Answer::TakeDisk)], out);
+    answers(ui, &[("Keep mine", Answer::KeepMine), ("Use version on disk", Answer::TakeDisk)], out);
 }
 
 fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
     let Recovered { file, name, origin, written, tabs, is_structure_changed, trouble } = recovered;
     ui.heading(format!("Recover unsaved changes to {name}?"));
-    ui.label(format!("Eddy ended before they were saved. The last change was made on {written}."));
+    ui.label(format!("Eddy closed before they were saved. Last change: {written}."));
     let (place, there) = match origin {
         Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
             (path.display().to_string(), "On disk")
         }
         Origin::Preset(name) => (format!("a copy of the preset {name}"), "The preset"),
-        Origin::Unsaved => ("never saved so far".into(), "A new shader"),
+        Origin::Unsaved => ("never saved".into(), "A new shader"),
     };
     ui.colored_label(theme::of(ui).weak, place);
     if let Some(why) = trouble {

@@ -204,7 +204,7 @@ impl Surface {
             self.refusals += 1;
             // Once, and not at each of the frames that follow.
             let level = if self.refusals == REFUSALS { log::Level::Error } else { log::Level::Debug };
-            log::log!(level, "the window's surface keeps its old size: {error}");
+            log::log!(level, "the window could not be resized: {error}");
             // The device is given the time that it needs.
             std::thread::sleep(std::time::Duration::from_millis(1));
         } else {
@@ -241,7 +241,7 @@ impl Surface {
             wgpu::CurrentSurfaceTexture::Lost => {
                 match self.instance.create_surface(window.clone()) {
                     Ok(surface) => self.surface = surface,
-                    Err(e) => log::error!("the window's surface was lost and cannot be made anew: {e}"),
+                    Err(e) => log::error!("the window's surface was lost and could not be recreated: {e}"),
                 }
                 self.needs_configure = true;
                 return Presented::Again;

@@ -18,11 +18,11 @@ pub fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
             is_heard
         };
         if let Err(error) = pollster::block_on(listen(tell)) {
-            log::info!("the desktop's portal does not say whether it is dark or light: {error}");
+            log::info!("the desktop portal does not report a dark or light theme: {error}");
         }
     };
     if let Err(error) = std::thread::Builder::new().name("system theme".into()).spawn(work) {
-        log::warn!("no thread for the system's theme: {error}");
+        log::warn!("cannot start a thread for the system theme: {error}");
     }
     receiver
 }

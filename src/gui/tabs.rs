@@ -13,7 +13,7 @@ use crate::{
     project::{PassEdit, PassId, Tab},
     session::{Command, Session},
 };
-use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
 
 const HEIGHT: f32 = 32.0;
 /// Width of the button behind the tabs.
@@ -38,12 +38,36 @@ pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) -> 
         .scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden)
         .show(&mut row, |ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
-            for tab in session.tabs() {
-                show_tab(ui, session, &tab, tab == *current, out);
+            scroll_by_wheel(ui, rect);
+            let tabs = session.tabs();
+            for tab in &tabs {
+                show_tab(ui, session, tab, tab == current, out);
             }
+            keep_in_sight(ui, &tabs, current, out);
         });
     add_menu(&mut row, session, out);
     handle.drag_started()
+}
+
+/// A wheel that turns up and down moves a row of tabs, as it lies.
+fn scroll_by_wheel(ui: &Ui, row: Rect) {
+    let wheel = ui.input(|i| i.smooth_scroll_delta());
+    if wheel.x == 0.0 && wheel.y != 0.0 && ui.rect_contains_pointer(row) {
+        ui.scroll_with_delta_animation(vec2(wheel.y, 0.0), ScrollAnimation::none());
+    }
+}
+
+/// Brings the current tab in sight when it comes to the front, moves or grows; else people scroll where they like.
+fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
+    let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
+    let id = Id::unique("current tab");
+    // Another project may have a tab of this name elsewhere, and another layout another width of the row.
+    let widths = [rect.width(), ui.clip_rect().width()].map(f32::to_bits);
+    let now = (current.title(), widths, tabs.iter().position(|tab| tab == current), tabs.len());
+    if ui.data_mut(|d| d.get_temp::<(String, [u32; 2], Option<usize>, usize)>(id)).as_ref() != Some(&now) {
+        ui.data_mut(|d| d.insert_temp(id, now));
+        ui.scroll_to_rect_animation(*rect, None, ScrollAnimation::none());
+    }
 }
 
 fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &mut Outbox) {
@@ -68,13 +92,6 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
     let (rect, response) = ui.allocate_exact_size(vec2(title.size().x + 24.0 + extra, HEIGHT), Sense::click());
     accessible::choice(&response, egui::Role::Tab, is_current, tab.title());
     if is_current {
-        // In sight when it comes to the front and when it grows; else people scroll where they like.
-        let id = Id::unique("current tab");
-        let now = (tab.title(), rect.width().to_bits());
-        if ui.data_mut(|d| d.get_temp_mut_or_default::<(String, u32)>(id).clone()) != now {
-            ui.data_mut(|d| d.insert_temp(id, now));
-            response.scroll_to_me(None);
-        }
         ui.painter().rect_filled(rect, 0.0, theme::of(ui).background);
         ui.painter().hline(rect.x_range(), rect.top() + 1.0, Stroke::new(2.0, theme::of(ui).accent));
     } else if response.hovered() {
@@ -119,8 +136,8 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
         }
         ui.separator();
-        let close = ui.button("Close the code");
-        if out.clicked("tab:close-code", &close.on_hover_text("\"View\" at the top opens it again")) {
+        let close = ui.button("Close code");
+        if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
             out.wishes.push(Wish::ClosePanel(Panel::Code));
         }
     });
@@ -134,20 +151,20 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             ui.colored_label(theme::of(ui).weak, path.display().to_string());
         }
         if let Some(time) = time {
-            ui.label(format!("{:.3} ms on the graphics device", time.gpu_millis));
+            ui.label(format!("{:.3} ms on the GPU", time.gpu_millis));
         }
         if dirty {
-            ui.colored_label(theme::of(ui).accent, "Not saved yet");
+            ui.colored_label(theme::of(ui).accent, "Not saved");
         }
         if *tab != Tab::Pass(PassId::Image) {
-            ui.colored_label(theme::of(ui).weak, "Right click or Shift+F10: show, remove");
+            ui.colored_label(theme::of(ui).weak, "Right-click or Shift+F10 for more");
         }
     });
 }
 
 fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let menu = passes::adding(ui, "+", |ui| {
-        passes::add_menu(ui, session, out);
+        passes::add_menu(ui, session, false, out);
         ui.separator();
         let all = ui.button("All passes…");
         if out.clicked("add:passes", &all) {

@@ -20,42 +20,89 @@ const SHOWN: usize = 4;
 /// The name of their place.
 const PLACE: &str = "notices";
 
-/// Closes those that have been there long enough.
+/// Notices that say the same, shown as one.
+struct Told<'a> {
+    newest: &'a Notice,
+    /// All of them, oldest first.
+    ids: Vec<u64>,
+}
+
+/// Returns what is told, newest first, each text once.
+fn told(notices: &[Notice]) -> Vec<Told<'_>> {
+    let mut told: Vec<Told<'_>> = Vec::new();
+    for notice in notices.iter().rev() {
+        let is_same = |one: &&mut Told<'_>| {
+            let newest = one.newest;
+            (newest.level, &newest.text, &newest.path) == (notice.level, &notice.text, &notice.path)
+        };
+        match told.iter_mut().find(is_same) {
+            Some(one) => one.ids.insert(0, notice.id),
+            None => told.push(Told { newest: notice, ids: vec![notice.id] }),
+        }
+    }
+    told
+}
+
+impl Told<'_> {
+    fn text(&self) -> String {
+        match self.ids.len() {
+            1 => self.newest.text.clone(),
+            n => format!("{} (×{n})", self.newest.text),
+        }
+    }
+
+    fn dismiss(&self, out: &mut Outbox) {
+        self.ids.iter().for_each(|id| out.ask(Command::DismissNotice(*id)));
+    }
+}
+
+/// Closes those that have been there long enough. What is said again stays with the newest of its kind.
 pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut Outbox) {
-    for notice in session.notices().iter().filter(|n| n.level == Level::Info) {
-        let age = now.saturating_duration_since(notice.at);
+    for told in told(session.notices()).iter().filter(|told| told.newest.level == Level::Info) {
+        let age = now.saturating_duration_since(told.newest.at);
         if age >= STAYS {
-            out.ask(Command::DismissNotice(notice.id));
+            told.dismiss(out);
         } else {
             ctx.request_repaint_after(STAYS - age);
         }
     }
 }
 
-/// Shows them at the bottom of `ui`, which has so much less room.
+/// Shows them at the bottom of `ui`, which has so much less room: the newest on top, where the eye is, and the oldest
+/// below, where they are scrolled to.
 pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
-    let notices = session.notices();
-    if notices.is_empty() {
+    let told = told(session.notices());
+    if told.is_empty() {
         return;
     }
     let most = (ui.available_height() * 0.4).max(40.0);
     let frame = Frame::NONE.fill(theme::of(ui).raised);
-    let shown = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false).show(ui, |ui| {
+    // As high as what is in it was in the last frame: what scrolls does not say by itself how high it would be.
+    let id = Id::unique("height of notices");
+    let height = ui.data(|d| d.get_temp(id)).unwrap_or(ROW * told.len().min(SHOWN) as f32);
+    let panel = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false);
+    let shown = panel.exact_size(height.min(most)).show(ui, |ui| {
         out.stop(PLACE, ui);
         ui.painter().hline(ui.max_rect().x_range(), ui.max_rect().top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical().id_salt(PLACE).max_height(most).auto_shrink([false, true]).show(ui, |ui| {
-            let hidden = notices.len().saturating_sub(SHOWN);
-            if hidden > 0 {
+        let area = ScrollArea::vertical().id_salt(PLACE).min_scrolled_height(0.0).auto_shrink([false, true]);
+        let shown = area.show(ui, |ui| {
+            told.iter().take(SHOWN).for_each(|told| row(ui, session, told, out));
+            let older = told.get(SHOWN..).unwrap_or_default();
+            if !older.is_empty() {
                 ui.horizontal(|ui| {
                     ui.add_space(10.0);
-                    if out.clicked("notices:close-older", &ui.small_button(format!("Close {hidden} older"))) {
-                        notices[..hidden].iter().for_each(|n| out.ask(Command::DismissNotice(n.id)));
+                    let close = ui.small_button(format!("Close {} older", older.len()));
+                    if out.clicked("notices:close-older", &close) {
+                        older.iter().for_each(|told| told.dismiss(out));
                     }
                 });
             }
-            notices[hidden..].iter().for_each(|notice| row(ui, session, notice, out));
         });
+        if (shown.content_size.y - height).abs() > 0.5 {
+            ui.data_mut(|d| d.insert_temp(id, shown.content_size.y));
+            ui.ctx().request_repaint();
+        }
     });
     out.place(PLACE, shown.response.rect);
 }
@@ -64,7 +111,9 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 /// here: it is still there when the code is.
 pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut Outbox) {
     let is_fresh = |n: &&Notice| now.saturating_duration_since(n.at) < STAYS;
-    let Some(notice) = session.notices().last().filter(is_fresh) else { return };
+    let told = told(session.notices());
+    let Some(told) = told.first().filter(|told| is_fresh(&told.newest)) else { return };
+    let notice = told.newest;
     if out.places.contains_key(PLACE) {
         return;
     }
@@ -76,7 +125,7 @@ pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut Outbox) {
             Frame::popup(ui.style()).fill(theme::of(ui).raised.gamma_multiply(0.92)).inner_margin(Margin::same(10));
         frame.stroke(Stroke::new(1.0, color(ui, notice.level))).show(ui, |ui| {
             ui.set_max_width(width);
-            ui.add(Label::new(&notice.text).wrap());
+            ui.add(Label::new(told.text()).wrap());
         });
     });
     out.place(PLACE, shown.response.rect);
@@ -90,21 +139,34 @@ fn color(ui: &Ui, level: Level) -> Color32 {
     }
 }
 
-fn row(ui: &mut Ui, session: &Session, notice: &Notice, out: &mut Outbox) {
-    let frame = Frame::NONE.inner_margin(Margin { left: 25, right: 6, top: 3, bottom: 3 });
+/// Around the text of a row: the mark at the left, and above and below.
+const MARK: f32 = 25.0;
+const PADDING: f32 = 4.0;
+/// Height of a row's buttons, and of a row with one line.
+const BUTTON: f32 = 20.0;
+const ROW: f32 = BUTTON + 2.0 * PADDING;
+
+/// Shows one, as high as its text and its buttons need.
+fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut Outbox) {
+    let notice = told.newest;
+    let newest = session.pass_undo().map(|step| step.serial);
+    let undoes = notice.undoes.is_some() && notice.undoes == newest;
+    let frame =
+        Frame::NONE.inner_margin(Margin { left: MARK as i8, right: 6, top: PADDING as i8, bottom: PADDING as i8 });
     let shown = frame.show(ui, |ui| {
-        ui.spacing_mut().item_spacing = vec2(6.0, 0.0);
+        let spacing = ui.spacing_mut();
+        (spacing.item_spacing, spacing.interact_size.y) = (vec2(6.0, 0.0), BUTTON);
+        spacing.button_padding.y = 1.0;
         ui.with_layout(Layout::right_to_left(Align::TOP), |ui| {
-            let close = icons::button(ui, Icon::Close, "Close this notice");
+            let close = icons::flat(ui, Icon::Close, "Close this notice");
             if out.clicked(&format!("toast:{}:close", notice.id), &close.on_hover_text("Close")) {
-                out.ask(Command::DismissNotice(notice.id));
+                told.dismiss(out);
             }
-            let newest = session.pass_undo().map(|step| step.serial);
-            if notice.undoes.is_some() && notice.undoes == newest {
+            if undoes {
                 let undo = ui.button("Undo");
                 if out.clicked(&format!("toast:{}:undo", notice.id), &undo) {
                     out.ask(Command::UndoPassEdit);
-                    out.ask(Command::DismissNotice(notice.id));
+                    told.dismiss(out);
                 }
             }
             if let Some(path) = &notice.path {
@@ -114,14 +176,41 @@ fn row(ui: &mut Ui, session: &Session, notice: &Notice, out: &mut Outbox) {
                 }
             }
             ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
-                ui.add_space(4.0);
-                ui.add(Label::new(RichText::new(&notice.text).size(12.5)).wrap().selectable(true));
                 ui.add_space(2.0);
+                ui.add(Label::new(RichText::new(told.text()).size(12.5)).wrap().selectable(true));
             });
         });
     });
     let rect: Rect = shown.response.rect;
-    ui.painter().circle_filled(pos2(rect.left() + 13.0, rect.top() + 15.0), 4.0, color(ui, notice.level));
+    let mark = pos2(rect.left() + 13.0, rect.top() + PADDING + BUTTON / 2.0);
+    ui.painter().circle_filled(mark, 4.0, color(ui, notice.level));
     ui.interact(rect, Id::unique(("notice", notice.id)), Sense::hover());
     out.place(format!("toast:{}", notice.id), rect);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn notice(id: u64, text: &str, level: Level) -> Notice {
+        Notice { id, level, text: text.into(), path: None, undoes: None, at: Instant::now() }
+    }
+
+    #[test]
+    fn the_newest_is_first_and_what_is_said_again_is_one() {
+        let all = [
+            notice(1, "a", Level::Error),
+            notice(2, "b", Level::Info),
+            notice(3, "a", Level::Error),
+            notice(4, "a", Level::Info),
+            notice(5, "c", Level::Info),
+        ];
+        let told = told(&all);
+        let said: Vec<_> = told.iter().map(|one| (one.text(), one.ids.clone())).collect();
+        let wanted: [(&str, &[u64]); 4] = [("c", &[5]), ("a", &[4]), ("a (×2)", &[1, 3]), ("b", &[2])];
+        assert_eq!(said, wanted.map(|(text, ids)| (text.to_owned(), ids.to_vec())));
+        let mut out = Outbox::default();
+        told[2].dismiss(&mut out);
+        assert_eq!(out.commands.len(), 2, "closing one closes all that say the same");
+    }
 }

@@ -4,6 +4,7 @@ use super::{
     actions::Action,
     dock::Panel,
     icons::{self, Icon},
+    menus,
     outbox::{Outbox, Pick, Wish},
     settings::{Change, Settings, Theme},
     theme,
@@ -39,36 +40,36 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
                 }
             };
         item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, state.is_gallery, out);
-        item(ui, "button:new", "New", "A shader of one Image pass", Action::New, false, out);
+        item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
-            if ui.button("Folder…").on_hover_text("A folder with eddy.toml or with .glsl files").clicked() {
+            if ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files").clicked() {
                 out.wishes.push(Wish::Pick(Pick::OpenFolder));
                 ui.close();
             }
             let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
-            if ui.add(file).on_hover_text("One .glsl file, or a Shadertoy .json").clicked() {
+            if ui.add(file).on_hover_text("Open a .glsl file or a Shadertoy .json file").clicked() {
                 out.act(Action::Open);
                 ui.close();
             }
         });
         out.place("button:open", menu.response.rect);
         if !state.is_gallery {
-            item(ui, "button:save", "Save", "Write the project to its files", Action::Save, false, out);
+            item(ui, "button:save", "Save", "Save the project", Action::Save, false, out);
             if width > ROOMY {
-                let tip = "Write the project into another folder";
+                let tip = "Save the project to another folder";
                 item(ui, "button:save-as", "Save as", tip, Action::SaveAs, false, out);
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            item(ui, "button:help", "?", "Keys", Action::Help, false, out);
+            item(ui, "button:help", "?", "Help and keyboard shortcuts", Action::Help, false, out);
             if !state.is_gallery {
                 let full = icons::button(ui, Icon::Expand, "Full screen")
-                    .on_hover_text(out.keys.tip("Picture alone, full screen", Action::Fullscreen));
+                    .on_hover_text(out.keys.tip("Full screen", Action::Fullscreen));
                 if out.clicked("button:fullscreen", &full) {
                     out.act(Action::Fullscreen);
                 }
-                let present = icons::button(ui, Icon::Present, "Present")
-                    .on_hover_text(out.keys.tip("Code over a picture that fills the window", Action::Present));
+                let present = icons::button(ui, Icon::Present, "Code over picture")
+                    .on_hover_text(out.keys.tip("Code over picture", Action::Present));
                 if out.clicked("button:present", &present) {
                     out.act(Action::Present);
                 }
@@ -76,7 +77,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
             view_menu(ui, state, out);
             if width > ROOMY {
                 let is_on = state.open.contains(&Panel::Lab) && !state.is_gallery;
-                item(ui, "button:lab", "Lab", "Measure methods: speed against error", Action::Lab, is_on, out);
+                item(ui, "button:lab", "Lab", "Compare methods: speed against error", Action::Lab, is_on, out);
             }
             if !state.is_gallery {
                 name(ui, session);
@@ -98,23 +99,23 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
                 panel => Action::Panel(panel),
             };
             let is_open = state.open.contains(&panel) && !state.is_gallery;
-            let entry = ui.add(Button::selectable(is_open, panel.title()).shortcut_text(out.keys.hint(action)));
+            let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
             if out.clicked(&format!("view:{}", panel.name()), &entry) {
                 out.act(action);
                 ui.close();
             }
         }
         let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
-            let entry = ui.add(Button::new(label).shortcut_text(out.keys.hint(action)));
+            let entry = menus::entry(ui, label, out.keys.hint(action));
             if out.clicked(name, &entry) {
                 out.act(action);
                 ui.close();
             }
         };
-        item(ui, "view:usual", "All in their usual places", Action::UsualLayout);
+        item(ui, "view:usual", "Reset layout", Action::UsualLayout);
         ui.separator();
-        item(ui, "view:present", "Code over the picture", Action::Present);
-        item(ui, "view:full-screen", "Picture alone, full screen", Action::Fullscreen);
+        item(ui, "view:present", "Code over picture", Action::Present);
+        item(ui, "view:full-screen", "Full screen", Action::Fullscreen);
         ui.separator();
         ui.horizontal(|ui| {
             ui.label("Theme");
@@ -126,9 +127,9 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
                 };
                 let choice = ui.add(Button::selectable(state.settings.theme == theme, title));
                 let choice = choice.on_hover_text(match theme {
-                    Theme::System => "What the system prefers",
-                    Theme::Dark => "Always dark",
-                    Theme::Light => "Always light",
+                    Theme::System => "Follow the system theme",
+                    Theme::Dark => "Use the dark theme",
+                    Theme::Light => "Use the light theme",
                 });
                 if out.clicked(&format!("theme:{}", theme.name()), &choice) {
                     out.wishes.push(Wish::Set(Change::Theme(theme)));
@@ -150,20 +151,19 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
             }
         });
         ui.separator();
-        let wraps = Button::selectable(state.settings.word_wrap, "Wrap long lines of code");
-        let wraps = ui.add(wraps.shortcut_text(out.keys.hint(Action::WordWrap)));
+        let wraps = menus::switch(ui, state.settings.word_wrap, "Word wrap", out.keys.hint(Action::WordWrap));
         if out.clicked("view:word-wrap", &wraps) {
             out.act(Action::WordWrap);
             ui.close();
         }
-        let file = ui.button("The file of settings");
+        let file = menus::entry(ui, "Open settings file", String::new());
         if out.clicked("view:settings", &file) {
             out.act(Action::SettingsFile);
             ui.close();
         }
     });
     out.place("button:view", button.rect);
-    button.on_hover_text("What is shown, and how");
+    button.on_hover_text("Panels, layout, theme and zoom");
 }
 
 /// The project's name in what room is left, with a dot while it is not saved.
@@ -172,8 +172,8 @@ fn name(ui: &mut Ui, session: &Session) {
     let project = session.project();
     let (rect, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), 24.0), Sense::hover());
     let kind = match &project.origin {
-        Origin::Preset(_) => "  (a copy of the preset)",
-        Origin::Unsaved => "  (not saved yet)",
+        Origin::Preset(_) => "  (copy of a preset)",
+        Origin::Unsaved => "  (not saved)",
         _ => "",
     };
     let mut job = egui::text::LayoutJob::default();
@@ -197,7 +197,7 @@ fn name(ui: &mut Ui, session: &Session) {
                 ui.colored_label(p.weak, path.display().to_string());
             }
             Origin::Preset(_) => {
-                drop(ui.colored_label(p.weak, "Saving asks for a folder; the preset itself stays as it is."))
+                drop(ui.colored_label(p.weak, "Saving asks for a folder; the preset stays unchanged."))
             }
             Origin::Unsaved => drop(ui.colored_label(p.weak, "Saving asks for a folder.")),
         }

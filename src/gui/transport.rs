@@ -6,6 +6,7 @@ use super::{
     dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
+    menus,
     outbox::{Outbox, Wish},
     theme, timeline,
 };
@@ -13,7 +14,7 @@ use crate::{
     project::{PassId, Tab},
     session::{Command, Session},
 };
-use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
+use egui::{Button, ComboBox, Popup, RichText, ScrollArea, Ui, vec2};
 
 /// Height of the bar.
 pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
@@ -45,9 +46,9 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
             }
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
-        button(ui, "button:step-back", Icon::StepBack, "One frame back, then pause", Action::StepBack);
-        button(ui, "button:step", Icon::Step, "One frame forward, then pause", Action::Step);
-        button(ui, "button:screenshot", Icon::Camera, "Save a picture of the shown pass as PNG", Action::Screenshot);
+        button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
+        button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
+        button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
         let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
@@ -73,14 +74,14 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         }
         if shows_fps {
             let text = transport.fps.map_or_else(|| "– fps".to_owned(), |fps| format!("{} fps", figure(fps, 1, 4)));
-            value(ui, 58.0, &text, "Frames a second, over the last half second");
+            value(ui, 58.0, &text, "Frames per second, over the last half second");
         }
         if shows_cost {
             cost(ui, session, out);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            options(ui, session, out);
+            options(ui, session, (!roomy).then_some(shape), out);
             shown_pass(ui, session, out);
             if roomy {
                 size(ui, session, shape, out);
@@ -103,9 +104,9 @@ fn figure(value: f64, digits: usize, letters: usize) -> String {
 fn recording(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let Some(frames) = session.recorded_frames() else { return };
     let text = RichText::new(format!("● {frames}")).monospace().size(12.0).color(theme::of(ui).error);
-    let tip = format!("{frames} frames of input recorded; click to end and save them");
+    let tip = format!("{frames} frames of input recorded; click to stop and save");
     let button = ui.add(Button::new(text).min_size(vec2(RECORDING, 24.0)));
-    accessible::name(&button, egui::Role::Button, "End the recording of input");
+    accessible::name(&button, egui::Role::Button, "Stop recording input");
     if out.clicked("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record))) {
         out.act(Action::Record);
     }
@@ -124,12 +125,12 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
 fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let transport = session.transport();
     let (text, of) = match (transport.gpu_millis, transport.cpu_micros) {
-        (Some(millis), _) => (format!("{} ms", figure(millis, 2, 5)), "graphics device"),
+        (Some(millis), _) => (format!("{} ms", figure(millis, 2, 5)), "GPU"),
         (None, Some(micros)) => (format!("{} ms", figure(micros / 1000.0, 2, 5)), "processor"),
-        (None, None) => ("– ms".to_owned(), "graphics device"),
+        (None, None) => ("– ms".to_owned(), "GPU"),
     };
     let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
-    accessible::name(&response, egui::Role::Button, "What each pass costs");
+    accessible::name(&response, egui::Role::Button, "Costs of each pass");
     if out.clicked("button:costs", &response) {
         out.act(Action::Costs);
     }
@@ -144,9 +145,9 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         theme::of(ui).text,
     );
     response.on_hover_ui(|ui| {
-        ui.label(format!("A frame's time on the {of}"));
+        ui.label(format!("Frame time on the {of}"));
         if !transport.playing {
-            ui.colored_label(theme::of(ui).weak, "Paused: no frames are drawn.");
+            ui.colored_label(theme::of(ui).weak, "Paused.");
             return;
         }
         egui::Grid::new("costs").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
@@ -155,14 +156,14 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
                 ui.monospace(format!("{:.3} ms", time.gpu_millis));
                 ui.end_row();
             }
-            ui.label("Processor, the engine's part");
+            ui.label("CPU time of the engine");
             ui.monospace(format!("{:.0} µs", transport.cpu_micros.unwrap_or_default()));
             ui.end_row();
         });
         if session.pass_times().is_empty() {
-            ui.colored_label(theme::of(ui).weak, "This device does not say what each pass takes.");
+            ui.colored_label(theme::of(ui).weak, "This GPU does not report times per pass.");
         }
-        ui.colored_label(theme::of(ui).weak, out.keys.tip("Click for a table with sizes and bytes", Action::Costs));
+        ui.colored_label(theme::of(ui).weak, out.keys.tip("Click to open the Costs panel", Action::Costs));
     });
 }
 
@@ -173,34 +174,37 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
         .width(96.0)
         .height(360.0)
         .selected_text(RichText::new(format!("{width}×{height}")).monospace().size(12.0))
-        .show_ui(ui, |ui| {
-            for (choice, name) in [(Shape::Site, "16:9, as on the site"), (Shape::Fill, "Shape of the view")] {
-                let on = transport.fixed_size.is_none() && shape == choice;
-                if ui.selectable_label(on, name).clicked() {
-                    out.act(Action::Picture(PictureAction::Shape(choice)));
-                }
-            }
-            ui.separator();
-            ui.colored_label(theme::of(ui).weak, "As large as the view, times");
-            for scale in SCALES {
-                let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
-                if ui.selectable_label(on, scale.name()).clicked() {
-                    out.act(Action::Picture(PictureAction::Scale(scale)));
-                }
-            }
-            ui.separator();
-            ui.colored_label(theme::of(ui).weak, "Always");
-            for size in SIZES {
-                if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked()
-                {
-                    out.act(Action::Picture(PictureAction::Size(size)));
-                }
-            }
-        })
+        .show_ui(ui, |ui| sizes(ui, session, shape, out))
         .response
-        .on_hover_text("Size of the picture in pixels (iResolution)");
-    accessible::name(&response, egui::Role::ComboBox, "Size of the picture");
+        .on_hover_text("Resolution of the picture in pixels (iResolution)");
+    accessible::name(&response, egui::Role::ComboBox, "Resolution");
     out.place("combo:size", response.rect);
+}
+
+/// The resolutions to choose from.
+fn sizes(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+    let transport = session.transport();
+    for (choice, name) in [(Shape::Site, "16:9, as on Shadertoy"), (Shape::Fill, "Fill the panel")] {
+        let on = transport.fixed_size.is_none() && shape == choice;
+        if ui.selectable_label(on, name).clicked() {
+            out.act(Action::Picture(PictureAction::Shape(choice)));
+        }
+    }
+    ui.separator();
+    ui.colored_label(theme::of(ui).weak, "Scale");
+    for scale in SCALES {
+        let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
+        if ui.selectable_label(on, scale.name()).clicked() {
+            out.act(Action::Picture(PictureAction::Scale(scale)));
+        }
+    }
+    ui.separator();
+    ui.colored_label(theme::of(ui).weak, "Fixed size");
+    for size in SIZES {
+        if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked() {
+            out.act(Action::Picture(PictureAction::Size(size)));
+        }
+    }
 }
 
 fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
@@ -221,20 +225,28 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             }
         })
         .response
-        .on_hover_text("The pass that is shown, and saved as a picture");
-    accessible::name(&response, egui::Role::ComboBox, "The pass that is shown");
+        .on_hover_text("Shown pass, also used for screenshots");
+    accessible::name(&response, egui::Role::ComboBox, "Shown pass");
     out.place("combo:pass", response.rect);
 }
 
-fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+/// The menu at the right. `shape`: the resolution has no place in the bar, so it is here.
+fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbox) {
     let more = icons::button(ui, Icon::More, "More");
     out.place("button:options", more.rect);
     Popup::menu(&more).show(|ui| {
-        let mut reset = session.reset_on_reload();
-        let switch = ui.checkbox(&mut reset, "Reset when a file is reloaded");
-        out.place("switch:reset-on-reload", switch.rect);
-        if switch.changed() {
-            out.ask(Command::SetResetOnReload(reset));
+        if let Some(shape) = shape {
+            let (width, height) = session.transport().resolution;
+            let menu = ui.menu_button(format!("Resolution: {width}×{height}"), |ui| {
+                ScrollArea::vertical().max_height(360.0).show(ui, |ui| sizes(ui, session, shape, out));
+            });
+            out.place("options:resolution", menu.response.rect);
+            ui.separator();
+        }
+        let reset = session.reset_on_reload();
+        let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
+        if out.clicked("switch:reset-on-reload", &switch) {
+            out.ask(Command::SetResetOnReload(!reset));
         }
         ui.separator();
         let all = [
@@ -247,15 +259,14 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             Action::Compile,
         ];
         for action in all {
-            let item = Button::new(action.title()).shortcut_text(out.keys.hint(action));
-            if ui.add(item).clicked() {
+            if menus::entry(ui, action.title(), out.keys.hint(action)).clicked() {
                 out.act(action);
                 ui.close();
             }
         }
         ui.separator();
-        let close = ui.button("Close the picture");
-        if out.clicked("options:close-picture", &close.on_hover_text("\"View\" at the top opens it again")) {
+        let close = menus::entry(ui, "Close picture", String::new());
+        if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
             out.wishes.push(Wish::ClosePanel(Panel::Picture));
         }
     });

@@ -62,7 +62,10 @@ impl Uses {
             ui.add_space(12.0);
             let count = self.places.len();
             ui.monospace(&self.name);
-            ui.colored_label(theme::of(ui).weak, if count == 1 { "1 place".into() } else { format!("{count} places") });
+            ui.colored_label(
+                theme::of(ui).weak,
+                if count == 1 { "1 reference".into() } else { format!("{count} references") },
+            );
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let close = icons::button(ui, Icon::Close, "Close the list").on_hover_text("Close (Esc)");
                 shown.closed = out.clicked("button:close-uses", &close);

@@ -173,7 +173,7 @@ impl Viewport {
             if pointer.is_some() {
                 ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
             }
-            pill(ui, rect, Align2::LEFT_BOTTOM, "Click the pixel that is to be traced", theme::DARK.accent);
+            pill(ui, rect, Align2::LEFT_BOTTOM, "Click a pixel to trace it", theme::DARK.accent);
         }
         if std::mem::take(&mut self.take_focus) {
             response.request_focus();
@@ -185,7 +185,7 @@ impl Viewport {
                 ui.painter().rect_stroke(rect, 0.0, theme::of(ui).focus(), egui::StrokeKind::Inside);
             }
         } else if reads_keyboard(session) {
-            pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it the keyboard", theme::DARK.weak);
+            pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it keyboard focus", theme::DARK.weak);
         }
         if let Some(Outcome::Failed { errors, meanwhile }) = session.compile_state().last {
             pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::DARK.error);
@@ -283,8 +283,8 @@ fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
     };
     let what = match meanwhile {
         Meanwhile::Nothing => "nothing to draw yet",
-        Meanwhile::LastGood => "the last good picture runs on",
-        Meanwhile::Newest => "drawn all the same",
+        Meanwhile::LastGood => "showing the last working version",
+        Meanwhile::Newest => "drawn anyway",
     };
     format!("{why} – {what}")
 }
@@ -296,8 +296,8 @@ mod tests {
     #[test]
     fn a_picture_runs_on_only_where_there_is_one() {
         assert_eq!(trouble(5, Meanwhile::Nothing), "5 errors – nothing to draw yet");
-        assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – the last good picture runs on");
-        assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn all the same");
+        assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – showing the last working version");
+        assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn anyway");
         assert_eq!(trouble(0, Meanwhile::Nothing), "Not compiled – nothing to draw yet");
     }
 }

@@ -86,7 +86,7 @@ impl<T: Content> WatchedFile<T> {
 
     /// Returns where the file is, after writing the template if there is none.
     pub fn write_if_missing(&self) -> Result<&Path, String> {
-        let Some(path) = &self.path else { return Err("this system names no folder for settings".into()) };
+        let Some(path) = &self.path else { return Err("this system has no folder for settings".into()) };
         if !path.exists() {
             write(path, &T::template()).map_err(|error| format!("{}: {error}", path.display()))?;
         }

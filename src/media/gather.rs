@@ -117,9 +117,9 @@ fn inputs(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Input, bool
 }
 
 fn unsupported(input: &Input) -> (&'static str, String) {
-    let picture = "read a picture, a buffer or the keyboard instead".to_owned();
+    let picture = "read an image file, a buffer or the keyboard instead".to_owned();
     match input {
-        Input::Cubemap(_) => ("a cubemap picture", picture),
+        Input::Cubemap(_) => ("a cubemap image", picture),
         Input::Volume(_) => ("a volume", picture),
         Input::Video(_) => ("a video", picture),
         Input::Music(_) => ("music", picture),

@@ -102,7 +102,7 @@ impl MediaSet {
                 return None;
             }
             let (why, hint) = self.missing_fills.get(path).cloned().unwrap_or_else(|| {
-                (format!("{} is not loaded", path.display()), "put the file there, or name another".into())
+                (format!("{} is not loaded", path.display()), "put the file there, or choose another".into())
             });
             let message = format!("{} of {}: {why}", kind.key(), project.passes[pass].id.title());
             Some(Diagnostic::error(project.fill_span(pass, kind), message).hint(hint))

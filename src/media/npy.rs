@@ -51,27 +51,27 @@ enum Number {
 }
 
 fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
-    let cut = || "the file is cut short".to_owned();
+    let cut = || "the file is truncated".to_owned();
     let rest = bytes.strip_prefix(MAGIC).ok_or("not an .npy file: it does not begin with \\x93NUMPY")?;
     let &[major, _, ref rest @ ..] = rest else { return Err(cut()) };
     let (length, rest) = match major {
         1 => rest.split_first_chunk::<2>().map(|(n, rest)| (usize::from(u16::from_le_bytes(*n)), rest)),
         2 | 3 => rest.split_first_chunk::<4>().map(|(n, rest)| (u32::from_le_bytes(*n) as usize, rest)),
-        _ => return Err(format!("version {major} of the format is not known; versions 1 to 3 are")),
+        _ => return Err(format!("version {major} of the format is not supported; versions 1 to 3 are")),
     }
     .ok_or_else(cut)?;
     let (header, data) = rest.split_at_checked(length).ok_or_else(cut)?;
     let header = String::from_utf8_lossy(header);
-    let number = match text(&header, "descr").ok_or("its header names no type of numbers")? {
+    let number = match text(&header, "descr").ok_or("its header has no number type")? {
         "<f4" => Number::F32,
         "<f8" => Number::F64,
         "|u1" => Number::U8,
         other => return Err(format!("an array of type {other}, not <f4, <f8 or |u1")),
     };
     if entry(&header, "fortran_order").is_some_and(|value| value.starts_with("True")) {
-        return Err("an array in Fortran order; numpy.ascontiguousarray gives the other".into());
+        return Err("an array in Fortran order; numpy.ascontiguousarray converts it".into());
     }
-    let shape = shape(&header).ok_or("its header gives no shape")?;
+    let shape = shape(&header).ok_or("its header has no shape")?;
     let (height, width, components) = match shape[..] {
         [height, width] => (height, width, 1),
         [height, width, components] if (1..=4).contains(&components) => (height, width, components),
@@ -82,7 +82,7 @@ fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
     }
     let most = (limits::PICTURE_BYTES.min(room) / TexelFormat::Rgba32Float.bytes() as u64) as usize;
     let texels = height.checked_mul(width).filter(|n| *n <= most);
-    let texels = texels.ok_or_else(|| format!("{width}x{height} texels; {most} are the most that are read here"))?;
+    let texels = texels.ok_or_else(|| format!("{width}x{height} texels; the limit here is {most}"))?;
     let size = match number {
         Number::U8 => 1,
         Number::F32 => 4,
@@ -159,16 +159,16 @@ mod tests {
         let good = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }";
         let f4 = [0u8; 8];
         for (bytes, expected) in [
-            (file(good, &f4)[..40].to_vec(), "cut short"),
-            (file(good, &f4[..7]), "cut short"),
-            (b"\x93NUMPY".to_vec(), "cut short"),
+            (file(good, &f4)[..40].to_vec(), "truncated"),
+            (file(good, &f4[..7]), "truncated"),
+            (b"\x93NUMPY".to_vec(), "truncated"),
             (b"hello".to_vec(), "does not begin"),
             (file(&good.replace("<f4", "<i8"), &f4), "type <i8"),
             (file(&good.replace("False", "True"), &f4), "Fortran"),
             (file(&good.replace("(1, 2)", "(2,)"), &f4), "shape [2]"),
             (file(&good.replace("(1, 2)", "(1, 2, 5)"), &f4), "shape [1, 2, 5]"),
             (file(&good.replace("(1, 2)", "(0, 2)"), &f4), "no texels"),
-            (file(&good.replace("(1, 2)", "(4294967296, 4294967296)"), &f4), "are the most"),
+            (file(&good.replace("(1, 2)", "(4294967296, 4294967296)"), &f4), "the limit here is"),
             (file(&good.replace("(1, 2)", "(-1, 2)"), &f4), "no shape"),
         ] {
             let error = decode(&bytes, u64::MAX).unwrap_err();

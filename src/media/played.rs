@@ -12,8 +12,8 @@ pub enum Played {
 impl fmt::Display for Played {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Played::Sound => "a sound file, and these are not played yet",
-            Played::Film => "a video file, and these are not played yet",
+            Played::Sound => "a sound file, which Eddy does not play yet",
+            Played::Film => "a video file, which Eddy does not play yet",
         })
     }
 }

@@ -30,10 +30,16 @@ pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<S
             let Some(missing) = channel.as_ref().and_then(|c| missing_pass(project, &c.input)) else { continue };
             let near = near_buffer(project, &missing);
             let near = near.map(|near| format!("; did you mean Buffer {near}?")).unwrap_or_default();
-            let reads = format!("iChannel{n} of {} reads {}, which has no pass", pass.id.title(), missing.title());
+            let reads = format!(
+                "iChannel{n} of {} reads {}, but the project has no such pass",
+                pass.id.title(),
+                missing.title()
+            );
             warnings.push(
-                Diagnostic::warning(place(index, n), reads)
-                    .hint(format!("it reads zeros; add {} or let the channel read another{near}", missing.title())),
+                Diagnostic::warning(place(index, n), reads).hint(format!(
+                    "it reads zero; add {} or choose another input for the channel{near}",
+                    missing.title()
+                )),
             );
         }
     }
@@ -85,15 +91,12 @@ fn differ<T: PartialEq + Debug>(buffer: &str, reads: &[(String, T)], what: &str,
         Diagnostic::warning(
             None,
             format!(
-                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} \
-                 {when}, the last one named, and the picture differs",
+                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on Shadertoy a buffer has one {what} \
+                 {when}, the last one set, so the picture differs",
                 name(loses),
                 name(wins)
             ),
         )
-        .hint(format!(
-            "give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
-        shows"
-        )),
+        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to match Shadertoy")),
     )
 }

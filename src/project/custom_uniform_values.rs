@@ -15,7 +15,7 @@ impl Project {
     /// Sets one custom uniform from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`,
     /// `on=true`. Err: one line that says what is wrong.
     pub fn set_custom_uniform(&mut self, assignment: &str) -> Result<(), String> {
-        let shape = || format!("{assignment}: a uniform is set as in viscosity=0.3 or tint=1,0.5,0");
+        let shape = || format!("{assignment}: write viscosity=0.3 or tint=1,0.5,0 to set a uniform");
         let (name, written) = assignment.split_once('=').ok_or_else(shape)?;
         let name = name.trim();
         let custom_uniforms = self.custom_uniforms();

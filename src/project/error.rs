@@ -18,7 +18,7 @@ pub enum ProjectError {
     Invalid { what: String, diagnostics: Vec<Diagnostic>, sources: SourceMap },
     /// A name that means nothing here.
     #[error(
-        "{spec}: neither a file, a folder nor a preset{}; presets are {}",
+        "{spec}: not a file, a folder or a preset{}; presets are {}",
         did_you_mean(near.as_deref()),
         presets_listed(presets)
     )]
@@ -37,15 +37,15 @@ pub enum ProjectError {
         error: FileError,
     },
     /// A name under which nothing may be written.
-    #[error("{} is not written: {why}", path.display())]
+    #[error("cannot write {}: {why}", path.display())]
     Unwritable { path: PathBuf, why: String },
-    #[error("{} holds more than {} files; name a folder of the project alone", path.display(), limits::FILES)]
+    #[error("{} has more than {} files; choose a folder with only the project", path.display(), limits::FILES)]
     TooManyFiles { path: PathBuf },
     /// Saving would replace something that is not this project's.
     #[error("{} exists and is not part of this project; choose another place or allow overwriting", path.display())]
     WouldOverwrite { path: PathBuf },
     /// Saving in this form would lose something.
-    #[error("{} cannot hold {what}; save the project as a folder of its own", path.display())]
+    #[error("{} cannot store {what}; save the project to a separate folder", path.display())]
     CannotHold { path: PathBuf, what: String },
 }
 

@@ -27,7 +27,7 @@ pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     let path = Path::new(file);
     let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassId::parse(stem).is_none())?;
     path.extension().filter(|e| is_glsl_extension(e))?;
-    let message = format!("{file} is no pass: \"{}\" cannot be a buffer's name", stem.escape_debug());
+    let message = format!("{file} is not a pass: \"{}\" is not a valid buffer name", stem.escape_debug());
     Some(Diagnostic::warning(None, message).hint(PassId::NAMES))
 }
 

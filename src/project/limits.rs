@@ -9,14 +9,14 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limit {
     pub bytes: u64,
-    /// The kind of file with its article: "a GLSL text".
+    /// The kind of file with its article: "a GLSL file".
     pub of: &'static str,
 }
 
 impl fmt::Display for Limit {
-    /// `16 MiB, the most that Eddy reads of a GLSL text`.
+    /// `16 MiB, the limit for a GLSL file`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, the most that Eddy reads of {}", in_bytes(self.bytes), self.of)
+        write!(f, "{}, the limit for {}", in_bytes(self.bytes), self.of)
     }
 }
 
@@ -33,17 +33,17 @@ pub fn in_bytes(bytes: u64) -> String {
 /// `eddy.toml`.
 pub const MANIFEST: Limit = Limit { bytes: 2 << 20, of: "an eddy.toml" };
 /// One GLSL text: a pass, a stage, Common or an included file.
-pub const GLSL_TEXT: Limit = Limit { bytes: 8 << 20, of: "a GLSL text" };
+pub const GLSL_TEXT: Limit = Limit { bytes: 8 << 20, of: "a GLSL file" };
 /// All GLSL texts of a project together, those that they include among them.
-pub const ALL_TEXTS: Limit = Limit { bytes: 64 << 20, of: "all GLSL texts of a project together" };
+pub const ALL_TEXTS: Limit = Limit { bytes: 64 << 20, of: "all GLSL files of a project together" };
 /// A Shadertoy JSON file.
 pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
 /// The part of a Shadertoy JSON file that says more of a shader than its passes.
 pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
 /// A picture, a model, or a file that a model names.
-pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "a picture or a model" };
+pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image or a model" };
 /// A model file together with the buffers that it names.
-pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and the files that it names" };
+pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
 /// Texels across or along a picture: what the largest devices take.
 pub const PICTURE_SIDE: u32 = 32_768;

@@ -55,8 +55,8 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
             continue;
         }
         if texts.len() == limits::PASSES {
-            let message = format!("there are more than {} passes, the most a project has", limits::PASSES);
-            diagnostics.push(Diagnostic::error(None, message).hint("take some of their files out of the folder"));
+            let message = format!("the project has more than {} passes, the limit", limits::PASSES);
+            diagnostics.push(Diagnostic::error(None, message).hint("remove some of their files from the folder"));
             break;
         }
         match files.read(&file, limits::GLSL_TEXT) {

@@ -375,10 +375,10 @@ impl Project {
         }
     }
 
-    /// Every tab there is, in the site's order: Common, then [`PassId::tab_order`]; a pass's stages behind it.
+    /// Every tab there is: Common, then passes as they are drawn; a pass's stages behind it.
     pub fn tabs(&self) -> Vec<Tab> {
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
-        ids.sort_by(PassId::tab_order);
+        ids.sort_by(PassId::drawing_order);
         let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
         for id in ids {
             let stages = self.pass(&id).and_then(|p| p.settings.meshes()).map_or(&[][..], |g| &g.stages);

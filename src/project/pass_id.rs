@@ -52,7 +52,7 @@ impl PassId {
     }
 
     /// The rule for buffers' names, as a message says it.
-    pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
+    pub const NAMES: &str = "use letters, digits, _, - and spaces, at most 64 of them";
 
     /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become
     /// parts of files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than

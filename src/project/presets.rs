@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn an_unknown_preset_says_what_there_is() {
         let error = load("no-such-preset").unwrap_err().to_string();
-        assert!(error.contains("neither a file, a folder nor a preset"), "{error}");
+        assert!(error.contains("not a file, a folder or a preset"), "{error}");
         for name in names() {
             assert!(error.contains(name));
         }

@@ -78,7 +78,7 @@ impl Writes {
             return refuse(format!("{part} is the name of a device on Windows; rename the file"));
         }
         if !is_text(&name) && !is_media(&name) {
-            return refuse("no file of a project ends so; rename it, for instance to end in .glsl".into());
+            return refuse("a project cannot have a file with this extension; rename it, for example to .glsl".into());
         }
         Ok(name)
     }
@@ -153,7 +153,7 @@ pub fn check_within(folder: &Path, name: &str) -> io::Result<()> {
     match fs::metadata(&path) {
         Ok(there) if !there.is_file() => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
-            format!("{name} is there and is no regular file; remove it, or choose another folder"),
+            format!("{name} exists and is not a regular file; remove it, or choose another folder"),
         )),
         _ => Ok(()),
     }
@@ -177,7 +177,7 @@ fn stays_within(folder: &Path, path: &Path) -> Result<(), ProjectError> {
             Err(ProjectError::Unwritable { path: path.to_owned(), why })
         }
         Err(_) => {
-            let why = format!("{} is a link that leads nowhere; remove it", there.display());
+            let why = format!("{} is a broken link; remove it", there.display());
             Err(ProjectError::Unwritable { path: path.to_owned(), why })
         }
     }

@@ -80,7 +80,7 @@ impl Session {
             None => return,
             Some(Ok(done)) => self.analyst.newest = Some(Arc::new(done)),
             // The editor does without; the compiler will say so aloud if it stumbles as well.
-            Some(Err(panicked)) => log::error!("this is a bug in Eddy: the analysis gave up ({})", panicked.0),
+            Some(Err(panicked)) => log::error!("this is a bug in Eddy: the analysis failed ({})", panicked.0),
         }
         self.changed = true;
     }

@@ -83,9 +83,13 @@ impl Session {
                 }
             }
             Command::ResetCustomUniforms => {
+                let before = self.project().custom_uniform_values.clone();
                 let project = self.documents.current_mut();
                 for custom_uniform in project.custom_uniforms().list {
                     project.custom_uniform_values.remove(&custom_uniform.name);
+                }
+                if self.project().custom_uniform_values != before {
+                    self.passes.push_uniforms(before, None);
                 }
                 self.custom_uniforms_turned();
             }
@@ -207,6 +211,7 @@ impl Session {
 
     fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
         let Some(custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
+        let before = self.project().custom_uniform_values.clone();
         let project = self.documents.current_mut();
         match value {
             None => drop(project.custom_uniform_values.remove(name)),
@@ -214,6 +219,9 @@ impl Session {
                 let within = custom_uniform.value(&CustomUniformValues::from([(name.to_owned(), value)]));
                 project.turn_custom_uniform(&custom_uniform, within);
             }
+        }
+        if self.project().custom_uniform_values != before {
+            self.passes.push_uniforms(before, Some(name));
         }
         self.custom_uniforms_turned();
     }
@@ -258,7 +266,7 @@ impl Session {
             self.canvas.scale = scale;
             self.canvas.refused = None;
         } else {
-            self.notice(Level::Error, format!("a resolution scale of {scale} draws nothing; it must be above 0"));
+            self.notice(Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
     }
 

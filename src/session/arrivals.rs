@@ -46,7 +46,8 @@ impl Session {
         if let Some(first) = projects.first() {
             let parts = project::folder_of_parts(&projects);
             if projects.len() > 1 && parts.is_none() {
-                let text = format!("{} was opened; the other projects were not, as one is open at a time", name(first));
+                let text =
+                    format!("{} was opened; the other projects were skipped, as only one can be open", name(first));
                 self.notice(Level::Info, text);
             }
             let place = parts.unwrap_or(first).display().to_string();
@@ -97,7 +98,7 @@ impl Session {
         for picture in pictures {
             let Some(n) = wanted.take().or_else(|| project.free_channel(pass)) else {
                 said.push(format!(
-                    "all four channels of {} read something; drop {} on the one that it shall replace",
+                    "all four channels of {} are in use; drop {} on the one to replace",
                     pass.title(),
                     name(picture)
                 ));
@@ -108,7 +109,7 @@ impl Session {
         }
         for model in models {
             let Some(id) = project.add_model(model, measured(model)) else {
-                said.push(format!("{} was left out: a project has no more passes", name(model)));
+                said.push(format!("{} was left out: the project has the maximum number of passes", name(model)));
                 continue;
             };
             said.push(format!("{} draws {}", id.title(), name(model)));
@@ -117,7 +118,7 @@ impl Session {
                     project.read_buffer(&PassId::Image, n, &id);
                     said.push(reads(project, &PassId::Image, n, &id.title()));
                 }
-                None => said.push("all four channels of Image read something else".into()),
+                None => said.push("all four channels of Image are in use".into()),
             }
         }
         project::bring_home(project, folder.as_deref());
@@ -129,12 +130,16 @@ impl Session {
             let name = name(path);
             match project::kind_of_file(path) {
                 FileKind::SoundOrVideo => {
-                    self.notice(Level::Warning, format!("{name}: Eddy's channels read no sound and no video yet"));
+                    self.notice(
+                        Level::Warning,
+                        format!("{name}: Eddy does not support sound and video in channels yet"),
+                    );
                 }
                 FileKind::Unknown => {
-                    let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads a \
-                                 picture (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, obj)";
-                    self.notice(Level::Warning, format!("{name} is nothing that Eddy opens: {known}"));
+                    let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
+                                 image file (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, \
+                                 obj)";
+                    self.notice(Level::Warning, format!("{name} is not a file Eddy can open: {known}"));
                 }
                 FileKind::Project | FileKind::Picture | FileKind::Model => {}
             }

@@ -102,13 +102,13 @@ impl Auditing {
     pub fn take(&mut self) -> Option<Result<Told, String>> {
         Some(match self.worker.take()? {
             Ok(told) => told,
-            Err(Panicked(why)) => Err(format!("this is a bug in Eddy: the walker gave up ({why})")),
+            Err(Panicked(why)) => Err(format!("this is a bug in Eddy: the CPU interpreter failed ({why})")),
         })
     }
 }
 
 fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, String> {
-    let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass has gone")?;
+    let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass was removed")?;
     let pixels = audit::grid(PIXELS, &project.passes[index].settings, inputs.size);
     let found = audit::audit(&Sources::new(&project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
     let stored = project.passes[index].settings.format.components();
@@ -146,14 +146,14 @@ fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {
         Class::Rounding | Class::Decided => Severity::Note,
     };
     let ((x, y), count) = (finding.pixel, audit.pixels.len());
-    let mut hint = format!("in {} of {count} pixels, as {x},{y}", finding.pixels);
+    let mut hint = format!("in {} of {count} pixels, for example {x},{y}", finding.pixels);
     if finding.is_constant() {
         hint.clone_from(&finding.numbers);
     } else if !finding.numbers.is_empty() {
         hint = format!("{}, {hint}", finding.numbers);
     }
     if let Some((error, left)) = finding.error {
-        hint = format!("{hint}; its error of {error:.1e} would be {left:.1e} were this exact");
+        hint = format!("{hint}; the error of {error:.1e} would be {left:.1e} if this were exact");
     }
     Diagnostic::new(severity, finding.span, finding.kind.message()).hint(hint)
 }

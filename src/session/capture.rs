@@ -38,7 +38,7 @@ impl Format {
 pub enum CaptureError {
     #[error("cannot write {}: {source}", path.display())]
     Io { path: PathBuf, source: io::Error },
-    #[error("{} already holds every number up to {NAME_LIMIT} of {stem}; move some away", folder.display())]
+    #[error("{} already has all numbers up to {NAME_LIMIT} for {stem}; move some files away", folder.display())]
     NoNameLeft { folder: PathBuf, stem: String },
 }
 

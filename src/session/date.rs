@@ -21,7 +21,7 @@ pub fn parse(text: &str) -> Result<DateTime, DateError> {
 
 /// `--date` is no date.
 #[derive(Debug, thiserror::Error)]
-#[error("{text:?} is no date and time ({reason}); write it as 2024-02-29 or 2024-02-29T13:45:00")]
+#[error("{text:?} is not a date and time ({reason}); write it as 2024-02-29 or 2024-02-29T13:45:00")]
 pub struct DateError {
     text: String,
     reason: String,

@@ -215,7 +215,8 @@ impl Session {
     fn look_through(&mut self, replay: Option<Replay>) {
         self.changed = true;
         let (Some(replay), Some(project)) = (replay, self.drawing.project().cloned()) else {
-            self.searching.failed("no frames are kept: the buffers are too large for that, or nothing is drawn yet");
+            self.searching
+                .failed("no earlier frames are kept: the buffers are too large, or nothing has been drawn yet");
             return;
         };
         match self.drawing.device().wait() {
@@ -237,7 +238,7 @@ impl Session {
         self.changed = true;
         let Some(traced) = self.tracing.finding.of() else { return };
         let Some(replay) = replay else {
-            self.tracing.finding.failed("no frames are kept: the buffers are too large for that");
+            self.tracing.finding.failed("no earlier frames are kept: the buffers are too large");
             return;
         };
         match self.drawing.device().wait() {
@@ -258,7 +259,7 @@ impl Session {
     fn compare(&mut self, run: Run) {
         self.changed = true;
         let Some(project) = self.drawing.project().cloned() else {
-            self.comparing.failed("nothing is drawn yet");
+            self.comparing.failed("nothing has been drawn yet");
             return;
         };
         match self.drawing.device().wait() {
@@ -348,7 +349,7 @@ impl Session {
         } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
             self.notice(
                 Level::Error,
-                format!("{error}. Your texts are all here: save them, then start Eddy again to go on drawing"),
+                format!("{error}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
             );
         }
     }
@@ -388,7 +389,7 @@ impl Session {
         let pixels = match pixels {
             Ok(pixels) => pixels,
             Err(e) => {
-                self.notice(Level::Error, format!("no picture was saved: {e}"));
+                self.notice(Level::Error, format!("cannot save the screenshot: {e}"));
                 return;
             }
         };

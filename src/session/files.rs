@@ -26,7 +26,7 @@ impl Session {
             Command::Answer(answer) => self.answer(answer),
             // A front end shows nothing else while a question stands; a script may still try.
             _ if self.question().is_some() => {
-                self.notice(Level::Warning, "answer the question that stands first");
+                self.notice(Level::Warning, "answer the open question first");
             }
             Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
             Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
@@ -87,7 +87,7 @@ impl Session {
                 self.replace(Documents::new(loaded.project));
                 self.note_reading(&loaded.warnings, &loaded.sources);
             }
-            Err(e) => self.notice(Level::Error, format!("{spec} was not opened: {e}")),
+            Err(e) => self.notice(Level::Error, format!("cannot open {spec}: {e}")),
         }
     }
 
@@ -171,7 +171,7 @@ impl Session {
         }
         self.settle_includes();
         if !self.is_dirty() {
-            self.notice(Level::Info, "nothing to save: the disk holds the same");
+            self.notice(Level::Info, "nothing to save: the files are up to date");
             return true;
         }
         match project::save(self.project(), &home, Overwrite::Refuse) {
@@ -241,7 +241,7 @@ impl Session {
 
     fn save_failed(&mut self, error: &ProjectError) {
         self.dialog.after_save = None;
-        self.notice(Level::Error, format!("not saved: {error}; your changes are still here"));
+        self.notice(Level::Error, format!("not saved: {error}; your changes are still open here"));
     }
 
     fn saved(&mut self, project: Project) {
@@ -323,7 +323,7 @@ impl Session {
             }
             self.after_reload();
         }
-        self.notice(Level::Info, format!("the other text is kept in {}", kept.display()));
+        self.notice(Level::Info, format!("the other version is kept in {}", kept.display()));
         Ok(())
     }
 

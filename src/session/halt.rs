@@ -51,15 +51,15 @@ impl Session {
             }
             self.start_anew();
             let is_good = self.fall_back(&format!(
-                "a frame of this code did not come back within {secs} s, and the device that drew it was given up; \
-                 change the code, or compile it again to try once more"
+                "a frame of this code did not finish within {secs} s, and its GPU device was dropped; change the \
+                 code, or compile again to retry"
             ));
             self.end_halt_of_frame();
             let what =
-                if is_good { "a fresh one draws the last good code" } else { "a fresh one waits for your next edit" };
+                if is_good { "a new device draws the last good code" } else { "a new device waits for your next edit" };
             self.notice(
                 Level::Error,
-                format!("the device did not come back from a frame within {secs} s: {what}. Your text is untouched"),
+                format!("the GPU did not finish a frame within {secs} s: {what}. Your text is unchanged"),
             );
         }
     }
@@ -109,14 +109,20 @@ impl Session {
     fn start_anew(&mut self) {
         if let Err(e) = self.drawing.start_anew(self.now) {
             self.run.is_device_lost = true;
-            self.notice(Level::Error, format!("no thread for drawing: {e}. Save your texts and start Eddy again"));
+            self.notice(
+                Level::Error,
+                format!("cannot start a thread for drawing: {e}. Save your texts and restart Eddy"),
+            );
             return;
         }
         let work = compile::work(self.drawing.device(), &self.options, self.compile.jobs.clone());
         match Worker::new("compile", self.wake.clone(), work) {
             // The old one may wait for the device.
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),
-            Err(e) => self.notice(Level::Error, format!("no thread for compiling: {e}. Save your texts")),
+            Err(e) => self.notice(
+                Level::Error,
+                format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy"),
+            ),
         }
         self.compile.newest_since = None;
         // Its buffers begin anew, and so must what they go by.
@@ -138,18 +144,18 @@ impl Session {
             self.run.is_device_lost = true;
             self.notice(
                 Level::Error,
-                format!("{why}. Your texts are all here: save them, then start Eddy again to go on drawing"),
+                format!("{why}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
             );
             return;
         }
         self.start_anew();
         if self.halting.is_new {
-            self.fall_back(&format!("the device was lost in the first frame of this code ({why})"));
+            self.fall_back(&format!("the GPU device was lost in the first frame of this code ({why})"));
         } else {
             self.compile_soon();
         }
         self.end_halt_of_frame();
-        self.notice(Level::Error, format!("{why}. A fresh device goes on; your texts are untouched"));
+        self.notice(Level::Error, format!("{why}. Drawing continues on a new device; your texts are unchanged"));
     }
 
     fn halt_with(&mut self, halt: Halt) {
@@ -257,8 +263,8 @@ impl Session {
             self.drawing.drop_program();
         }
         self.fall_back(&format!(
-            "a frame of this code takes longer than {limit} s: the picture is of the code before it; change the code, \
-             or compile it again to try once more"
+            "a frame of this code takes longer than {limit} s: the picture shows the previous code; change the \
+             code, or compile again to retry"
         ));
         self.resume();
     }

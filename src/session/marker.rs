@@ -39,7 +39,7 @@ impl Marker {
         if let Some(file) = self.written.take()
             && let Err(e) = fs::remove_file(&file)
         {
-            log::warn!("cannot remove {}, which says that a project froze: {e}", file.display());
+            log::warn!("cannot remove {}, the marker of a frozen project: {e}", file.display());
         }
     }
 

@@ -33,7 +33,7 @@ impl Session {
             return None;
         }
         let known = reason(pass, self.drawing.costs()).unwrap_or_else(|| "not drawn".to_owned());
-        let mend = format!("let a pass that is drawn read it, or show {} in place of the picture", pass.title());
+        let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
         Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
     }
 
@@ -47,7 +47,7 @@ impl Session {
     pub(super) fn save_measures(&mut self) {
         let measures = self.run.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
-            self.notice(Level::Warning, "nothing has been measured yet; nothing was saved");
+            self.notice(Level::Warning, "nothing to save: nothing has been measured yet");
             return;
         }
         let project = self.documents.current();

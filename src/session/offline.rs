@@ -200,15 +200,15 @@ pub fn change(engine: &mut Engine, change: &Change) -> Result<(), EngineError> {
 pub enum OfflineError {
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("frame {frame} was not drawn within {} s and was given up: draw fewer pixels, make the code do less, or \
-             give it more time by --frame-timeout", limit.as_secs_f64())]
+    #[error("frame {frame} was stopped after {} s: lower the resolution, simplify the code, or give it more time \
+             with --frame-timeout", limit.as_secs_f64())]
     TimedOut { frame: i32, limit: Duration },
-    #[error("no thread for drawing: {0}")]
+    #[error("cannot start a thread for drawing: {0}")]
     Thread(std::io::Error),
 }
 
 fn gone() -> EngineError {
-    GpuError::Lost("a frame was given up before".into()).into()
+    GpuError::Lost("an earlier frame was stopped".into()).into()
 }
 
 fn millis_since(began: Instant) -> f64 {

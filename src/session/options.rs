@@ -56,9 +56,9 @@ impl Default for SessionOptions {
 pub enum SessionError {
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("no thread for compiling: {0}")]
+    #[error("cannot start a thread for compiling: {0}")]
     Thread(std::io::Error),
-    #[error("no thread for drawing: {0}")]
+    #[error("cannot start a thread for drawing: {0}")]
     DrawingThread(std::io::Error),
 }
 

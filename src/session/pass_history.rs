@@ -1,6 +1,6 @@
-//! Steps back from edits of passes and channels, and forth again.
+//! Steps back from edits of passes, channels and uniforms, and forth again.
 
-use crate::project::{PassEdit, PassId, Project};
+use crate::project::{CustomUniformValues, PassEdit, PassId, Project};
 use std::time::{Duration, Instant};
 
 /// Steps that are kept; each is a project whose texts are shared with the next.
@@ -17,13 +17,21 @@ pub(super) struct PassHistory {
     serial: u64,
 }
 
+/// The other side of a step.
+#[derive(Clone, Debug)]
+pub(super) enum Side {
+    /// The project on the other side of the step.
+    Passes(Box<Project>),
+    /// The values of uniforms there, and the uniform that was turned; `None`: several.
+    Uniforms(CustomUniformValues, Option<String>),
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct Step {
     pub serial: u64,
     /// The title that a menu says behind "Undo".
     pub title: String,
-    /// The project on the other side of the step.
-    pub project: Project,
+    pub side: Side,
     /// A pass has another name here than on the other side: there, here.
     pub renamed: Option<(PassId, PassId)>,
     pub edit: Option<PassEdit>,
@@ -55,8 +63,34 @@ impl PassHistory {
             last.at = at;
             return;
         }
+        self.add(title, Side::Passes(Box::new(before)), renamed, edit, at);
+    }
+
+    /// Notes that a uniform was turned, or several at once. One that is being dragged makes one step.
+    pub fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>) {
+        let at = Instant::now();
+        self.redo.clear();
+        if let Some(last) = self.undo.last_mut()
+            && matches!(&last.side, Side::Uniforms(_, Some(turned)) if Some(turned.as_str()) == name)
+            && at.saturating_duration_since(last.at) < PAUSE
+        {
+            last.at = at;
+            return;
+        }
+        let title = name.map_or_else(|| "reset all uniforms".to_owned(), |name| format!("change {name}"));
+        self.add(title, Side::Uniforms(before, name.map(str::to_owned)), None, None, at);
+    }
+
+    fn add(
+        &mut self,
+        title: String,
+        side: Side,
+        renamed: Option<(PassId, PassId)>,
+        edit: Option<PassEdit>,
+        at: Instant,
+    ) {
         self.serial += 1;
-        self.undo.push(Step { serial: self.serial, title, project: before, renamed, edit, at });
+        self.undo.push(Step { serial: self.serial, title, side, renamed, edit, at });
         if self.undo.len() > STEPS {
             self.undo.remove(0);
         }

@@ -7,7 +7,7 @@
 use super::{
     Session,
     documents::Documents,
-    pass_history::{PassStep, Step},
+    pass_history::{PassStep, Side, Step},
     template,
     view::Level,
 };
@@ -96,16 +96,34 @@ impl Session {
 
     /// Goes to the other side of a step. Returns the way back.
     fn take_step(&mut self, step: Step) -> Step {
+        let project = match step.side {
+            Side::Passes(project) => *project,
+            Side::Uniforms(values, name) => {
+                let here = std::mem::replace(&mut self.documents.current_mut().custom_uniform_values, values);
+                self.custom_uniforms_turned();
+                self.changed = true;
+                let (serial, title, renamed) = (step.serial, step.title, None);
+                return Step {
+                    serial,
+                    title,
+                    side: Side::Uniforms(here, name),
+                    renamed,
+                    edit: None,
+                    at: Instant::now(),
+                };
+            }
+        };
         let here = self.project().clone();
         let there = step.renamed.as_ref().map(|(there, here)| (there.clone(), here.clone()));
-        let next = returned(&self.documents, step.project, there.as_ref());
+        let next = returned(&self.documents, project, there.as_ref());
         *self.documents.current_mut() = next;
         if let Some((there, here)) = &there {
             self.follow_rename(here, there);
         }
         self.passes_changed();
         let renamed = there.map(|(there, here)| (here, there));
-        Step { project: here, renamed, edit: None, at: Instant::now(), ..step }
+        let (serial, title) = (step.serial, step.title);
+        Step { serial, title, side: Side::Passes(Box::new(here)), renamed, edit: None, at: Instant::now() }
     }
 
     /// Lets what is known of a pass by its name go on under its new one.

@@ -36,15 +36,18 @@ impl Session {
         self.changed = true;
         let Told { pass, pixels, error, findings, map } = match told {
             Ok(told) => told,
-            Err(why) => return self.notice(Level::Warning, format!("the picture was not checked: {why}")),
+            Err(why) => return self.notice(Level::Warning, format!("cannot check the picture: {why}")),
         };
         let count = match findings.len() {
-            0 => "nothing is undefined, and no operation stands out".to_owned(),
+            0 => "no undefined behaviour and no operation with large errors".to_owned(),
             1 => "one finding is in the list of problems".to_owned(),
             n => format!("{n} findings are in the list of problems"),
         };
         let pass = pass.title();
-        let text = format!("{pass} is off double precision by {error:.1e} at most, of {pixels} pixels; {count}");
+        let text = format!(
+            "largest error of {pass} against double precision: {error:.1e} in {pixels} sampled \
+                            pixels; {count}"
+        );
         self.notice(Level::Info, text);
         self.compile.diagnostics.extend(findings);
         self.auditing.map = Some(map);
@@ -54,7 +57,7 @@ impl Session {
     pub(super) fn audit_failed(&mut self, why: &str) -> bool {
         let is_ours = self.auditing.taken().is_some();
         if is_ours {
-            self.notice(Level::Warning, format!("the picture was not checked: {why}"));
+            self.notice(Level::Warning, format!("cannot check the picture: {why}"));
         }
         is_ours
     }

@@ -102,6 +102,12 @@ impl Session {
         self.documents.is_tab_dirty(tab)
     }
 
+    /// Returns what differs from what is on disk, in words that people read: tabs by their titles, then passes, channels
+    /// and uniforms.
+    pub fn unsaved_parts(&self) -> Vec<String> {
+        self.documents.unsaved_parts()
+    }
+
     /// Anything at all differs from what is on disk: texts, passes, channels.
     pub fn is_dirty(&self) -> bool {
         self.documents.is_dirty()

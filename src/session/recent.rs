@@ -14,7 +14,7 @@ use std::{
 const NAME: &str = "projects.toml";
 /// The largest number of them, more than anybody looks through; the file is read and written whole.
 const MOST: usize = 500;
-const HEADER: &str = "# The projects that were open in Eddy, the newest first, and where their time stood.\n\n";
+const HEADER: &str = "# Recently opened projects, newest first, with their last time.\n\n";
 
 /// A project that was open before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,7 +97,10 @@ impl Recent {
         let file: File = toml::from_str(&text).map_err(|e| {
             let line = 1 + text[..e.span().map_or(0, |s| s.start)].matches('\n').count();
             let what = e.message();
-            format!("{}:{line}: {what}. Mend or delete it: no project is remembered until then", path.display())
+            format!(
+                "{}:{line}: {what}. Fix or delete the file: recent projects are not remembered until then",
+                path.display()
+            )
         })?;
         self.list = file.projects;
         Ok(())

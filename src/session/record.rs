@@ -25,7 +25,7 @@ impl Session {
         let Some(Recorder { recording, .. }) = self.run.recorder.take() else { return };
         let frames = recording.frames.len();
         if frames == 0 {
-            self.notice(Level::Warning, "no frame was drawn while the input was recorded; nothing was saved");
+            self.notice(Level::Warning, "nothing to save: no frame was drawn during the recording");
             return;
         }
         let project = self.documents.current();

@@ -80,8 +80,8 @@ impl Session {
             recovery.adopt(shown.file);
         }
         self.compile.include_edits += 1;
-        let placeless = shown.trouble.map(|why| format!(" It has no place any more: {why}")).unwrap_or_default();
-        self.notice(Level::Info, format!("recovered {}, paused and not saved yet.{placeless}", shown.name));
+        let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
+        self.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
         self.put_off_all();
     }
 
@@ -90,10 +90,10 @@ impl Session {
         let others: Vec<PathBuf> = self.safekeeping.found.iter().map(|left| left.shown.file.clone()).collect();
         let some = match others.len() {
             0 => return,
-            1 => "another project's unsaved work was left behind, too".to_owned(),
-            n => format!("the unsaved work of {n} other projects was left behind, too"),
+            1 => "there is unsaved work of another project too".to_owned(),
+            n => format!("there is unsaved work of {n} other projects too"),
         };
-        self.notice(Level::Info, format!("{some}; the next start asks about it again"));
+        self.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
         others.iter().for_each(|file| self.put_off(file));
         self.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
     }

@@ -41,7 +41,7 @@ impl Session {
                 self.disk.unsettled_since = None;
                 self.tell_gone();
                 if self.disk.told.as_ref() != Some(&why) {
-                    self.notice(Level::Warning, format!("{why}\nThe texts and the picture here stay as they are"));
+                    self.notice(Level::Warning, format!("{why}\nThe texts and the picture here are unchanged"));
                     self.disk.told = Some(why);
                 }
             }
@@ -75,7 +75,7 @@ impl Session {
                     && !self.documents.is_missing(&tab)
                     && known.path.as_ref().is_some_and(|p| !p.exists()) =>
                 {
-                    return Some(OnDisk::Unusable(format!("{} is gone", known.name)));
+                    return Some(OnDisk::Unusable(format!("{} was removed", known.name)));
                 }
                 None => {}
             }
@@ -196,8 +196,8 @@ impl Session {
                 self.notice(
                     Level::Error,
                     format!(
-                        "not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, \
-                    or save to another folder"
+                        "not saved: the files have changed on disk and cannot be read. {why}\nFix them, or save to \
+                         another folder"
                     ),
                 );
                 false
@@ -229,10 +229,10 @@ impl Session {
             Ok((watch, failed)) => {
                 self.disk.watch = Some(watch);
                 for (folder, error) in failed {
-                    self.notice(Level::Warning, format!("changes in {} will go unseen: {error}", folder.display()));
+                    self.notice(Level::Warning, format!("cannot watch {} for changes: {error}", folder.display()));
                 }
             }
-            Err(e) => self.notice(Level::Warning, format!("changes on disk will go unseen: {e}")),
+            Err(e) => self.notice(Level::Warning, format!("cannot watch files for changes: {e}")),
         }
     }
 }

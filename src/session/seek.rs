@@ -123,9 +123,9 @@ impl Session {
             None => {
                 self.run.seeking.cancel();
                 let text = match self.drawing.reach().back {
-                    0 => "there is no earlier frame to go back to: an edit, a reset or another size begins anew"
+                    0 => "there is no earlier frame: an edit, a reset or a change of resolution restarts at frame 0"
                         .to_owned(),
-                    back => format!("that frame is out of reach: one can go back {back} frames"),
+                    back => format!("that frame is out of reach: you can go back {back} frames"),
                 };
                 self.notice(Level::Warning, text);
             }
@@ -161,7 +161,7 @@ impl Session {
         if !reach.is_whole {
             self.notice(
                 Level::Info,
-                "not all is kept that was drawn since the last reset: reset it once, and an edit draws the same frame",
+                "not all frames since the last reset are kept: reset once, then edits replay to the same frame",
             );
             return;
         }

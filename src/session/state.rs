@@ -291,7 +291,7 @@ impl Session {
         };
         match Safekeeping::new(session.options.recovery.clone(), &session.wake) {
             Ok(safekeeping) => session.safekeeping = safekeeping,
-            Err(e) => session.notice(Level::Warning, format!("unsaved work is not safe from a crash: {e}")),
+            Err(e) => session.notice(Level::Warning, format!("unsaved work is not protected against a crash: {e}")),
         }
         if let Some(why) = forgotten {
             session.notice(Level::Warning, why);

@@ -1,7 +1,8 @@
 //! The structure of a project is all that is not text: passes, channels, settings, names. It is compared without a
 //! copy, as the window asks in each frame.
 
-use crate::project::{Geometry, Pass, PassBody, PassSettings, Project};
+use crate::project::{Geometry, Pass, PassBody, PassSettings, Project, listed};
+use std::collections::BTreeSet;
 
 /// Returns whether two projects are the same but for their texts and their places on disk.
 pub(super) fn is_same(a: &Project, b: &Project) -> bool {
@@ -15,6 +16,38 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
         && *sampler_rules == b.sampler_rules
         && *groups == b.groups
         && *custom_uniform_values == b.custom_uniform_values
+}
+
+/// Returns what differs but the texts, in words that follow "Unsaved changes: ".
+pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut say = |differs: bool, what: &str| {
+        if differs {
+            found.push(what.to_owned());
+        }
+    };
+    say(now.name != saved.name, "the project's name");
+    say(now.info != saved.info, "the project's description");
+    let ids = |p: &Project| p.passes.iter().map(|pass| pass.id.clone()).collect::<Vec<_>>();
+    let is_common_same = now.common.is_some() == saved.common.is_some();
+    say(ids(now) != ids(saved) || !is_common_same, "the list of passes");
+    say(now.groups != saved.groups, "steps of passes");
+    say(now.sampler_rules != saved.sampler_rules, "sampler rules");
+    for pass in &now.passes {
+        let Some(before) = saved.pass(&pass.id) else { continue };
+        say(pass.channels != before.channels, &format!("channels of {}", pass.id.title()));
+        say(!is_same_setting(&pass.settings, &before.settings), &format!("settings of {}", pass.id.title()));
+    }
+    let (values, before) = (&now.custom_uniform_values, &saved.custom_uniform_values);
+    let names: BTreeSet<&String> = values.keys().chain(before.keys()).collect();
+    let turned: Vec<String> =
+        names.into_iter().filter(|name| values.get(*name) != before.get(*name)).cloned().collect();
+    match &turned[..] {
+        [] => {}
+        names if names.len() <= 3 => found.push(format!("uniform {}", listed(names))),
+        names => found.push(format!("{} uniforms", names.len())),
+    }
+    found
 }
 
 /// Returns whether two projects of one structure have the same texts.

@@ -4,7 +4,7 @@ use super::documents::insert_pass;
 use crate::project::{Origin, Pass, PassId, Project, Source, Tab, limits};
 
 const IMAGE: &str = "\
-// fragCoord: pixels from the bottom left.  iResolution, iTime, iMouse, iChannel0 to 3 are there to be read.
+// fragCoord: pixels from the bottom left. Inputs: iResolution, iTime, iMouse, iChannel0 to iChannel3.
 void mainImage(out vec4 fragColor, in vec2 fragCoord)
 {
     vec2 p = (2.0 * fragCoord - iResolution.xy) / iResolution.y;
@@ -15,7 +15,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord)
 ";
 
 const BUFFER: &str = "\
-// What is written here is kept as four floats a pixel and can be read by any pass.
+// The result is stored as four floats per pixel; any pass can read it.
 void mainImage(out vec4 fragColor, in vec2 fragCoord)
 {
     fragColor = vec4(0.0);
@@ -39,7 +39,7 @@ vec2 mainSound(int samp, float time)
 ";
 
 const COMMON: &str = "\
-// Text put before every pass.
+// Shared code, inserted before every pass.
 ";
 
 /// A project of one Image pass, nowhere on disk.

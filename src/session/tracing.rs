@@ -106,7 +106,9 @@ impl Tracing {
             Some(_) if self.place.is_none() => {}
             Some(Ok(Ok(traced))) => (self.newest, self.trouble) = (Some(Arc::new(traced)), None),
             Some(Ok(Err(why))) => self.failed(why),
-            Some(Err(Panicked(why))) => self.failed(format!("this is a bug in Eddy: the walker gave up ({why})")),
+            Some(Err(Panicked(why))) => {
+                self.failed(format!("this is a bug in Eddy: the CPU interpreter failed ({why})"))
+            }
         }
         true
     }

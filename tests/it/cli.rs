@@ -13,14 +13,14 @@ fn usage_errors_are_2_and_say_how_it_is_written() {
     for (line, says) in [
         ("render", "<PROJECT>"),
         ("render a.glsl", "--out"),
-        ("render a.glsl --out o --size 0x0", "a size of 0 holds no pixel"),
+        ("render a.glsl --out o --size 0x0", "a size must be at least 1"),
         ("render a.glsl --out o --size 64", "640x360"),
         ("render a.glsl --out o --frames 0", "--frames"),
         ("render a.glsl --out o --frames 3 --at 3", "the last frame is 2"),
-        ("render a.glsl --out o.exr", "it writes png and npy"),
+        ("render a.glsl --out o.exr", "use png or npy"),
         ("render a.glsl --out o.png --format npy", "do not agree"),
         ("render a.glsl x/a.glsl --out o", "would both be written"),
-        ("render a.glsl fluid --out o.png", "name a folder"),
+        ("render a.glsl fluid --out o.png", "give a folder"),
         ("render a.glsl --out o --mouse 0:press", "--mouse"),
         ("render a.glsl --out o --keys 0:down,999", "--keys"),
         ("render a.glsl --out o --date yesterday", "--date"),
@@ -263,12 +263,12 @@ fn uniforms_are_set_on_the_command_line_and_become_constants_of_an_export() {
     let check = b.line("check p").expect(0);
     assert!(check.err.contains("eddy.toml:4:1") && check.err.contains("did you mean red?"), "{}", check.err);
     let exported = b.line("export p --out p.json").expect(0);
-    assert!(exported.out.contains("red is a constant there"), "{}", exported.out);
+    assert!(exported.out.contains("red becomes a constant"), "{}", exported.out);
     assert!(String::from_utf8(b.bytes("p.json")).unwrap().contains("const float red = 0.4;\\n// #iUniform float red"));
     b.line("check p.json").expect(0);
     for (args, says) in [
         ("rde=1", "did you mean red?"),
-        ("red=2", "outside of its range, 0.0 to 1.0"),
+        ("red=2", "outside its range, 0.0 to 1.0"),
         ("red=1,2", "is a float and takes a number"),
         ("red", "viscosity=0.3"),
     ] {

@@ -159,9 +159,9 @@ fn a_strangers_repository_is_refused_by_what_it_asks_for() {
     let blob = git::object(&root, Kind::Blob, b"payload");
     let gone = "0123456789012345678901234567890123456789".parse().unwrap();
     for (name, id, says) in [
-        (evil.to_str().unwrap(), blob, "which no file of a project has"),
-        ("../../evil.glsl", blob, "which no file of a project has"),
-        ("gone.glsl", gone, "the clone is partial, and Eddy fetches nothing"),
+        (evil.to_str().unwrap(), blob, "which is not a valid file name for a project"),
+        ("../../evil.glsl", blob, "which is not a valid file name for a project"),
+        ("gone.glsl", gone, "the clone is partial, and Eddy does not fetch"),
     ] {
         let tree = git::object(&root, Kind::Tree, &git::entry("100644", name, id));
         git::commit(&root, tree);
@@ -197,7 +197,7 @@ fn a_recording_gives_every_frame_what_it_had() {
     for (line, says) in [
         ("render p --replay run.replay --frames 4 --json", "3 were recorded"),
         ("render p --replay run.replay --size 8x8 --json", "cannot be used with"),
-        ("render p --replay p/image.glsl --json", "no recording of Eddy's"),
+        ("render p --replay p/image.glsl --json", "not an Eddy recording"),
         ("render p --replay none.replay --json", "cannot read none.replay"),
     ] {
         let run = b.line(line).expect(2);
@@ -240,7 +240,7 @@ fn no_command_draws_more_frames_than_were_recorded() {
         "lab precision p --frames 4",
     ] {
         let run = b.line(&format!("{line} --replay run.replay")).expect(2);
-        assert!(run.err.contains("frames are asked for, and 3 were recorded"), "{line}: {}", run.err);
+        assert!(run.err.contains("frames were requested, but only 3 were recorded"), "{line}: {}", run.err);
     }
 }
 
@@ -286,7 +286,7 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
     assert_eq!(born["numbers"], "-0.5");
     let words = b.line("trace p --nonfinite --frame 60 --size 8x6").expect(0).out;
     assert!(
-        words.contains("buffer_b, frame 40, texel 3,2") && words.contains("buffer_b.glsl:3:14: NaN is born here"),
+        words.contains("buffer_b, frame 40, texel 3,2") && words.contains("buffer_b.glsl:3:14: first NaN here"),
         "{words}"
     );
     let none = b.line("trace p --nonfinite --frame 39 --size 8x6 --json").expect(0);

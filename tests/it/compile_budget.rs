@@ -231,7 +231,7 @@ fn functions_that_double_are_an_error_at_their_line() {
     ] {
         let errors = compile(&text).expect_err("no driver takes a billion copies");
         assert_eq!(errors.len(), 1, "{errors:?}");
-        assert!(errors[0].message.contains("with all calls written out"), "{}", errors[0].message);
+        assert!(errors[0].message.contains("with all calls inlined"), "{}", errors[0].message);
         let span = errors[0].span.expect("a place");
         assert!(text[span.range()].starts_with('s'), "{span:?}");
         assert_eq!(glsl::diagnose(&PassSource::image(&text)), errors);

@@ -182,7 +182,7 @@ fn mistakes_are_told_at_their_line_of_the_manifest() {
         ("initial = \" \"", "initial is empty"),
         ("initial = { fil = \"a.npy\" }", "did you mean file?"),
         ("boundary = { width = 0, value = \"vec4(0)\" }", "width is an integer, not a whole number of texels above 0"),
-        ("boundary = { width = 2 }", "boundary does not say what its texels hold"),
+        ("boundary = { width = 2 }", "boundary has no value for its texels"),
         ("boundary = \"vec4(0)\"", "boundary is a string, not a table"),
         ("initail = \"vec4(0)\"", "did you mean initial?"),
     ] {

@@ -303,9 +303,9 @@ fn what_is_wrong_with_a_scene_is_said_and_nothing_panics() {
     let missing = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("no/where.glb"), draw("no/where.glb")]));
     let said = says(&missing);
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].starts_with("draw 0 of Buffer scene: no/where.glb is relative"), "{said:?}");
+    assert!(said[0].starts_with("draw 0 of Buffer scene: no/where.glb is a relative path"), "{said:?}");
     let unknown = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("builtin:knott")]));
-    assert_eq!(says(&unknown), ["draw 0 of Buffer scene: there is no mesh builtin:knott (did you mean builtin:knot?)"]);
+    assert_eq!(says(&unknown), ["draw 0 of Buffer scene: unknown mesh builtin:knott (did you mean builtin:knot?)"]);
 }
 
 /// Drivers that draw on the processor choose for a whole thread whether denormal numbers are zeros, and llvmpipe used

@@ -121,18 +121,18 @@ fn mistakes_in_the_file_are_told_at_their_place() {
         ("cull = \"none\"", "cul = \"none\"", "draw 0 has no key cul\n  --> eddy.toml:10:"),
         ("cull = \"none\"", "cull = \"bac\"", "unknown cull \"bac\""),
         ("cull = \"none\"", "normals = \"smoth\"", "unknown normals \"smoth\""),
-        ("cull = \"front\"", "normals = \"flat\"", "a mesh made by code has normals of its own"),
+        ("cull = \"front\"", "normals = \"flat\"", "a builtin mesh has its own normals"),
         ("cull = \"none\"", "depth = \"closer\"", "unknown depth \"closer\""),
-        ("mesh = \"models/tri.obj\", ", "", "draw 0 names no mesh"),
-        ("vertex = \"scene.vert.glsl\", ", "", "draw 0 names no vertex"),
+        ("mesh = \"models/tri.obj\", ", "", "draw 0 has no mesh"),
+        ("vertex = \"scene.vert.glsl\", ", "", "draw 0 has no vertex"),
         ("\"scene.vert.glsl\"", "\"scen.vert.glsl\"", "did you mean scene.vert.glsl?"),
-        ("\"rgba16f\"]", "\"rgba16\"]", "targets is an array, not a list of one to 4 formats"),
+        ("\"rgba16f\"]", "\"rgba16\"]", "targets is an array, not a list of one to 4 of the formats"),
         (camera, "camera = { yow = 45 }", "did you mean yaw?"),
-        (camera, "camera = { near = 5, far = 1 }", "the far plane lies before the near plane"),
+        (camera, "camera = { near = 5, far = 1 }", "the far plane is in front of the near plane"),
         (camera, "camera = { pitch = 95 }", "pitch is an integer, not degrees from -89 to 89"),
-        (camera, "format = \"rgba8\"", "targets says the formats"),
+        (camera, "format = \"rgba8\"", "the formats of this pass are in targets"),
         (camera, "region = [0, 0, 1, 1]", "has no region"),
-        (camera, "file = \"image.glsl\"", "no draw uses the pass's own file"),
+        (camera, "file = \"image.glsl\"", "no draw uses this pass's own file"),
         ("scale = 2", "scale = 0", "scale is an integer, not a number above 0"),
         ("position = [0, 1.5, 0]", "position = [0, 1.5]", "three numbers"),
         ("target = 1", "target = 2", "reads target 2 of Buffer scene, which has targets 0 to 1"),
@@ -184,11 +184,15 @@ fn check_tells_of_both_stages_and_the_model_by_file_and_line() {
             "`vAt` is a `vec2` here and a `vec3` in the vertex",
         ),
         ("scene.frag.glsl", FRAGMENT.replace("vAt", "vAs"), "the vertex stage has no output `vAs`"),
-        ("scene.frag.glsl", FRAGMENT.replace("location = 1", "location = 2"), "is for target 2, and the pass has 2"),
-        ("scene.frag.glsl", FRAGMENT.replace("location = 1", "location = 0"), "are both for target 0"),
-        ("scene.frag.glsl", FRAGMENT.replace("layout(location = 1) ", ""), "must say which target"),
+        ("scene.frag.glsl", FRAGMENT.replace("location = 1", "location = 2"), "writes target 2, but the pass has 2"),
+        ("scene.frag.glsl", FRAGMENT.replace("location = 1", "location = 0"), "both write target 0"),
+        ("scene.frag.glsl", FRAGMENT.replace("layout(location = 1) ", ""), "needs a target number"),
         ("scene.frag.glsl", FRAGMENT.replace("void main()", "void mein()"), "this pass has no `main`"),
-        ("hull.vert.glsl", HULL.replace("gl_Position =", "discard; gl_Position ="), "`discard` is for fragments"),
+        (
+            "hull.vert.glsl",
+            HULL.replace("gl_Position =", "discard; gl_Position ="),
+            "`discard` works only in a fragment stage",
+        ),
         ("models/tri.obj", "v 1 2\nf 1".into(), "models/tri.obj is broken"),
     ] {
         write(&folder, &[(file, &text)]);
@@ -227,7 +231,7 @@ fn a_model_that_leaves_something_out_is_drawn_with_a_warning() {
     assert_eq!(red(TRIANGLE.as_bytes(), None), 51);
     let marked = format!("\u{feff}{TRIANGLE}");
     assert_eq!(red(marked.as_bytes(), None), 51, "a byte order mark is no part of the text");
-    let points = "draw 0 of Buffer scene: models/tri.obj: it holds no triangles";
+    let points = "draw 0 of Buffer scene: models/tri.obj: it has no triangles";
     assert_eq!(red(b"v 0 0 0\np 1\n", Some(points)), 0);
     let broken = format!("{TRIANGLE}v nan 0 0\nf 1 2 4\n");
     assert_eq!(red(broken.as_bytes(), Some("models/tri.obj: line 5: nan is not a number; faces")), 51);
@@ -239,7 +243,7 @@ fn the_sites_json_cannot_hold_a_scene() {
     write(&b.path("p"), &[]);
     let run = b.line("export p --out p.json").expect(2);
     let all = format!("{}{}", run.out, run.err);
-    assert!(all.contains("p.json cannot hold Buffer scene, which draws meshes: the site has no such pass"), "{all}");
+    assert!(all.contains("p.json cannot store Buffer scene, which draws meshes: Shadertoy has no such pass"), "{all}");
     assert!(!b.path("p.json").exists());
 }
 

@@ -253,6 +253,6 @@ fn the_command_says_what_left_and_ends_with_one() {
     assert!(code == Some(0) && said.contains("a slider at an end"), "{code:?} {said}");
     let (code, said) = eddy("rate", "buffer_z=-1..1");
     assert!(code == Some(2) && said.contains("buffer_z"), "{code:?} {said}");
-    let (code, said) = eddy("no such case", "buffer_a=-1..1");
-    assert!(code == Some(2) && said.contains("no such case"), "{code:?} {said}");
+    let (code, said) = eddy("no case has this text", "buffer_a=-1..1");
+    assert!(code == Some(2) && said.contains("no case has this text"), "{code:?} {said}");
 }

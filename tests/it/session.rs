@@ -174,7 +174,7 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
     let error = &stage.session.diagnostics()[0];
     assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
-    assert_eq!(stage.red(), 153, "the last good picture");
+    assert_eq!(stage.red(), 153, "the last working version");
     stage.session.apply(Command::Step);
     stage.tick();
     assert_eq!(stage.red(), 153, "and it still draws");
@@ -365,8 +365,8 @@ fn a_pass_that_vanishes_is_warned_of_and_the_picture_is_drawn_without_it() {
         stage.until_red(0);
         let said: Vec<&TabDiagnostic> = stage.session.diagnostics().iter().collect();
         assert_eq!(said.len(), 1, "{said:?}");
-        assert_eq!(said[0].message, "iChannel0 of Image reads Buffer A, which has no pass");
-        assert!(said[0].hints[0].contains("zeros"), "{said:?}");
+        assert_eq!(said[0].message, "iChannel0 of Image reads Buffer A, but the project has no such pass");
+        assert!(said[0].hints[0].contains("reads zero"), "{said:?}");
         assert!(matches!(stage.session.compile_state().last, Some(Outcome::Ok { warnings: 1, .. })));
     }
 }

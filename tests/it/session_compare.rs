@@ -130,7 +130,7 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     let wrong = compare(&mut stage, Against::Revision("v9".into())).unwrap_err();
     assert!(wrong.contains("git has no such revision") && wrong.contains("v9"), "{wrong}");
     let wrong = compare(&mut stage, Against::Project("nowhere".into())).unwrap_err();
-    assert!(wrong.starts_with("nowhere was not opened"), "{wrong}");
+    assert!(wrong.starts_with("cannot open nowhere"), "{wrong}");
     let broken = stage.dir.path().join("broken.glsl");
     fs::write(&broken, "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0) + lenght(p);\n}\n").unwrap();
     let wrong = compare(&mut stage, Against::Project(broken.display().to_string())).unwrap_err();

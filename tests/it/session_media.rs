@@ -69,7 +69,9 @@ fn a_model_that_is_a_pipe_or_names_one_opens_at_once_with_an_error() {
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
     stage.until("the pipe behind the model", |s| {
-        s.diagnostics().iter().any(|d| d.message.contains("m.gltf names a file: ") && d.message.contains("is a pipe"))
+        s.diagnostics()
+            .iter()
+            .any(|d| d.message.contains("m.gltf refers to a file: ") && d.message.contains("is a pipe"))
     });
 }
 
@@ -112,7 +114,7 @@ fn errors_without_a_line_are_counted() {
     stage.until_compiled();
     let one = Some(Outcome::Failed { errors: 1, meanwhile: Meanwhile::Nothing });
     assert_eq!(stage.session.compile_state().last, one, "{:?}", messages(&stage));
-    assert!(messages(&stage)[0].contains("accessor 77, and there are 0"), "{:?}", messages(&stage));
+    assert!(messages(&stage)[0].contains("accessor 77, but there are 0"), "{:?}", messages(&stage));
 
     // What the device refuses is an error of the list too.
     stage.write("eddy.toml", TOML);

@@ -110,7 +110,7 @@ fn a_value_of_another_shape_is_one_error_with_its_mend() {
         (
             "vec3 v[3]",
             "[[1, 2, 3], [4, 5, 6]]",
-            "is a `vec3[3]`, and its value in eddy.toml is not: 2 in brackets, not 3",
+            "is a `vec3[3]`, but its value in eddy.toml is not: 2 in brackets, not 3",
             "write v = [[1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 1.0]]",
         ),
         ("vec3 v[2]", "[[1, 2, 3], [4, 5]]", "[1] 2 in brackets, not 3", "write v = "),
@@ -118,9 +118,9 @@ fn a_value_of_another_shape_is_one_error_with_its_mend() {
         ("float v[64]", "[1, 2]", "2 in brackets, not 64", "write v = [1.0, 1.0, 1.0, 1.0, ...], 64 in all"),
         ("int v", "1.5", "1.5 is not a whole number", "write v = 1"),
         ("uint v", "-1", "-1 is not a whole number of 32 bits from 0", "write v = 1"),
-        ("float v", "1e39", "is not a number that a float holds", "write v = 1.0"),
+        ("float v", "1e39", "is not a number in the range of a float", "write v = 1.0"),
         ("bool v[2]", "[0, 1]", "[0] 0 is not true or false", "write v = [true, true]"),
-        ("vec2 v", "3", "3 stands where 2 in brackets belong", "write v = [1.0, 1.0]"),
+        ("vec2 v", "3", "found 3, expected 2 in brackets", "write v = [1.0, 1.0]"),
     ] {
         let toml = format!("[passes.image]\n[uniforms]\nv = {value}\n");
         let project = open(

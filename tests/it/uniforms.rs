@@ -95,12 +95,12 @@ fn what_is_wrong_with_a_declaration_is_told_at_its_line() {
     let Some(gpu) = gpu() else { return };
     let main = "\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
     for (line, message) in [
-        ("#iUniform float iTime", "no uniform can be called `iTime`: Shadertoy's header has a uniform of this name"),
-        ("#iUniform float mainImage", "no uniform can be called `mainImage`: it is the name of an entry point"),
+        ("#iUniform float iTime", "a uniform cannot be named `iTime`: Shadertoy's header has a uniform of this name"),
+        ("#iUniform float mainImage", "a uniform cannot be named `mainImage`: it is the name of an entry point"),
         ("#iUniform float smoothstep", "GLSL has a function of this name"),
-        ("#iUniform float input", "it is a word of GLSL's own"),
+        ("#iUniform float input", "it is a GLSL keyword"),
         ("#iUniform float a = 1.0 on", "expected `in`, `step` or the end of the line"),
-        ("#iUniform float a\nfloat a;", "`a` is already declared: an #iUniform line has it"),
+        ("#iUniform float a\nfloat a;", "`a` is already declared by an #iUniform line"),
         ("#iUniform float a\nvoid f() { a = 1.0; }", "`a` is a uniform and cannot be"),
     ] {
         let said = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));
@@ -156,6 +156,41 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
     stage.tick();
     assert_eq!(stage.red(), 128);
     assert_eq!(stage.notices(Level::Error), ["not set: no #iUniform line declares `rde` (did you mean red?)"]);
+}
+
+#[test]
+fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
+    let Some(gpu) = gpu() else { return };
+    let toml = "eddy = 1\n\n[passes.image]\n";
+    let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
+    assert_eq!(stage.session.unsaved_parts(), [""; 0]);
+    // A drag is many values and one step; another uniform is another step.
+    for red in [0.3, 0.5, 0.8] {
+        stage.session.apply(set("red", CustomUniformValue::Float(red)));
+    }
+    stage.session.apply(set("n", CustomUniformValue::Int(0)));
+    assert_eq!(stage.session.unsaved_parts(), ["uniform n and red"]);
+    let title = |stage: &Stage| stage.session.pass_undo().map(|step| step.title.to_owned());
+    assert_eq!(title(&stage).as_deref(), Some("change n"));
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), title(&stage).as_deref()), (204, Some("change red")));
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), stage.session.is_dirty(), title(&stage)), (51, false, None), "the whole drag is one step");
+    stage.session.apply(Command::RedoPassEdit);
+    stage.tick();
+    assert_eq!(stage.red(), 204);
+    stage.session.apply(Command::ResetCustomUniforms);
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!(stage.red(), 204, "resetting all is a step, too");
+    // Steps of passes lie in the same history, and each brings back its own.
+    stage.session.apply(Command::AddTab(eddy::project::Tab::Common));
+    assert_eq!(stage.session.unsaved_parts(), ["Common", "the list of passes", "uniform red"]);
+    stage.session.apply(Command::UndoPassEdit);
+    stage.tick();
+    assert_eq!((stage.red(), stage.session.unsaved_parts()), (204, vec!["uniform red".to_owned()]));
 }
 
 #[test]

@@ -68,7 +68,7 @@ void mainImage(out vec4 o, in vec2 p) {
     let short = trace::trace(&texts, 0, &read, (5, 1), Extent { steps: 3, ..Extent::default() }).unwrap();
     assert_eq!((short.steps.len(), short.left_out as usize), (3, trace.steps.len() - 3));
     let outside = trace::trace(&texts, 0, &read, (8, 0), Extent::default()).unwrap_err().to_string();
-    assert_eq!(outside, "pixel 8,0 is outside of the pass, which has 8 x 4 texels");
+    assert_eq!(outside, "pixel 8,0 is outside the pass, which has 8 x 4 texels");
     let endless = trace::trace(&texts, 0, &read, (0, 0), Extent { statements: 10, ..Extent::default() }).unwrap_err();
     assert!(endless.to_string().contains("--max-statements"), "{endless}");
 }
@@ -124,7 +124,9 @@ fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
     );
     assert_eq!((&kept["device"][0], &kept["initial"]["line"]), (&7.0.into(), &5.into()), "{kept}");
     assert!(
-        trace(8, 8, "").out.contains("6 x 6 texels from 2,2 on: the texel is not drawn and keeps what eddy.toml:5")
+        trace(8, 8, "")
+            .out
+            .contains("6 x 6 texels from 2,2: the texel is not drawn and keeps its initial state from eddy.toml:5")
     );
     let drawn = json(2, 7);
     assert!(drawn["boundary"].is_null() && drawn["outside"].is_null(), "{drawn}");
@@ -144,7 +146,7 @@ fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
     let run = b.line("lab precision q --pass buffer_a --frames 1 --size 12x10 --json").expect(0);
     assert_eq!(run.json()[0]["double"]["pixels"], 0, "nothing is drawn");
     let run = b.line("trace q --pass buffer_a --size 12x10 --pixel 0,0").expect(0);
-    assert!(run.out.contains("keeps the zeros that it held before frame 0"), "{}", run.out);
+    assert!(run.out.contains("keeps its initial zeros"), "{}", run.out);
 }
 
 #[test]
@@ -213,7 +215,7 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     let compared = parted["compared"].as_u64().unwrap();
     assert!(compared >= 4 && Some(compared) < parted["assignments"].as_u64(), "y and s thrice, then t: {parted}");
     let words = b.line("trace p --pixel 2,1 --size 4x4").expect(0).out;
-    assert!(words.contains("parts   first found at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
+    assert!(words.contains("differs first at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
     // Of fewer probes half of the assignments are looked at first, and none is too few.
     assert_eq!(json("--probes 4")["parted"]["compared"], 4);
     assert!(json("--probes 0")["parted"].is_null());
@@ -248,7 +250,7 @@ fn eddy_probe_writes_the_format_that_is_asked_for() {
     // Nothing is written over unasked.
     b.write("p_image_2_18.npy", "mine");
     let again = b.line("probe p image:2:18 --size 4x2 --format npy").expect(2);
-    assert!(again.err.contains("p_image_2_18.npy is there already") && again.err.contains("--out"), "{}", again.err);
+    assert!(again.err.contains("p_image_2_18.npy already exists") && again.err.contains("--out"), "{}", again.err);
     assert_eq!(b.bytes("p_image_2_18.npy"), b"mine");
     b.line("probe p image:2:18 --size 4x2 --out p_image_2_18.npy").expect(0);
     assert_eq!(b.npy("p_image_2_18.npy").at(0, 0)[0], 0.25);

@@ -147,7 +147,7 @@ fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
     let told = window.events.iter().find(|e| is_told(e)).cloned();
     let told = told.unwrap_or_else(|| window.wait_for("a notice", is_told));
     let text = told["text"].as_str().unwrap();
-    assert!(text.ends_with("keybindings.toml:2: there is no action \"palete\"; did you mean \"palette\"?"), "{text}");
+    assert!(text.ends_with("keybindings.toml:2: unknown action \"palete\"; did you mean \"palette\"?"), "{text}");
     window.keys(&["F9"]);
     window.shows("field:palette");
     display.shot("keys.png");

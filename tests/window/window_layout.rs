@@ -183,7 +183,7 @@ fn what_is_wrong_in_the_settings_is_said_with_its_line() {
     let told = window.events.iter().find(|e| is_told(e)).cloned();
     let told = told.unwrap_or_else(|| window.wait_for("a notice", is_told));
     let text = told["text"].as_str().unwrap();
-    assert!(text.ends_with("settings.toml:2: there is no setting \"them\"; did you mean \"theme\"?"), "{text}");
+    assert!(text.ends_with("settings.toml:2: unknown setting \"them\"; did you mean \"theme\"?"), "{text}");
 }
 
 /// A hand moves the line between picture and code, and a panel by its title; the next start has them there.

@@ -16,25 +16,25 @@ use std::path::PathBuf;
 #[command(after_help = PROJECT)]
 pub struct ProbeArgs {
     pub project: String,
-    /// The place of the expression: a tab, a line and a column, as in image:12:9 or common:3:14. The innermost
-    /// expression there is meant, and at a variable that is declared its first value
+    /// Position of the expression: tab, line and column, as in image:12:9 or common:3:14. Picks the innermost
+    /// expression there; at a declaration, the initial value of the variable
     #[arg(value_name = "TAB:LINE:COLUMN", value_parser = TextPlace::parse)]
     pub at: TextPlace,
-    /// The pass that is drawn [default: that of the tab; of Common: image]
+    /// The pass to draw [default: the pass of the tab; for Common: image]
     #[arg(long, value_name = "NAME", value_parser = picture)]
     pub pass: Option<Picture>,
-    /// The value when the expression is evaluated for the time after so many in a pixel
+    /// Which evaluation in a pixel to read: 0 is the first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 31))]
     pub visit: u32,
-    /// A pixel whose value is wanted, counted from the bottom left
+    /// Print the value at this pixel, counted from the bottom left
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub pixel: Option<(u32, u32)>,
-    /// The frame, counted from 0; those before it are drawn first
+    /// The frame to draw, counted from 0; all frames before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// Where the values of all pixels go: a .npy or .png file; with --format alone STEM_TAB_LINE_COLUMN.npy in the
-    /// folder of now, unless that is there. Scalars have three equal components, and the fourth is 1
-    /// where the value has fewer; a pixel in which the expression is not evaluated has NaN
+    /// Write the values of all pixels to this .npy or .png file; with --format alone, to STEM_TAB_LINE_COLUMN.npy in
+    /// the current folder, unless it exists. Scalars have three equal components, and the fourth is 1 where the value
+    /// has fewer; a pixel in which the expression is not evaluated has NaN
     #[arg(long, value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
@@ -43,7 +43,7 @@ pub struct ProbeArgs {
     pub format: Option<Format>,
     #[command(flatten)]
     pub run: RunArgs,
-    /// One JSON object a line instead of words
+    /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
 }
@@ -72,15 +72,15 @@ impl ProbeArgs {
 pub struct TraceArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// The pixel, counted from the bottom left
+    /// The pixel to trace, counted from the bottom left
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     #[arg(required_unless_present = "nonfinite")]
     pub pixel: Option<(u32, u32)>,
-    /// Look for the first texel of any pass that is NaN or infinite, in the frames up to --frame, and say which
-    /// operation made it
+    /// Find the first texel of any pass that is NaN or infinite, in the frames up to --frame, and print the operation
+    /// that produced it
     #[arg(long, conflicts_with_all = ["pixel", "pass"])]
     pub nonfinite: bool,
-    /// The frame, counted from 0; those before it are drawn first
+    /// The frame to draw, counted from 0; all frames before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
     /// The pass to trace: image, buffer_a, a further buffer's name …
@@ -88,17 +88,17 @@ pub struct TraceArgs {
     pub pass: Picture,
     #[command(flatten)]
     pub run: RunArgs,
-    /// Give the pixel up after so many statements
+    /// Stop after this number of statements
     #[arg(long, value_name = "N", default_value_t = STEPS)]
     pub max_statements: u64,
-    /// Where the value is not the device's, look for the first assignment that the device makes otherwise, by so many
-    /// probes at most, each of which is a program to compile; 0: do not
+    /// If the CPU and GPU values differ, search for the first assignment that differs, with at most this number of
+    /// probes, each of which compiles a program; 0 disables the search
     #[arg(long, value_name = "N", default_value_t = MOST)]
     pub probes: usize,
-    /// Print the first so many steps [default: all]
+    /// Print at most this number of steps [default: all]
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
-    /// One JSON object a line instead of words
+    /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
 }
@@ -106,33 +106,33 @@ pub struct TraceArgs {
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
 pub struct CompareArgs {
-    /// The project that is judged
+    /// The project to compare
     pub project: String,
-    /// The project that it is held against
+    /// The reference project
     #[arg(required_unless_present = "revision")]
     pub reference: Option<String>,
-    /// Hold the project against itself as it was in this revision of its git repository
+    /// Compare with the same project at this revision of its git repository
     #[arg(long, value_name = "REVISION", conflicts_with = "reference")]
     pub revision: Option<String>,
-    /// The frame, counted from 0; those before it are drawn first
+    /// The frame to draw, counted from 0; all frames before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
     /// The pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
-    /// A .png for both pictures
+    /// Write both pictures to this .png file
     #[arg(long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// side: one beside the other. wipe: the left half of the one, the right half of the other. difference: their
-    /// distance in each component. flip: what a person who flips between them sees, from black to white
+    /// side: side by side. wipe: left half of one, right half of the other. difference: absolute difference per
+    /// component. flip: the FLIP metric, from black to white
     #[arg(long, value_name = "VIEW", default_value = "side")]
     pub view: CompareView,
-    /// Turns that the two take while their times are compared; 0: no times
+    /// Number of timed runs of both projects; 0 disables timing
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(..=1 << 20))]
     pub repeats: u32,
     #[command(flatten)]
     pub run: RunArgs,
-    /// One JSON object a line instead of words
+    /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
 }

@@ -38,27 +38,27 @@ pub struct Cli {
 /// The window that is wanted where no command is given.
 #[derive(Debug, Args)]
 pub struct Window {
-    /// Opens the window on this project; without one, on the gallery of presets
+    /// Open this project in the window; without it, open the preset gallery
     pub project: Option<String>,
-    /// Size of the window in pixels [default: what suits the screen]
+    /// Size of the window in pixels [default: fits the screen]
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: Option<(u32, u32)>,
-    /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
+    /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Open the project paused: nothing of it is drawn before you say so
+    /// Open the project paused, without drawing anything
     #[arg(long)]
     pub paused: bool,
-    /// A frame that takes longer pauses the picture [default: 2]
+    /// Pause when a frame takes longer than this [default: 2]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub frame_timeout: Option<Duration>,
-    /// Processor time that a driver which compiles on the processor may take for a large pass [default: 8]
+    /// CPU time limit for compiling a large pass with a driver that compiles on the CPU [default: 8]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub compile_timeout: Option<Duration>,
-    /// Tell on standard output what happens in the window, one JSON object a line
+    /// Print events of the window to standard output, one JSON object per line
     #[arg(long)]
     pub json: bool,
-    /// Development only: the window's device is lost when FILE appears, which is removed
+    /// Development only: lose the window's device when FILE appears, and remove FILE
     #[arg(long, value_name = "FILE", hide = true)]
     pub lose_device: Option<PathBuf>,
 }
@@ -69,23 +69,23 @@ pub enum Command {
     Render(RenderArgs),
     /// Draw the value of an expression instead of the picture
     Probe(ProbeArgs),
-    /// Say what a pass does for one pixel, step by step, and how far its value is from the device's
+    /// Trace one pixel of a pass step by step on the CPU, and compare the result with the GPU
     Trace(TraceArgs),
-    /// Say how far the pictures of two projects, or of two revisions of one, are apart, and how their times compare
+    /// Compare the pictures and times of two projects, or of two revisions of one
     Compare(CompareArgs),
-    /// Compile every pass and say what is wrong with it; needs no graphics device
+    /// Compile all passes and print errors and warnings; needs no GPU
     Check(CheckArgs),
-    /// Measure what a frame costs, after a warm-up
+    /// Measure the time and memory of a frame, after a warm-up
     Bench(BenchArgs),
-    /// Measure methods against a reference: speed against error, as tables, plots and one HTML page
+    /// Measure methods against a reference: speed against error, as tables, plots and an HTML page
     Lab(LabArgs),
-    /// Print the presets' names, one a line
+    /// List the presets, one per line
     List,
-    /// Make a project folder of a Shadertoy JSON file
+    /// Convert a Shadertoy JSON file to a project folder
     Import(ImportArgs),
-    /// Write a project as a Shadertoy JSON file
+    /// Convert a project to a Shadertoy JSON file
     Export(ExportArgs),
-    /// Compile the project on standard input by the graphics driver: what Eddy starts itself for, see session/trial.rs
+    /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see session/trial.rs
     #[command(hide = true, name = COMMAND)]
     TryCompile,
 }
@@ -95,12 +95,11 @@ pub enum Command {
 pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// The file to write, .png or .npy, or a folder that gets STEM.png for each project (several --at: STEM_0004.png,
-    /// with more digits if the last one needs them). With --json, --probe or --assert it may be left out: every frame
-    /// is drawn and nothing written
+    /// File to write, .png or .npy, or a folder for STEM.png of each project (with several --at frames STEM_0004.png,
+    /// with more digits if needed). Optional with --json, --probe or --assert: frames are then drawn but not written
     #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
     pub out: Option<PathBuf>,
-    /// Frames to draw [default: 1, or as many as --at needs; with --replay all that were recorded]
+    /// Number of frames to draw [default: 1, or as many as --at needs; with --replay all recorded frames]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
     pub frames: Option<u32>,
     /// The frames to write, counted from 0 [default: the last]
@@ -116,21 +115,20 @@ pub struct RenderArgs {
     pub format: Option<Format>,
     #[command(flatten)]
     pub run: RunArgs,
-    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, five values of even distance (of
-    /// even ratio: 0.001..1:4:log). Pictures are called STEM_viscosity=0.005.png. May be repeated, for every
-    /// combination
+    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, which is five evenly spaced
+    /// values (logarithmic: 0.001..1:4:log). Files are named STEM_viscosity=0.005.png. May be repeated, for all
+    /// combinations
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
-    /// Measure a number of a pass in each frame that --at names: sum, min, max, mean, rms or nonfinite of a component
-    /// or of all, as in sum(buffer_a.x) or max(image). May be repeated; lines `//@probe sum(buffer_a.x)` in the
-    /// project's texts do the same
+    /// Measure a pass in each frame of --at: sum, min, max, mean, rms or nonfinite of one component or all, as in
+    /// sum(buffer_a.x) or max(image). May be repeated; `//@probe sum(buffer_a.x)` comments in the project do the same
     #[arg(long, value_name = "QUANTITY", value_parser = Quantity::parse)]
     pub probe: Vec<Quantity>,
-    /// Fail where such a number is not as claimed in one of these frames: "sum(buffer_a.x) within 1e-4 of 1",
-    /// "mean(buffer_b.y) within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
+    /// Fail if this claim does not hold in one of these frames: "sum(buffer_a.x) within 1e-4 of 1", "mean(buffer_b.y)
+    /// within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
     #[arg(long, value_name = "CLAIM", value_parser = Assertion::parse)]
     pub assert: Vec<Assertion>,
-    /// One JSON object a line instead of words: project, status, diagnostics, compile_ms, frame_ms, frames
+    /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,
 }
@@ -140,11 +138,11 @@ pub struct RenderArgs {
 pub struct CheckArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// One JSON object a line instead of words
+    /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
-    /// Print the compiler's intermediate representation of each pass, as it is lowered and after each pass of the
-    /// optimiser, or before and after that one (docs/compiler.md)
+    /// Print the intermediate representation of each pass, after lowering and after each optimisation, or before and
+    /// after the named one (docs/compiler.md)
     #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", require_equals = true)]
     #[arg(conflicts_with = "json", value_parser = dumped_pass)]
     pub dump_ir: Option<String>,
@@ -165,15 +163,15 @@ fn dumped_pass(name: &str) -> Result<String, String> {
 pub struct BenchArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// Frames to measure, after the warm-up [default: 60; with --replay all that were recorded]
+    /// Number of frames to measure after the warm-up [default: 60; with --replay all recorded frames]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
     pub frames: Option<u32>,
     #[command(flatten)]
     pub run: RunArgs,
-    /// Measure once for each value of a uniform, as `eddy render` draws; may be repeated, for every combination
+    /// Measure once for each value of a uniform, as in `eddy render --sweep`; may be repeated, for all combinations
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
-    /// One JSON object a line instead of a table
+    /// Print one JSON object per line instead of a table
     #[arg(long)]
     pub json: bool,
 }
@@ -193,10 +191,10 @@ impl BenchArgs {
 pub struct ImportArgs {
     #[arg(value_name = "FILE.json")]
     pub file: PathBuf,
-    /// The project's folder; it is made
+    /// Project folder to create
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write over a project that is there already
+    /// Overwrite an existing project
     #[arg(long)]
     pub force: bool,
 }
@@ -205,10 +203,10 @@ pub struct ImportArgs {
 #[command(after_help = PROJECT)]
 pub struct ExportArgs {
     pub project: String,
-    /// The JSON file to write
+    /// JSON file to write
     #[arg(long, value_name = "FILE.json")]
     pub out: PathBuf,
-    /// Write over a file that is there already
+    /// Overwrite an existing file
     #[arg(long)]
     pub force: bool,
 }
@@ -271,7 +269,7 @@ mod tests {
         for (line, hint) in [
             ("eddy render", "PROJECT"),
             ("eddy render a", "--out"),
-            ("eddy render a --out o --size 0x10", "holds no pixel"),
+            ("eddy render a --out o --size 0x10", "at least 1"),
             ("eddy render a --out o --size 10", "640x360"),
             ("eddy render a --out o --size -1x10", "640x360"),
             ("eddy render a --out o --size 99999999999x10", "640x360"),
@@ -280,7 +278,7 @@ mod tests {
             ("eddy bench a --frame-timeout 0", "above 0"),
             ("eddy a --frame-timeout nan", "above 0"),
             ("eddy render a --out o --fps nan", "above 0"),
-            ("eddy render a --out o --format exr", "it writes png and npy"),
+            ("eddy render a --out o --format exr", "use png or npy"),
             ("eddy render a --out o --format bmp", "png or npy"),
             ("eddy render a --out o --date yesterday", "2024-02-29T13:45:00"),
             ("eddy render a --out o --date 2024-13-31T23:59:00", "2024-02-29T13:45:00"),

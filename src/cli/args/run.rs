@@ -16,39 +16,39 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 /// Says how frames are drawn, wherever frames are drawn.
 #[derive(Clone, Debug, Args)]
 pub struct RunArgs {
-    /// Size of the picture in pixels
+    /// Resolution of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
     pub size: (u32, u32),
-    /// Frames in a second of iTime
+    /// Frames per second of iTime
     #[arg(long, value_name = "N", default_value = "60", value_parser = fps, allow_hyphen_values = true)]
     pub fps: f64,
-    /// Mouse events by frame, in canvas pixels from the bottom left: "0:down 40,40; 4:move 80,45; 10:up"
+    /// Mouse events by frame, in pixels of the picture from the bottom left: "0:down 40,40; 4:move 80,45; 10:up"
     #[arg(long, value_name = "SCRIPT", default_value = "")]
     pub mouse: String,
-    /// Key events by frame, with the site's key codes: "0:down 32; 3:up 32"
+    /// Key events by frame, with Shadertoy's key codes: "0:down 32; 3:up 32"
     #[arg(long, value_name = "SCRIPT", default_value = "")]
     pub keys: String,
-    /// Date and time of frame 0, from which iDate runs on with iTime [default: iDate is (0, 0, 0, iTime)]
+    /// Date and time of frame 0; iDate advances from it with iTime [default: iDate is (0, 0, 0, iTime)]
     #[arg(long, value_name = "YYYY-MM-DDTHH:MM:SS", value_parser = date::parse)]
     pub date: Option<DateTime>,
-    /// A file that the window's "Record input" wrote: every frame gets the time, date, mouse, keys, canvas and uniforms
-    /// that it had there
+    /// Replay a recording made with "Record input" in the window: each frame gets its recorded time, date, mouse, keys,
+    /// resolution and uniforms
     #[arg(long, value_name = "FILE", value_parser = recording)]
     #[arg(conflicts_with_all = ["size", "mouse", "keys", "date"])]
     pub replay: Option<Arc<Recording>>,
-    /// A folder with the site's pictures, used instead of Eddy's own where a file has the right name
+    /// Folder with Shadertoy's textures, used instead of the built-in ones where a file name matches
     #[arg(long, value_name = "DIR")]
     pub media: Option<PathBuf>,
-    /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
+    /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Draw every pass in every frame, needed or not; the pictures stay the same
+    /// Draw all passes in all frames, even if not needed; the pictures stay the same
     #[arg(long)]
     pub no_skip: bool,
-    /// Give a project up when a frame of it takes longer [default: wait]
+    /// Stop a project when a frame takes longer than this [default: no limit]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub frame_timeout: Option<Duration>,
-    /// Processor time that a driver which compiles on the processor may take for a large pass [default: 8]
+    /// CPU time limit for compiling a large pass with a driver that compiles on the CPU [default: 8]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub compile_timeout: Option<Duration>,
     #[command(flatten)]
@@ -72,7 +72,7 @@ impl RunArgs {
     pub fn within_recording(&self, frames: u32) -> Result<(), String> {
         match self.recorded() {
             Some(recorded) if recorded < frames => {
-                Err(format!("--replay: {frames} frames are asked for, and {recorded} were recorded"))
+                Err(format!("--replay: {frames} frames were requested, but only {recorded} were recorded"))
             }
             _ => Ok(()),
         }
@@ -99,7 +99,7 @@ impl RunArgs {
 /// Passes of the shader compiler's optimiser that are left out: for who works on it.
 #[derive(Clone, Debug, Default, Args)]
 pub struct WithoutPass {
-    /// Leave out a pass of the optimiser; may be repeated
+    /// Skip an optimisation; may be repeated
     #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
     passes: Vec<PassSet>,
 }

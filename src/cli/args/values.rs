@@ -6,14 +6,14 @@ use crate::{
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 
-pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, \
-    one .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
-    `eddy ./render`.";
+pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
+                           image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
+                           .json file. If a project has the name of a command, write `eddy ./render`.";
 
 /// A pixel, as in 80,45.
 pub fn pixel(text: &str) -> Result<(u32, u32), String> {
     let parts = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
-    parts.ok_or_else(|| format!("{text} is no pixel: write its column and its row, as in 80,45"))
+    parts.ok_or_else(|| format!("{text} is not a pixel: write column and row, as in 80,45"))
 }
 
 /// The form a file's extension asks for; `None` for an extension that is no picture's. Err: why it is not written.
@@ -22,15 +22,13 @@ pub fn format_of(extension: &str) -> Option<Result<Format, String>> {
     Some(match extension.as_str() {
         "png" => Ok(Format::Png),
         "npy" => Ok(Format::Npy),
-        "exr" | "gif" | "apng" | "mp4" => {
-            Err(format!("this version of Eddy does not write {extension}; it writes png and npy"))
-        }
+        "exr" | "gif" | "apng" | "mp4" => Err(format!("cannot write {extension} files; use png or npy")),
         _ => return None,
     })
 }
 
 pub fn format(text: &str) -> Result<Format, String> {
-    format_of(text).unwrap_or_else(|| Err("a picture is written as png or npy".into()))
+    format_of(text).unwrap_or_else(|| Err("unknown format; use png or npy".into()))
 }
 
 /// A pass, and which of its targets.
@@ -43,7 +41,7 @@ pub struct Picture {
 pub fn picture(text: &str) -> Result<Picture, String> {
     let (name, target) = match text.rsplit_once(':') {
         Some((name, number)) => {
-            (name, number.parse().map_err(|_| format!("a target is a number from 0, not \"{number}\""))?)
+            (name, number.parse().map_err(|_| format!("a target is a number from 0 on, not \"{number}\""))?)
         }
         None => (text, 0),
     };
@@ -52,15 +50,15 @@ pub fn picture(text: &str) -> Result<Picture, String> {
 
 pub fn pass(text: &str) -> Result<PassId, String> {
     PassId::parse(text)
-        .ok_or_else(|| "a pass is called image, buffer_a, buffer_b … or by a further buffer's name".into())
+        .ok_or_else(|| "unknown pass; write image, buffer_a, buffer_b … or the name of another buffer".into())
 }
 
 pub fn size(text: &str) -> Result<(u32, u32), String> {
-    let shape = || "a size is written WxH, as in 640x360".to_owned();
+    let shape = || "write a size as WxH, as in 640x360".to_owned();
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(shape)?;
     let number = |s: &str| s.parse::<u32>().map_err(|_| shape());
     match (number(width)?, number(height)?) {
-        (0, _) | (_, 0) => Err("a size of 0 holds no pixel".into()),
+        (0, _) | (_, 0) => Err("a size must be at least 1".into()),
         size => Ok(size),
     }
 }
@@ -74,12 +72,12 @@ pub fn recording(path: &str) -> Result<Arc<Recording>, String> {
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|secs: &f64| *secs > 0.0);
     let duration = seconds.and_then(|secs| Duration::try_from_secs_f64(secs).ok());
-    duration.ok_or_else(|| "seconds are a number above 0, as in 2.5".into())
+    duration.ok_or_else(|| "seconds must be a number above 0, as in 2.5".into())
 }
 
 pub fn fps(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(fps) if fps.is_finite() && fps > 0.0 => Ok(fps),
-        _ => Err("frames a second are a number above 0".into()),
+        _ => Err("frames per second must be a number above 0".into()),
     }
 }

@@ -159,7 +159,7 @@ impl Checker<'_> {
             self.error(loc.last, format!("a `{found}` has no component `.{over}`"));
             self.hint(format!("its components are {}", component_names(size)));
         } else {
-            self.error(loc.last, format!("`.{text}` mixes the names xyzw, rgba and stpq"));
+            self.error(loc.last, format!("`.{text}` mixes the component names xyzw, rgba and stpq"));
             let plain: String = text.chars().map(plain_component).collect();
             self.hint(format!("write `.{plain}`"));
         }
@@ -179,7 +179,7 @@ impl Checker<'_> {
             Type::Vector { scalar, size } => (TypeId::vector(scalar, 1), size.into(), "components"),
             _ => {
                 let found = self.type_name(bt);
-                self.error(loc, format!("a `{found}` cannot be indexed: it is no array, vector or matrix"));
+                self.error(loc, format!("a `{found}` cannot be indexed: it is not an array, vector or matrix"));
                 return self.error_expr(loc);
             }
         };
@@ -252,7 +252,7 @@ impl Checker<'_> {
         let text = self.name(name.symbol);
         if text != "length" {
             if ty != TypeId::ERROR {
-                self.error(name, format!("there is no method `{text}`: only `.length()` of arrays exists"));
+                self.error(name, format!("there is no method `{text}`: only arrays have one, `.length()`"));
                 self.hint(format!("functions are called as `{text}(value)`"));
             }
             return self.error_expr(loc);

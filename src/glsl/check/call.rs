@@ -219,7 +219,10 @@ impl Checker<'_> {
         if is_derivative && self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
             self.error(
                 loc,
-                format!("`{}` is for fragments: a vertex stage has no neighbouring pixels", builtin.name()),
+                format!(
+                    "`{}` works only in a fragment stage: a vertex stage has no neighbouring pixels",
+                    builtin.name()
+                ),
             );
             self.hint("move it to the fragment stage");
         }

@@ -351,7 +351,7 @@ impl Checker<'_> {
         if members.len() != args.len() {
             if args.is_empty() || self.ast[args].iter().all(|&arg| self.ty(self.done(arg)) != TypeId::ERROR) {
                 let (needed, given) = (call::count(members.len(), "argument"), call::count_given(args.len()));
-                self.error(loc, format!("`{name}(..)` needs {needed}, one a member; {given}"));
+                self.error(loc, format!("`{name}(..)` needs {needed}, one per member; {given}"));
                 if let Some(declared) = hir.name {
                     self.also(declared, "the struct");
                 }
@@ -359,7 +359,7 @@ impl Checker<'_> {
             return self.error_expr_of(hir.ty, loc);
         }
         if self.facts(hir.ty).opaque {
-            self.error(loc, format!("`{name}` holds a sampler and cannot be constructed"));
+            self.error(loc, format!("`{name}` has a sampler and cannot be constructed"));
             return self.error_expr_of(hir.ty, loc);
         }
         let fits = self.each_argument(

@@ -46,7 +46,7 @@ impl Checker<'_> {
         self.error(self.loc(first), message);
         let mut mends: Vec<Mend> = self.mend(first, written, want).into_iter().collect();
         for &(value, written, want) in &wrong[1..] {
-            let message = format!("this must be {}, too", self.a(want));
+            let message = format!("this must be {} too", self.a(want));
             if wrong.len() <= 4 {
                 self.also(self.loc(value), message);
             }
@@ -77,7 +77,7 @@ impl Checker<'_> {
                     Some((Scalar::Float, 1)) => self.hint("compare it: `.. != 0.0`"),
                     Some((Scalar::Int, 1)) => self.hint("compare it: `.. != 0`"),
                     Some((Scalar::Uint, 1)) => self.hint("compare it: `.. != 0u`"),
-                    Some((Scalar::Bool, _)) => self.hint("make one bool of it: `all(..)` or `any(..)`"),
+                    Some((Scalar::Bool, _)) => self.hint("reduce it to one bool: `all(..)` or `any(..)`"),
                     _ => {}
                 }
             }
@@ -182,7 +182,7 @@ impl Checker<'_> {
             } else {
                 let kept = &"xyzw"[..usize::from(small)];
                 self.hint(format!(
-                    "take `.{kept}` of the one with {big} components, or build a `{target}` of the other"
+                    "take `.{kept}` of the one with {big} components, or build a `{target}` from the other"
                 ));
             }
         }

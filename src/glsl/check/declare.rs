@@ -8,6 +8,7 @@ use super::{
     facts::MAX_WORDS,
     qualifiers::{LayoutOf, Place, Qualifiers},
     scope::Binding,
+    suggest::input_of_the_site,
     types::Size,
 };
 use crate::glsl::{
@@ -244,14 +245,13 @@ impl Checker<'_> {
         let outer = (storage == GlobalStorage::Uniform).then(|| self.uniform_value(name, ty)).flatten();
         let is_set = outer.is_some() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
-            let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
-            self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
-            self.hint(
-                "the site's own inputs are iTime, iResolution, iMouse and so on; \
-                 use a `const` or a #define for the rest",
-            );
+            self.warning(name, format!("`{text}` has no value (0)"));
+            self.hint(input_of_the_site(text).unwrap_or(
+                "Shadertoy's inputs are iTime, iResolution, iMouse and so on; for other values use a `const` or a \
+                 #define",
+            ));
             if storage == GlobalStorage::Uniform && !self.facts(ty).opaque {
-                self.hint(format!("or give it a value in eddy.toml: [uniforms], {text} = .."));
+                self.hint(format!("or set its value in eddy.toml: [uniforms], {text} = .."));
             }
         }
         let mut value = outer.flatten();
@@ -308,7 +308,7 @@ impl Checker<'_> {
         let (text, at) = (self.name(name.symbol), self.loc(init));
         self.error(at, format!("the global `{text}` must be initialised with a constant expression"));
         self.hint(format!("declare `{text}` without a value and assign it at the start of the entry point"));
-        self.hint("or use a #define, which is written out wherever it is used");
+        self.hint("or use a #define, which is expanded wherever it is used");
     }
 
     fn add_global(
@@ -343,7 +343,7 @@ impl Checker<'_> {
         if ast[names].is_empty() {
             self.check_layout(&quals, LayoutOf::Block);
             if quals.layout.is_none() && quals.storage.is_none() {
-                self.error(loc, "these qualifiers belong to no declaration");
+                self.error(loc, "these qualifiers have no declaration");
             }
             return;
         }
@@ -354,7 +354,7 @@ impl Checker<'_> {
                 Binding::Poison => {}
                 Binding::Global(id) if self.module[id].storage == GlobalStorage::Out && quals.invariant.is_some() => {}
                 _ if quals.invariant.is_some() => {
-                    self.error(name, format!("`{text}` is no output and cannot be `invariant`"));
+                    self.error(name, format!("`{text}` is not an output and cannot be `invariant`"));
                 }
                 _ => {
                     self.error(name, format!("the qualifiers of `{text}` cannot be changed after its declaration"));
@@ -413,7 +413,7 @@ impl Checker<'_> {
             }
         }
         let text = self.name(name.symbol);
-        self.warning(name, format!("nobody sets the uniform block `{text}`: its members are zero"));
+        self.warning(name, format!("the uniform block `{text}` has no values: its members are 0"));
         let Some(instance) = instance else {
             for member in members {
                 self.add_global(member.name, member.ty, GlobalStorage::Uniform, None, None, loc);
@@ -422,7 +422,7 @@ impl Checker<'_> {
         };
         let words: u32 = members.iter().fold(0u32, |sum, m| sum.saturating_add(self.facts(m.ty).words));
         if words > MAX_WORDS {
-            self.error(loc, "this block takes more than 16 MiB, the limit");
+            self.error(loc, "this block takes more than the limit of 16 MiB");
         }
         let ty = self.add_struct(Some(name), &members, loc, None);
         let ty = self.complete_type(ty, dims, List::EMPTY, "an array of blocks");

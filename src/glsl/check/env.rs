@@ -155,9 +155,9 @@ pub fn taken(name: &str) -> Option<&'static str> {
     } else if Builtin::ALL.iter().any(|b| b.name() == name) {
         Some("GLSL has a function of this name")
     } else if name.starts_with("gl_") || name.contains("__") {
-        Some("GLSL keeps names that begin with `gl_` or hold `__` for itself")
+        Some("GLSL reserves names that start with `gl_` or contain `__`")
     } else if crate::glsl::lex::words::is_word(name) {
-        Some("it is a word of GLSL's own")
+        Some("it is a GLSL keyword")
     } else {
         None
     }

@@ -62,8 +62,8 @@ impl<'a> Checker<'a> {
     fn too_deep(&mut self, root: ast::ExprId) -> ExprId {
         let loc = self.ast[root].loc;
         if !std::mem::replace(&mut self.too_deep_told, true) {
-            self.error(loc, format!("this nests more than {MAX_NESTING} deep"));
-            self.hint("give a part of it a name or a function of its own");
+            self.error(loc, format!("this is nested more than {MAX_NESTING} levels deep"));
+            self.hint("move a part of it to a variable or a function");
         }
         let id = self.error_expr(loc);
         self.lowered[root.index()] = Some(id);
@@ -314,7 +314,7 @@ impl<'a> Checker<'a> {
     fn report_pending_channels(&mut self) {
         for (id, i) in std::mem::take(&mut self.pending_channels) {
             let loc = self.loc(id);
-            self.error(loc, format!("`iCh{i}` is a struct and cannot be used whole"));
+            self.error(loc, format!("`iCh{i}` is a struct and cannot be used as a value"));
             self.hint(format!("write `iCh{i}.sampler`, `iCh{i}.size`, `iCh{i}.time` or `iCh{i}.loaded`"));
         }
     }
@@ -335,7 +335,7 @@ impl<'a> Checker<'a> {
         if tt != ot {
             let (a, b) = (self.type_name(tt), self.type_name(ot));
             let at = self.loc(t).to(self.loc(o));
-            self.error(at, format!("both branches of `?:` must have one type, not `{a}` and `{b}`"));
+            self.error(at, format!("both branches of `?:` must have the same type, not `{a}` and `{b}`"));
             self.conversion_hint((t, then), (o, otherwise));
             return self.error_expr(loc);
         }
@@ -423,7 +423,7 @@ impl<'a> Checker<'a> {
             match self.module[at].kind {
                 ExprKind::Swizzle { base, swizzle } => {
                     if swizzle.repeats() && self.module[base].flags.contains(ExprFlags::PLACE) {
-                        self.error(loc, format!("`{swizzle:?}` names a component twice and cannot be {doing}"));
+                        self.error(loc, format!("`{swizzle:?}` has a component twice and cannot be {doing}"));
                         return;
                     }
                     at = base;
@@ -443,9 +443,9 @@ impl<'a> Checker<'a> {
                 }
                 _ => "the result of an expression",
             };
-            self.error(loc, format!("{what} cannot be {doing}: it is no variable"));
+            self.error(loc, format!("{what} cannot be {doing}: it is not a variable"));
             if doing.contains("out`") {
-                self.hint("give it a variable: the function writes its result there");
+                self.hint("pass a variable: the function writes its result there");
             }
             return;
         };
@@ -469,7 +469,7 @@ impl<'a> Checker<'a> {
             self.also(declared, "declared here");
         }
         if matches!(what, "a uniform" | "an input") {
-            self.hint("copy it into a variable of your own and change that");
+            self.hint("copy it to a variable and change that");
         }
     }
 
@@ -503,7 +503,7 @@ impl<'a> Checker<'a> {
         }
         let loc = self.loc(expr);
         self.error(loc, "this function returns nothing (`void`), so it has no value to use");
-        self.hint("write the call as a statement of its own");
+        self.hint("write the call as a separate statement");
         true
     }
 }

@@ -25,19 +25,19 @@ pub(super) fn born<'w>(given: impl Iterator<Item = &'w [u32]> + Clone, result: &
 /// Returns why a function has no result for some arguments.
 pub(super) fn domain(builtin: X) -> &'static str {
     match builtin {
-        X::Asin => "asin is undefined beyond -1 to 1 (8.1)",
-        X::Acos => "acos is undefined beyond -1 to 1 (8.1)",
+        X::Asin => "asin is undefined outside -1 to 1 (8.1)",
+        X::Acos => "acos is undefined outside -1 to 1 (8.1)",
         X::Acosh => "acosh is undefined below 1 (8.1)",
-        X::Atanh => "atanh is undefined from -1 and 1 on (8.1)",
+        X::Atanh => "atanh is undefined at and beyond -1 and 1 (8.1)",
         X::Atan => "the angle of (0, 0) is undefined (8.1)",
         X::Pow => "pow of a negative base, and of 0 unless the exponent is above 0, is undefined (8.2)",
         X::Log | X::Log2 => "the logarithm of 0 and below is undefined (8.2)",
         X::Sqrt => "the square root of a negative number is undefined (8.2)",
         X::InverseSqrt => "inversesqrt is undefined for 0 and below (8.2)",
-        X::Clamp => "clamp is undefined where the least is above the greatest (8.3)",
+        X::Clamp => "clamp is undefined where minVal is above maxVal (8.3)",
         X::Smoothstep => "smoothstep is undefined unless its first edge is below the second (8.3)",
-        X::Normalize => "normalize of a vector without length is undefined (8.5)",
-        X::Inverse => "the inverse of a matrix that has none is undefined (8.6)",
+        X::Normalize => "normalize of a zero vector is undefined (8.5)",
+        X::Inverse => "the inverse of a singular matrix is undefined (8.6)",
         _ => "the result is undefined for this value",
     }
 }

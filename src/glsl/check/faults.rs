@@ -3,8 +3,8 @@
 use super::{checker::Checker, fault::Fault};
 use crate::glsl::{ast::Loc, hir::Scalar};
 
-const INFINITE: &str = "an infinity is born here";
-const NAN: &str = "this is NaN, which no device need have: the result is undefined (4.5.1)";
+const INFINITE: &str = "first infinity here";
+const NAN: &str = "this is NaN, which a GPU need not support: the result is undefined (4.5.1)";
 
 impl Checker<'_> {
     pub(super) fn undefined(&mut self, loc: Loc, what: &'static str) {
@@ -24,8 +24,8 @@ impl Checker<'_> {
     /// A constant of floats beyond the range of the scalar that they become.
     pub(super) fn out_of_range(&mut self, to: Scalar, loc: Loc) {
         let what = match to {
-            Scalar::Uint => "a uint of a number beyond its range is undefined (5.4.1)",
-            _ => "an int of a number beyond its range is undefined (5.4.1)",
+            Scalar::Uint => "converting a number out of range to uint is undefined (5.4.1)",
+            _ => "converting a number out of range to int is undefined (5.4.1)",
         };
         self.undefined(loc, what);
         self.warning(loc, what);

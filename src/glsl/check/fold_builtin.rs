@@ -67,7 +67,7 @@ impl Checker<'_> {
             self.note_floats(loc, is_nan, is_infinite);
         } else {
             self.undefined(loc, fault::domain(builtin));
-            self.warning(loc, format!("`{}` is undefined for this value; it counts as 0", builtin.name()));
+            self.warning(loc, format!("`{}` is undefined for this value; 0 is used", builtin.name()));
         }
         Some(id)
     }

@@ -107,7 +107,7 @@ impl Checker<'_> {
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
         } else if text == "main" && matches!(self.env, Env::Pass(kind) if !kind.is_stage()) {
-            self.error(name, "Shadertoy's header has `main` already; a pass defines its own entry point");
+            self.error(name, "Shadertoy's header already has `main`; a pass defines its own entry point");
             if let Env::Pass(kind) = self.env {
                 let entry = env::entry(kind);
                 self.hint(match self.header_entry.is_some_and(|id| self.module[id].body.is_some()) {
@@ -133,7 +133,7 @@ impl Checker<'_> {
         if builtin.is_some_and(overloads::may_be_overloaded) && self.module[func].declared_at.is_empty() {
             self.warning(
                 name,
-                format!("`{text}` is a built-in function; only the site's compiler lets it be overloaded"),
+                format!("`{text}` is a built-in function; only Shadertoy's compiler allows overloading it"),
             );
             self.hint("choose another name to be portable");
         }
@@ -192,8 +192,8 @@ impl Checker<'_> {
             }
             if self.facts(ty).opaque && !self.is_sampler(ty) {
                 let name = self.type_name(ty);
-                self.error(param.loc, format!("a `{name}` holds samplers and cannot be passed to a function here"));
-                self.hint("pass the samplers as parameters of their own");
+                self.error(param.loc, format!("a `{name}` has samplers and cannot be passed to a function here"));
+                self.hint("pass the samplers as separate parameters");
                 ty = TypeId::ERROR;
             }
             signs.push((param.name, ty, kind, quals.precision_of(self, base)));
@@ -243,7 +243,7 @@ impl Checker<'_> {
             return self.add_unnamed_function(sign, decl.header, loc);
         }
         if decl.body.is_some() && self.module[known].body.is_some() {
-            self.error(decl.name, format!("`{name}` with these parameters has a body already"));
+            self.error(decl.name, format!("`{name}` with these parameters already has a body"));
             self.also(self.module[known].name, "the first definition");
             self.hint("remove one of the two, or rename it");
             return self.add_unnamed_function(sign, decl.header, loc);

@@ -49,14 +49,14 @@ impl Checker<'_> {
     fn take_again(&mut self, name: Ident, ty: TypeId, given: TypeId) {
         let text = self.name(name.symbol);
         if ty == given {
-            self.warning(name, format!("`{text}` is there already: the site refuses to have it declared again"));
+            self.warning(name, format!("`{text}` is already declared: Shadertoy rejects a second declaration"));
             self.hint("remove the declaration, which changes nothing here");
         } else if ty != TypeId::ERROR {
             let (wrong, right) = (self.a(ty), self.a(given));
             let is_channel = matches!(self.scopes.get(name.symbol), Binding::Channel(_));
-            let here = if is_channel { ", by what the channel reads" } else { "" };
-            self.error(name, format!("`{text}` is {right}{here}, and this declares {wrong}"));
-            self.hint(format!("remove the declaration: `{text}` is there without it"));
+            let here = if is_channel { ", because of the input of the channel" } else { "" };
+            self.error(name, format!("`{text}` is {right}{here}, but this declares {wrong}"));
+            self.hint(format!("remove the declaration: `{text}` is predefined"));
             self.scopes.declare(name.symbol, Binding::Poison);
         } else {
             self.scopes.declare(name.symbol, Binding::Poison);
@@ -87,11 +87,11 @@ impl Checker<'_> {
         for id in std::mem::take(&mut self.outputs) {
             let (name, is_used) = (self.module[id].name, self.module[id].flags.contains(VarFlags::USED));
             let text = self.name(name.symbol);
-            let message = format!("`{text}` cannot be an output: the pass has one already, its colour");
+            let message = format!("`{text}` cannot be an output: the pass already has one, its colour");
             if is_used {
                 self.error(name, message);
             } else {
-                self.warning(name, format!("{message}, and the site refuses the line"));
+                self.warning(name, format!("{message}, and Shadertoy rejects this line"));
                 self.hint("remove it");
             }
             self.hint("write the colour to the `out` parameter of the entry point");

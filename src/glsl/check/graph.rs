@@ -153,13 +153,13 @@ impl Checker<'_> {
                 shown.push(format!("{} others", names.len() - SHOWN));
             }
             shown.push(format!("`{head}`"));
-            format!("these functions call each other in a circle; GLSL has no recursion: {}", shown.join(" calls "))
+            format!("these functions call each other recursively, which GLSL does not allow: {}", shown.join(" calls "))
         };
         let at = self.module[cycle[0]].name;
         self.error(at, message);
         if let Some(call) = self.funcs[cycle[0].index()].first_call {
             self.also(call, format!("a call of `{head}`"));
         }
-        self.hint("write a loop, with a stack in an array where one is needed");
+        self.hint("write a loop, with a stack in an array if needed");
     }
 }

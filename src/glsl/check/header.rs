@@ -111,12 +111,14 @@ impl Checker<'_> {
     }
 
     pub(super) fn refuse_in_common(&mut self, loc: Loc, name: &str) {
-        let message =
-            format!("Shadertoy would refuse `{name}` here: it compiles Common alone, with only iDate and iSampleRate");
+        let message = format!(
+            "Shadertoy would reject `{name}` here: it compiles Common separately, with only iDate and \
+                     iSampleRate"
+        );
         if self.refused_in_common.iter().any(|known| known.message == message) {
             return;
         }
-        let hint = format!("pass `{name}` to the function as an argument, or name it in a macro");
+        let hint = format!("pass `{name}` to the function as an argument, or use it in a macro");
         let diagnostic = self.origins.warning(self.names, loc, message).hint(hint);
         self.refused_in_common.push(diagnostic);
     }

@@ -233,10 +233,7 @@ impl Checker<'_> {
                 self.warning(loc, "division by zero: the result is undefined");
             }
             Some(Trouble::ShiftRange) => {
-                self.undefined(
-                    loc,
-                    "a shift by as many bits as there are, or by a negative number, is undefined (5.9)",
-                );
+                self.undefined(loc, "a shift by 32 or more bits, or by a negative number, is undefined (5.9)");
                 self.warning(loc, "a shift by less than 0 or more than 31 bits: the result is undefined");
             }
             None => self.note_floats(loc, is_nan, is_infinite),
@@ -305,7 +302,7 @@ impl Checker<'_> {
             }
             Some((ty, _)) => {
                 let (gives, has, text) = (self.type_name(ty), self.type_name(pt), op.text());
-                self.error(loc, format!("`{text}=` would give a `{gives}`, which does not fit into a `{has}`"));
+                self.error(loc, format!("`{text}=` would give a `{gives}`, which cannot be stored in a `{has}`"));
                 self.conversion_hint((p, place), (v, value));
                 self.error_expr_of(pt, loc)
             }
@@ -345,7 +342,8 @@ impl Checker<'_> {
                     _ => "greaterThanEqual",
                 };
                 self.hint(format!(
-                    "`{function}(a, b)` compares component by component; `all(..)` or `any(..)` of it is a bool"
+                    "`{function}(a, b)` compares component by component; `all(..)` or `any(..)` reduces that to a \
+                     bool"
                 ));
                 return;
             }
@@ -357,7 +355,7 @@ impl Checker<'_> {
                 self.hint("`%` is for ints; for floats write `mod(a, b)`");
             }
             (Op::BitXor, (Some(Scalar::Float), _) | (_, Some(Scalar::Float))) => {
-                self.hint("`^` is the bitwise exclusive or; for a power write `pow(a, b)`");
+                self.hint("`^` is bitwise exclusive or; for a power write `pow(a, b)`");
             }
             (Op::BitAnd | Op::BitOr | Op::BitXor, (Some(Scalar::Bool), Some(Scalar::Bool))) => {
                 self.hint(format!("for bools write `{text}{text}`"));

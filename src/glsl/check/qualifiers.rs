@@ -107,11 +107,11 @@ impl Checker<'_> {
             {
                 let (a, b) = (text(kind), text(before.kind));
                 if a == b {
-                    self.error(token, format!("`{a}` stands here twice"));
+                    self.error(token, format!("`{a}` is repeated"));
                 } else if before.kind.rank() == kind.rank() {
-                    self.error(token, format!("`{b}` and `{a}` exclude each other"));
+                    self.error(token, format!("`{b}` and `{a}` cannot be combined"));
                 } else {
-                    self.error(token, format!("`{a}` must stand before `{b}`"));
+                    self.error(token, format!("`{a}` must come before `{b}`"));
                     self.hint(format!("write `{a} {b}`"));
                 }
             }
@@ -132,7 +132,7 @@ impl Checker<'_> {
             && let Some((kind, token)) = out.storage
             && (place != Place::Param || kind != Q::In)
         {
-            self.error(token, format!("`const` and `{}` exclude each other", text(kind)));
+            self.error(token, format!("`const` and `{}` cannot be combined", text(kind)));
             out.constant = None;
         }
         out
@@ -148,7 +148,7 @@ impl Checker<'_> {
             Place::Result => "a function's result",
             Place::Block => "a block",
         };
-        self.error(token, format!("`{}` cannot stand on {place_name}", text(kind)));
+        self.error(token, format!("`{}` is not allowed on {place_name}", text(kind)));
         match (kind, place) {
             (Q::Uniform, Place::Local | Place::Param) => self.hint("uniforms are declared at file scope"),
             (Q::In | Q::Out | Q::Inout, Place::Local) => self.hint("remove it: directions belong to parameters"),
@@ -166,7 +166,7 @@ impl Checker<'_> {
                 let (name, precision) = (self.type_name(base), text(Q::Precision(precision)));
                 self.error(
                     token,
-                    format!("`{precision}` cannot stand on a `{name}`: only numbers and samplers have a precision"),
+                    format!("`{precision}` is not allowed on a `{name}`: only numbers and samplers have a precision"),
                 );
                 self.hint("remove it");
             }
@@ -272,13 +272,13 @@ impl Checker<'_> {
         if let Some(token) = quals.invariant
             && !output
         {
-            self.error(token, "`invariant` can only stand on outputs");
+            self.error(token, "`invariant` is only allowed on outputs");
         }
         if let Some(token) = quals.interpolation
             && !input
             && !output
         {
-            self.error(token, "interpolation qualifiers can only stand on inputs and outputs");
+            self.error(token, "interpolation qualifiers are only allowed on inputs and outputs");
         }
         if let Some((token, _)) = quals.layout
             && quals.storage.is_none()

@@ -24,12 +24,9 @@ impl Checker<'_> {
         };
         let name = self.module[func].name;
         let text = self.name(name.symbol);
-        let message = format!("with all calls written out `{text}` has more than {MAX_PROGRAM} operations");
+        let message = format!("with all calls inlined `{text}` has more than {MAX_PROGRAM} operations");
         self.error(name, message);
-        self.hint(
-            "a graphics driver copies a function to each of its calls, and all that it calls with it: \
-             call what is called twice in a loop instead",
-        );
+        self.hint("a graphics driver inlines every call: call repeated functions in a loop instead");
     }
 }
 

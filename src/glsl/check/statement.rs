@@ -104,10 +104,7 @@ impl Checker<'_> {
                 if self.switches.is_empty() {
                     self.error(loc, format!("`{what}` outside a switch"));
                 } else {
-                    self.error(
-                        loc,
-                        format!("`{what}` must stand directly in its switch, not inside another statement"),
-                    );
+                    self.error(loc, format!("`{what}` must be directly in its switch, not inside another statement"));
                 }
             }
             S::Return(value) => self.return_(value, loc),
@@ -130,7 +127,7 @@ impl Checker<'_> {
             }
             S::Discard => {
                 if self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
-                    self.error(loc, "`discard` is for fragments: a vertex stage has none");
+                    self.error(loc, "`discard` works only in a fragment stage");
                     self.hint("move it to the fragment stage");
                 }
                 self.add_stmt(StmtKind::Discard, loc);
@@ -164,7 +161,7 @@ impl Checker<'_> {
         let is_endless = test.is_none_or(|test| self.words(test) == Some(&[1]));
         if is_endless && !self.leaves(body, true) {
             self.error(loc, "this loop never ends: nothing in it breaks or returns");
-            self.hint("give it a condition, or write `if (...) break;` in it; `discard` does not end it on the site");
+            self.hint("add a condition, or `if (...) break;` in the loop; `discard` does not end it on Shadertoy");
         }
     }
 
@@ -188,7 +185,7 @@ impl Checker<'_> {
             && !self.module[value].flags.contains(ExprFlags::EFFECTS)
         {
             let loc = self.loc(value);
-            self.warning(loc, "this compares and throws the result away");
+            self.warning(loc, "this comparison has no effect");
             self.hint("to assign write `=`");
         }
     }
@@ -309,8 +306,8 @@ impl Checker<'_> {
                 _ => {
                     if labels.is_none() && !stray_said {
                         stray_said = true;
-                        self.error(stmt.loc, "a statement stands before the first `case` of this switch");
-                        self.hint("move it before the switch, or behind a label");
+                        self.error(stmt.loc, "a statement comes before the first `case` of this switch");
+                        self.hint("move it before the switch, or after a label");
                     }
                     follows = true;
                     self.statement(id);
@@ -383,7 +380,7 @@ impl Checker<'_> {
         let switch = self.switches.last_mut()?;
         if let Some(&first) = switch.values.get(&bits) {
             let shown = if found == TypeId::INT { i64::from(bits as i32) } else { i64::from(bits) };
-            self.error(loc, format!("this switch has a `case {shown}` already"));
+            self.error(loc, format!("this switch already has a `case {shown}`"));
             self.also(first, "the first one");
             return None;
         }
@@ -394,7 +391,7 @@ impl Checker<'_> {
     fn default_label(&mut self, loc: Loc) {
         let Some(switch) = self.switches.last_mut() else { return };
         if let Some(first) = switch.default {
-            self.error(loc, "this switch has a `default:` already");
+            self.error(loc, "this switch already has a `default:`");
             self.also(first, "the first one");
             return;
         }

@@ -13,7 +13,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("saturate", "`saturate` is HLSL: write `clamp(x, 0.0, 1.0)`"),
     ("lerp", "`lerp` is HLSL: write `mix(a, b, t)`"),
     ("frac", "`frac` is HLSL: write `fract(x)`"),
-    ("fmod", "`fmod` is HLSL: write `mod(x, y)`, which rounds down where fmod rounds towards zero"),
+    ("fmod", "`fmod` is HLSL: write `mod(x, y)`, which rounds down while fmod rounds towards zero"),
     ("atan2", "`atan2` is HLSL: write `atan(y, x)`"),
     ("mul", "`mul` is HLSL: write `a * b`"),
     ("rsqrt", "`rsqrt` is HLSL: write `inversesqrt(x)`"),
@@ -72,22 +72,26 @@ const FUNCTIONS: &[(&str, &str)] = &[
         "there is no built-in rand: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * \
          43758.5453)`",
     ),
-    ("printf", "a shader cannot print: write the value to the colour"),
+    (
+        "printf",
+        "a shader cannot print: add a comment `//@print value` and trace the pixel, or write the value to \
+                the colour",
+    ),
 ];
 
 /// Variables that other hosts give.
 const VARIABLES: &[(&str, &str)] = &[
     ("gl_FragColor", "`gl_FragColor` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
     ("gl_FragData", "`gl_FragData` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
-    ("u_time", "the time is `iTime`"),
-    ("time", "the time is `iTime`"),
-    ("iGlobalTime", "the time is `iTime`; sound passes get it as a parameter"),
-    ("iGlobalDelta", "the time of a frame is `iTimeDelta`"),
-    ("iGlobalFrame", "the number of the frame is `iFrame`"),
-    ("u_resolution", "the size of the picture is `iResolution.xy`"),
-    ("resolution", "the size of the picture is `iResolution.xy`"),
-    ("u_mouse", "the mouse is `iMouse`"),
-    ("mouse", "the mouse is `iMouse`"),
+    ("u_time", "use `iTime`"),
+    ("time", "use `iTime`"),
+    ("iGlobalTime", "use `iTime`; sound passes get the time as a parameter"),
+    ("iGlobalDelta", "use `iTimeDelta`"),
+    ("iGlobalFrame", "use `iFrame`"),
+    ("u_resolution", "use `iResolution.xy`"),
+    ("resolution", "use `iResolution.xy`"),
+    ("u_mouse", "use `iMouse`"),
+    ("mouse", "use `iMouse`"),
     ("backbuffer", "to read the last frame, bind a buffer to iChannel0"),
     ("PI", "define it: `const float PI = 3.14159265359;`"),
     ("M_PI", "define it: `const float M_PI = 3.14159265359;`"),
@@ -95,6 +99,11 @@ const VARIABLES: &[(&str, &str)] = &[
     ("NULL", "GLSL has no pointers"),
     ("this", "GLSL has no objects"),
 ];
+
+/// Returns how to use the site's input in place of another host's variable of this name.
+pub(super) fn input_of_the_site(name: &str) -> Option<&'static str> {
+    find(VARIABLES, name).filter(|hint| hint.starts_with("use `i"))
+}
 
 impl Checker<'_> {
     /// Returns whether nothing was said yet in this function about an unknown name.

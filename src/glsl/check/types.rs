@@ -49,7 +49,7 @@ impl<'a> Checker<'a> {
         let words = u64::from(facts.words) * u64::from(len);
         if words > u64::from(MAX_WORDS) {
             self.error(loc, format!("this array takes {} MiB; the limit is 16 MiB", words.div_ceil(1 << 18)));
-            self.hint("keep big tables in a buffer and read them with texelFetch");
+            self.hint("store large tables in a buffer and read them with texelFetch");
             return TypeId::ERROR;
         }
         let ty = self.module.types.array(element, len);
@@ -200,10 +200,7 @@ impl<'a> Checker<'a> {
                     let shown = self.type_name(ty);
                     self.error(
                         declarator.name,
-                        format!(
-                            "a `{shown}` inside this struct exceeds the nesting of {MAX_NESTING} \
-                             structs that WebGL allows"
-                        ),
+                        format!("a `{shown}` inside this struct exceeds WebGL's limit of {MAX_NESTING} nested structs"),
                     );
                     ty = TypeId::ERROR;
                 }
@@ -216,7 +213,7 @@ impl<'a> Checker<'a> {
         }
         facts.nesting += 1;
         if facts.words > MAX_WORDS {
-            self.error(def.loc, "this struct takes more than 16 MiB, the limit");
+            self.error(def.loc, "this struct takes more than the limit of 16 MiB");
             facts.words = MAX_WORDS;
         }
         if members.is_empty() && ast[def.fields].is_empty() && !self.broken_tree {
@@ -285,12 +282,12 @@ impl<'a> Checker<'a> {
             Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_) | Binding::BuiltinVar(_)
         );
         if matches!(previous, Binding::CustomUniform(_)) {
-            self.error(name, format!("`{text}` is already declared: an #iUniform line has it"));
+            self.error(name, format!("`{text}` is already declared by an #iUniform line"));
             self.hint("remove this declaration, or choose another name");
             return;
         }
         if given {
-            self.error(name, format!("`{text}` is already declared: Shadertoy's header gives it"));
+            self.error(name, format!("`{text}` is already declared by Shadertoy's header"));
             self.hint("remove this declaration, or choose another name");
             return;
         }

@@ -23,7 +23,7 @@ impl Checker<'_> {
             Ok(()) => Some(self.module.constant(ty, &words)),
             Err(why) => {
                 let is = self.module.type_text(self.names, ty);
-                self.error(name, format!("`{text}` is a `{is}`, and its value in eddy.toml is not: {why}"));
+                self.error(name, format!("`{text}` is a `{is}`, but its value in eddy.toml is not: {why}"));
                 match self.shape(ty) {
                     Some(shape) => self.hint(format!("under [uniforms], write {text} = {shape}")),
                     None => self.hint(format!("remove {text} from [uniforms]")),
@@ -47,11 +47,11 @@ impl Checker<'_> {
             Type::Matrix { columns, rows } => (TypeId::vector(Scalar::Float, rows), u32::from(columns)),
             Type::Array { element, len } => (element, len),
             Type::Struct(_) | Type::Sampler { .. } | Type::Void | Type::Error => {
-                return Err("only numbers, vectors, matrices and arrays of them can be given".to_owned());
+                return Err("only numbers, vectors, matrices and arrays of them can be set".to_owned());
             }
         };
         let UntypedValue::List(all) = value else {
-            return Err(format!("{} stands where {count} in brackets belong", shown(value)));
+            return Err(format!("found {}, expected {count} in brackets", shown(value)));
         };
         if all.len() != count as usize {
             return Err(format!("{} in brackets, not {count}", all.len()));
@@ -109,7 +109,7 @@ fn word(scalar: Scalar, value: &UntypedValue) -> Result<u32, String> {
                 Scalar::Bool => "true or false",
                 Scalar::Int => "a whole number of 32 bits",
                 Scalar::Uint => "a whole number of 32 bits from 0",
-                Scalar::Float => "a number that a float holds",
+                Scalar::Float => "a number in the range of a float",
             };
             Err(format!("{} is not {wants}", shown(value)))
         }

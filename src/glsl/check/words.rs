@@ -72,9 +72,9 @@ impl Checker<'_> {
         if before <= MAX_FOLDED_WORDS {
             self.error(
                 loc,
-                format!("the constants of this program hold more than {MAX_FOLDED_WORDS} numbers up to here"),
+                format!("the constants of this program have more than {MAX_FOLDED_WORDS} numbers up to here"),
             );
-            self.hint("keep big tables in a buffer and read them with texelFetch");
+            self.hint("store large tables in a buffer and read them with texelFetch");
         }
         false
     }

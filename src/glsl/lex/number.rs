@@ -45,12 +45,12 @@ pub(in crate::glsl) fn bad_number(value: u32, text: &str) -> (String, Option<Str
             )
         }
         BadNumber::TooLarge => (
-            format!("`{text}` does not fit into 32 bits"),
+            format!("`{text}` does not fit in 32 bits"),
             Some("the largest integer literal is 4294967295; for a float write a point, as in `1e10` or `1.0`".into()),
         ),
         BadNumber::NoHexDigits => (format!("`{text}` has no hexadecimal digits"), None),
         BadNumber::NoExponent => {
-            (format!("`{text}` has no digits behind its `e`"), Some(format!("write an exponent, as in `{digits}e3`")))
+            (format!("`{text}` has no digits after its `e`"), Some(format!("write an exponent, as in `{digits}e3`")))
         }
     }
 }
@@ -64,10 +64,13 @@ fn tail_hint(text: &str) -> Option<String> {
             .then(|| format!("GLSL ES has only 32-bit floats: write `{number}`"));
     }
     if let Some(number) = lower.strip_suffix("ul").or(lower.strip_suffix('l')) {
-        return number.bytes().all(|b| b.is_ascii_digit()).then(|| format!("GLSL ES has no `l`: write `{number}`"));
+        return number
+            .bytes()
+            .all(|b| b.is_ascii_digit())
+            .then(|| format!("GLSL ES has no suffix `l`: write `{number}`"));
     }
     if text.matches('.').count() > 1 {
-        return Some("a number has one point".into());
+        return Some("a number has only one decimal point".into());
     }
     None
 }

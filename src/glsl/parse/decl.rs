@@ -71,9 +71,9 @@ impl Parser<'_> {
         let message = match self.kind() {
             Kind::Ident | Kind::PlusPlus | Kind::MinusMinus => {
                 self.adrift = false;
-                format!("expected a declaration, found {}: statements stand in functions", self.shown(i))
+                format!("expected a declaration, found {}: statements belong inside functions", self.shown(i))
             }
-            kind if kind.is_keyword() => format!("{} stands outside of any function", self.shown(i)),
+            kind if kind.is_keyword() => format!("{} is outside any function", self.shown(i)),
             _ => {
                 self.adrift = false;
                 format!("expected a declaration, found {}", self.shown(i))
@@ -264,7 +264,7 @@ impl Parser<'_> {
             }
             false => format!("write `{shown}` before the type"),
         };
-        self.error(first, format!("`{shown}` stands before the type, not behind it"), Some(hint));
+        self.error(first, format!("`{shown}` comes before the type, not after it"), Some(hint));
         *qualifiers = self.ast.list(&all);
         Ok(ty)
     }
@@ -333,7 +333,7 @@ impl Parser<'_> {
             }
             Kind::LParen => {
                 let name = self.text(first - 1).to_owned();
-                let hint = format!("write `{name} = ..`, with a constructor where it takes several values");
+                let hint = format!("write `{name} = ..`, with a constructor for several values");
                 self.error(first, "GLSL gives a variable its value with `=`", Some(hint));
                 Some(self.lost_value(first))
             }

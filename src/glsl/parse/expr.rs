@@ -200,7 +200,7 @@ impl Parser<'_> {
 
     /// Reads a member, swizzle or `length()`; the point was read.
     fn after_dot(&mut self, base: ExprId) -> Parse<ExprKind> {
-        let name = self.ident("a member or components behind `.`")?;
+        let name = self.ident("a member or components after `.`")?;
         if self.kind() != Kind::LParen {
             return Ok(ExprKind::Member { base, name: name.symbol });
         }
@@ -211,7 +211,7 @@ impl Parser<'_> {
             let message = if method == "length" {
                 "`length()` of an array takes no arguments".to_owned()
             } else {
-                format!("GLSL has no functions of objects: `.{method}(..)`")
+                format!("GLSL has no methods: `.{method}(..)`")
             };
             let failed = self.fail(self.at, message, None);
             let Some(end) = self.partner(open) else { return Err(failed) };

@@ -76,7 +76,7 @@ impl Parser<'_> {
         let mut qualifiers = self.qualifiers()?;
         let ty = self.qualified_type(&mut qualifiers)?;
         if matches!(self.kind(), Kind::And | Kind::Star) {
-            let hint = "a parameter that the function may change is `inout`";
+            let hint = "use `inout` for a parameter that the function changes";
             self.error(self.at, "GLSL has no pointers and references", Some(hint.into()));
             self.bump();
         }
@@ -84,8 +84,8 @@ impl Parser<'_> {
         let name = if unnamed { None } else { Some(self.declared("the name of a parameter, `,` or `)`")?) };
         let dims = self.dims(Self::full_expression)?;
         if self.kind() == Kind::Equal {
-            let hint = "write a second function without this parameter, that calls the first";
-            return Err(self.fail(self.at, "a parameter of GLSL has no default value", Some(hint.into())));
+            let hint = "write a second function without this parameter that calls the first";
+            return Err(self.fail(self.at, "GLSL has no default parameter values", Some(hint.into())));
         }
         let loc = self.loc(first);
         Ok(Param { qualifiers, ty, name, dims, loc })

@@ -5,15 +5,15 @@ use crate::glsl::ast::BasicType;
 /// Returns the mend for a reserved word, where another than a new name.
 pub(super) fn reserved(word: &str) -> Option<&'static str> {
     Some(match word {
-        "static" => "leave it out: a `const` is as good",
-        "inline" | "noinline" => "leave it out: the compiler decides",
-        "public" | "extern" | "external" | "volatile" => "leave it out",
-        "attribute" | "varying" => "GLSL ES 3.00 has `in` and `out` instead; a pass needs neither",
+        "static" => "remove it: use `const`",
+        "inline" | "noinline" => "remove it: the compiler decides",
+        "public" | "extern" | "external" | "volatile" => "remove it",
+        "attribute" | "varying" => "GLSL ES 3.00 uses `in` and `out` instead; a pass needs neither",
         "double" | "half" | "fixed" => "GLSL ES has only `float`",
         "long" | "short" => "GLSL ES has only `int` and `uint`",
         "unsigned" => "the unsigned type is `uint`",
         "goto" => "GLSL has no `goto`",
-        "typedef" | "using" => "GLSL has no names for types but `struct`; a `#define` may do",
+        "typedef" | "using" => "GLSL has no type aliases; use a `#define`",
         "class" => "GLSL has `struct`, without functions",
         "enum" => "write constants: `const int A = 0;`",
         "template" => "write one function for each type",

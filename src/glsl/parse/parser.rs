@@ -123,8 +123,8 @@ impl Parser<'_> {
     #[cold]
     pub fn too_deep(&mut self, i: usize, most: u32) -> Failed {
         if !std::mem::replace(&mut self.too_deep_told, true) {
-            let message = format!("this nests more than {most} deep");
-            self.error(i, message, Some("give a part of it a name or a function of its own".into()));
+            let message = format!("this is nested more than {most} levels deep");
+            self.error(i, message, Some("move a part of it to a variable or a function".into()));
         }
         self.last_error = Some(i);
         Failed
@@ -211,11 +211,11 @@ impl Parser<'_> {
         let ident = self.ident(what)?;
         let name = self.names.get(ident.symbol);
         let kept = if name.starts_with("gl_") {
-            Some("names that begin with `gl_` are kept for the language")
+            Some("names that start with `gl_` are reserved")
         } else if name.starts_with("webgl_") || name.starts_with("_webgl_") {
-            Some("names that begin with `webgl_` or `_webgl_` are kept for WebGL")
+            Some("names that start with `webgl_` or `_webgl_` are reserved for WebGL")
         } else if name.as_bytes().windows(2).any(|two| two == b"__") {
-            Some("names with two underscores in a row are kept for the language")
+            Some("names with two underscores in a row are reserved")
         } else if name.len() > MAX_NAME {
             self.error(i, format!("this name has more than {MAX_NAME} characters"), None);
             None

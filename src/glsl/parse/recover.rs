@@ -86,7 +86,7 @@ impl Parser<'_> {
         let here = self.at;
         let before = here.saturating_sub(1);
         let mut diagnostic =
-            Diagnostic::error(self.behind(before), format!("missing {what} behind {}", self.shown(before)));
+            Diagnostic::error(self.behind(before), format!("missing {what} after {}", self.shown(before)));
         if let Some((token, text)) = label {
             diagnostic = diagnostic.label(self.origins.token_span(Self::token(token)), text);
         }

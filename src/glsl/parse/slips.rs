@@ -52,14 +52,14 @@ impl Parser<'_> {
             (Kind::Equal, Kind::Greater) => Some(("GLSL has no `=>`", "write `>=`")),
             (Kind::Less, Kind::Greater) => Some(("GLSL has no `<>`", "write `!=`")),
             (Kind::GreaterGreater, Kind::Greater) => Some(("GLSL has no `>>>`", "shift a `uint` with `>>`")),
-            (Kind::Colon, Kind::Colon) => Some(("GLSL has no `::`", "names are not grouped; write the name alone")),
+            (Kind::Colon, Kind::Colon) => Some(("GLSL has no `::`", "GLSL has no namespaces; write the name alone")),
             _ => None,
         };
         if let Some((message, hint)) = slip {
             return self.fail(i, message, Some(hint.into()));
         }
         if matches!(kind, Kind::Star | Kind::And) && !matches!(before, Kind::Semicolon | Kind::LBrace | Kind::RBrace) {
-            let hint = "a parameter that the function may change is `inout`";
+            let hint = "use `inout` for a parameter that the function changes";
             return self.fail(i, "GLSL has no pointers and references", Some(hint.into()));
         }
         match before {

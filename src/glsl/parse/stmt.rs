@@ -57,7 +57,7 @@ impl Parser<'_> {
         // Of several open braces the outermost is the one without partner; the innermost message counts.
         let (brace, label) = match self.body {
             Some((brace, name)) if self.partner(brace).is_none() => {
-                (brace, format!("`{}` begins here", self.names.get(name.symbol)))
+                (brace, format!("`{}` starts here", self.names.get(name.symbol)))
             }
             _ => (open, "opened here".to_owned()),
         };
@@ -80,9 +80,9 @@ impl Parser<'_> {
         let Some((brace, name)) = self.body else { return };
         let here = self.at + 1;
         let outer = self.names.get(name.symbol);
-        let message = format!("missing `}}`: {} begins inside of `{outer}`", self.shown(here));
+        let message = format!("missing `}}`: {} starts inside `{outer}`", self.shown(here));
         let mut diagnostic = self.origins.error(self.names, Self::token(here), message);
-        diagnostic = diagnostic.label(self.origins.token_span(Self::token(brace)), format!("`{outer}` begins here"));
+        diagnostic = diagnostic.label(self.origins.token_span(Self::token(brace)), format!("`{outer}` starts here"));
         self.report_at(here, diagnostic);
     }
 
@@ -153,8 +153,8 @@ impl Parser<'_> {
             Kind::Discard => self.jump(StmtKind::Discard),
             Kind::Else => {
                 let semicolon = first > 0 && self.kind_at(first - 1) == Kind::Semicolon;
-                let hint =
-                    semicolon.then(|| "an `if` without braces has one statement, and `;` alone is one".to_owned());
+                let hint = semicolon
+                    .then(|| "an `if` without braces has one statement, and `;` alone counts as one".to_owned());
                 // What was too deep has left its `else` behind.
                 if !self.too_deep_told {
                     self.error(first, "`else` without an `if` before it", hint);
@@ -170,7 +170,7 @@ impl Parser<'_> {
             _ if self.begins_declaration() => {
                 self.check_keyword_slip()?;
                 if self.begins_function() {
-                    let hint = "move it out of the function that it stands in";
+                    let hint = "move it out of this function";
                     self.error(first + 1, "a function cannot be defined inside of another", Some(hint.into()));
                 }
                 StmtKind::Decl(self.declaration(false)?)
@@ -227,7 +227,11 @@ impl Parser<'_> {
         else {
             return Ok(());
         };
-        Err(self.fail(self.at, format!("`{word}` is no keyword and no type"), Some(format!("did you mean `{meant}`?"))))
+        Err(self.fail(
+            self.at,
+            format!("`{word}` is not a keyword or a type"),
+            Some(format!("did you mean `{meant}`?")),
+        ))
     }
 
     fn if_statement(&mut self) -> Parse<StmtKind> {
@@ -235,7 +239,7 @@ impl Parser<'_> {
         let cond = self.in_parentheses(|p| p.full_expression().map(Condition::Expr))?;
         let Condition::Expr(cond) = cond else { return Err(Failed) };
         if matches!(self.kind(), Kind::Ident) && self.text(self.at) == "then" {
-            self.error(self.at, "GLSL has no `then`", Some("leave it out".into()));
+            self.error(self.at, "GLSL has no `then`", Some("remove it".into()));
             self.bump();
         }
         let then = self.statement()?;
@@ -268,7 +272,7 @@ impl Parser<'_> {
         let keyword = open - 1;
         if self.kind() != Kind::LParen {
             let hint = format!("write `{} (..)`", self.text(keyword));
-            let message = format!("the condition of `{}` stands in parentheses", self.text(keyword));
+            let message = format!("the condition of `{}` must be in parentheses", self.text(keyword));
             self.error(open, message, Some(hint));
             let read = self.attempt(part);
             return match (read, self.kind()) {
@@ -313,7 +317,7 @@ impl Parser<'_> {
         let decl = self.declaration_without_end()?;
         let DeclKind::Vars { declarators, .. } = self.ast[decl].kind else { return Err(Failed) };
         if self.ast[declarators].len() != 1 || self.ast[declarators][0].init.is_none() {
-            return Err(self.fail(first, "a condition that declares a variable gives one, and its value", None));
+            return Err(self.fail(first, "a condition that declares a variable needs one variable with a value", None));
         }
         Ok(Condition::Decl(decl))
     }

@@ -357,7 +357,7 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         format!("void f() {{ x = {}a; }}", "a + (".repeat(100_000)),
     ] {
         let found = messages(&deep);
-        let is_told = |m: &String| m.contains("300 deep") || m.contains("10000 deep");
+        let is_told = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
         assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
@@ -370,19 +370,19 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
 
 #[test]
 fn one_mistake_is_one_message() {
-    refuses_stmt("float a = 1.0", &["missing `;` behind `1.0`"]);
-    refuses_stmt("a = b", &["missing `;` behind `b`"]);
-    refuses_stmt("f(a)", &["missing `;` behind `)`"]);
-    refuses_stmt("return", &["missing `;` behind `return`"]);
+    refuses_stmt("float a = 1.0", &["missing `;` after `1.0`"]);
+    refuses_stmt("a = b", &["missing `;` after `b`"]);
+    refuses_stmt("f(a)", &["missing `;` after `)`"]);
+    refuses_stmt("return", &["missing `;` after `return`"]);
     refuses_stmt("a = b c;", &["missing an operator or `;` between `b` and `c`"]);
     refuses_stmt("float a = 2.0 b;", &["missing an operator or `;` between `2.0` and `b`"]);
     refuses_stmt("a = ;", &["`=` needs a value on its right, found `;`"]);
     refuses_stmt("a = b +;", &["`+` needs a value on its right"]);
     refuses_stmt("float a =\n    float b = 1.0;", &["`=` needs a value on its right"]);
-    refuses_stmt("a = (b + c;", &["missing `)` behind `c`"]);
-    refuses_stmt("a = f(b, c;", &["missing `)` behind `c`"]);
+    refuses_stmt("a = (b + c;", &["missing `)` after `c`"]);
+    refuses_stmt("a = f(b, c;", &["missing `)` after `c`"]);
     refuses_stmt("a = b + c);", &["`)` closes nothing"]);
-    refuses_stmt("a = b[1;", &["missing `]` behind `1`"]);
+    refuses_stmt("a = b[1;", &["missing `]` after `1`"]);
     refuses_stmt("a = b[];", &["need an index"]);
     refuses_stmt("a = f(b, );", &["a value is missing between `,` and `)`"]);
     refuses_stmt("a = f(, b);", &["a value is missing between `(` and `,`"]);
@@ -393,8 +393,8 @@ fn one_mistake_is_one_message() {
     refuses_stmt("if (a === b) {}", &["`===`"]);
     refuses_stmt("if (a <> b) {}", &["`<>`"]);
     refuses_stmt("if (a and b) {}", &["expected an operator or `)`, found `and`"]);
-    refuses_stmt("if a > b { c; }", &["stands in parentheses"]);
-    refuses_stmt("if (a > b { c; }", &["missing `)` behind `b`"]);
+    refuses_stmt("if a > b { c; }", &["must be in parentheses"]);
+    refuses_stmt("if (a > b { c; }", &["missing `)` after `b`"]);
     refuses_stmt("if () { c; }", &["a condition is missing"]);
     refuses_stmt("if (a) then { c; }", &["`then`"]);
     refuses_stmt("if (a) { } elseif (b) { } else { }", &["`elseif`"]);
@@ -402,9 +402,9 @@ fn one_mistake_is_one_message() {
     refuses_stmt("for (int i = 0, i < 3, i++) { }", &["expected `;`, found `<`"]);
     refuses_stmt("for (int i = 0; i < 3) { }", &["expected `;`, found `)`"]);
     refuses_stmt("for (int i = 0; i <; i++) { j; }", &["`<` needs a value"]);
-    refuses_stmt("for (int i = 0; i < 3; i++ { j; }", &["missing `)` behind `++`"]);
+    refuses_stmt("for (int i = 0; i < 3; i++ { j; }", &["missing `)` after `++`"]);
     refuses_stmt("while (int i) { }", &["a condition that declares"]);
-    refuses_stmt("do { } while a;", &["stands in parentheses"]);
+    refuses_stmt("do { } while a;", &["must be in parentheses"]);
     refuses_stmt("do { } until (a);", &["`while` and the condition"]);
     refuses_stmt("switch (a) case 1: b;", &["expected `{`"]);
     refuses_stmt("switch (a) { case 1; b; }", &["ends with `:`"]);
@@ -413,10 +413,10 @@ fn one_mistake_is_one_message() {
     refuses_stmt("vec3 a(1.0, 2.0);", &["with `=`"]);
     refuses_stmt("f(float a);", &["`float` is a type"]);
     refuses_stmt("a = vec3;", &["`vec3` is a type"]);
-    refuses_stmt("retrun a;", &["`retrun` is no keyword"]);
+    refuses_stmt("retrun a;", &["`retrun` is not a keyword"]);
     refuses_stmt("float2 a = b; a.x;", &["no type `float2`"]);
-    refuses_stmt("let a = 1.0;", &["`let` declares nothing"]);
-    refuses_stmt("var a = 1.0;", &["`var` declares nothing"]);
+    refuses_stmt("let a = 1.0;", &["`let` cannot declare"]);
+    refuses_stmt("var a = 1.0;", &["`var` cannot declare"]);
     refuses_stmt("const a = 1.0;", &["without a type"]);
     refuses_stmt("float input = 1.0; input += input;", &["`input` is a reserved word"]);
     refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
@@ -426,8 +426,8 @@ fn one_mistake_is_one_message() {
     refuses_stmt("float if = 1.0;", &["which is a keyword"]);
     refuses_stmt("float 2a = 1.0;", &["`2a` is not a number"]);
     refuses_stmt("a.length(1);", &["takes no arguments"]);
-    refuses_stmt("a.push(1);", &["functions of objects"]);
-    refuses_stmt("a.;", &["behind `.`"]);
+    refuses_stmt("a.push(1);", &["methods"]);
+    refuses_stmt("a.;", &["after `.`"]);
     refuses_stmt("float gl_a, b__c, webgl_d;", &["`gl_`", "two underscores", "webgl_"]);
     refuses_stmt("a = 1.0 / 08;", &["octal"]);
     refuses_stmt("a = \u{201c}b\u{201d};", &["no meaning", "no meaning"]);
@@ -437,27 +437,27 @@ fn one_mistake_is_one_message() {
 
 #[test]
 fn mistakes_at_file_scope() {
-    refuses("float a = 1.0\nfloat b;", &["missing `;` behind `1.0`"]);
-    refuses("a = 1.0;\nfloat b;", &["statements stand in functions"]);
-    refuses("float f(float a { return a; }\nfloat b;", &["missing `)` behind `a`"]);
+    refuses("float a = 1.0\nfloat b;", &["missing `;` after `1.0`"]);
+    refuses("a = 1.0;\nfloat b;", &["statements belong inside functions"]);
+    refuses("float f(float a { return a; }\nfloat b;", &["missing `)` after `a`"]);
     // `a` may be a type: the checker knows.
     refuses("float f(a) { return b; }\nfloat b;", &[]);
-    refuses("float f(float a = 1.0) { return a; }\nfloat b;", &["no default value"]);
+    refuses("float f(float a = 1.0) { return a; }\nfloat b;", &["no default parameter values"]);
     refuses("float f(float& a) { return a; }\nfloat b;", &["no pointers"]);
     refuses("float f(float a) return a;\nfloat b;", &["expected `{` or `;`"]);
-    refuses("struct S { float a = 1.0; vec2 b; };\nS s;", &["no initial value"]);
-    refuses("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["has no functions"]);
-    refuses("struct S { float a; }\nfloat b;", &["missing `;` behind `}`"]);
+    refuses("struct S { float a = 1.0; vec2 b; };\nS s;", &["cannot have an initial value"]);
+    refuses("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["have no functions"]);
+    refuses("struct S { float a; }\nfloat b;", &["missing `;` after `}`"]);
     refuses("struct S : T { float a; };", &["cannot extend"]);
-    refuses("function f() { }\nfloat b;", &["`function` declares nothing"]);
+    refuses("function f() { }\nfloat b;", &["`function` cannot declare"]);
     refuses("enum A { B };\nfloat b;", &["`enum` is a reserved word"]);
     refuses("void f() { a; } }\nvoid g() { }", &["`}` closes nothing"]);
-    refuses("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements stand in functions"]);
-    refuses("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` begins inside of `f`"]);
+    refuses("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements belong inside functions"]);
+    refuses("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` starts inside `f`"]);
     refuses("void g() { }\nvoid f() {\n if (a) {\n b;\n}\n", &["missing `}` at the end"]);
-    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` stands outside"]);
+    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` is outside"]);
     refuses("%", &["expected a declaration"]);
-    refuses("float a; b", &["statements stand in functions"]);
+    refuses("float a; b", &["statements belong inside functions"]);
     refuses(
         "#define F(x) x\nvoid f() { F(1, 2); float a = F(1, 2) + 1.0; }",
         &["takes 1 argument", "takes 1 argument"],
@@ -473,9 +473,9 @@ fn several_mistakes_are_several_messages() {
             "`=` needs a value",
             "between `c` and `d`",
             "found `f`",
-            "missing `)` behind `++`",
-            "missing `;` behind `j`",
-            "missing `)` behind `1.0`",
+            "missing `)` after `++`",
+            "missing `;` after `j`",
+            "missing `)` after `1.0`",
             "expected an expression, found `;`",
         ],
     );

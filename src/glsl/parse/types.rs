@@ -55,7 +55,7 @@ impl Parser<'_> {
         }
         if hint::is_typeless(&word) {
             let hint = "write a type: `float x = 1.0;`, `vec3 f(vec2 p) { .. }`";
-            self.error(first, format!("`{word}` declares nothing in GLSL"), Some(hint.into()));
+            self.error(first, format!("`{word}` cannot declare a variable in GLSL"), Some(hint.into()));
             return TypeSpecKind::Error;
         }
         TypeSpecKind::Named(Symbol(symbol))
@@ -69,7 +69,7 @@ impl Parser<'_> {
             self.structs[name.symbol.0 as usize] = true;
         }
         if self.kind() == Kind::Colon {
-            return Err(self.fail(self.at, "a struct of GLSL cannot extend another", None));
+            return Err(self.fail(self.at, "GLSL structs cannot extend another", None));
         }
         let fields = self.fields()?;
         let loc = self.loc(first);
@@ -108,16 +108,16 @@ impl Parser<'_> {
         let mut qualifiers = self.qualifiers()?;
         let ty = self.qualified_type(&mut qualifiers)?;
         if self.kind() == Kind::Ident && self.second() == Kind::LParen {
-            let hint = "write a function beside the struct, with the struct as a parameter";
-            return Err(self.fail(self.at, "a struct of GLSL has no functions", Some(hint.into())));
+            let hint = "write a function outside the struct, with the struct as a parameter";
+            return Err(self.fail(self.at, "GLSL structs have no functions", Some(hint.into())));
         }
         let mut declarators = Vec::new();
         loop {
             let name = self.declared("the name of a member")?;
             let dims = self.dims(Self::full_expression)?;
             if self.kind() == Kind::Equal {
-                let hint = "give the value where the struct is made: `Name(..)`";
-                self.error(self.at, "a member of a struct has no initial value", Some(hint.into()));
+                let hint = "set the value where the struct is constructed: `Name(..)`";
+                self.error(self.at, "struct members cannot have an initial value", Some(hint.into()));
                 self.bump();
                 // Read for its own mistakes; the tree has no place for it.
                 let mark = self.ast.exprs.len();

@@ -139,7 +139,7 @@ fn macros_of_common_hold_in_the_pass() {
 fn a_macro_of_common_is_defined_otherwise_in_the_pass() {
     let common = "#define A 1.0\nfloat f(float x) { return x + A; }";
     let twice = format!("#define A 2.0\n{IMAGE}");
-    is(common, &twice, Kept::Checked, &["the macro `A` is defined already, with another text"]);
+    is(common, &twice, Kept::Checked, &["the macro `A` is already defined differently"]);
     let again = format!("#undef A\n#define A 2.0\nfloat g() {{ return A; }}\n{IMAGE}");
     is(common, &again, Kept::Checked, &[]);
     let same = format!("#define A 1.0\n{IMAGE}");
@@ -192,7 +192,7 @@ fn an_error_in_common_is_said_with_each_pass_as_before() {
 #[test]
 fn a_warning_in_common_is_said_with_each_pass_as_before() {
     let common = "#define a__b 1.0\nfloat f(float x) { return x * a__b; }";
-    is(common, IMAGE, Kept::Checked, &["`a__b`: names with two underscores in a row are kept for the language"]);
+    is(common, IMAGE, Kept::Checked, &["`a__b`: names with two underscores in a row are reserved"]);
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn names_that_differ_from_pass_to_pass_are_checked_with_each() {
         "float iCh0 = 1.0;\nfloat f(float x) { return x * iCh0; }",
         IMAGE,
         Kept::Tree,
-        &["`iCh0` is already declared: Shadertoy's header gives it", "`iCh0` is a struct and cannot be used whole"],
+        &["`iCh0` is already declared by Shadertoy's header", "`iCh0` is a struct and cannot be used as a value"],
     );
     let cube = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }";
     let mut case = Case::new("float f(float x) { return texture(iChannel0, vec3(x)).x; }", cube);

@@ -55,23 +55,23 @@ impl Preprocessor<'_, '_> {
                     let letter = text.chars().find(|c| !c.is_ascii()).unwrap_or_default();
                     self.error(
                         token,
-                        format!("the name `{text}` has the letter `{letter}`, which GLSL does not know"),
-                        Some("names are made of the letters a to z and A to Z, digits and `_`".into()),
+                        format!("the name `{text}` contains `{letter}`, which GLSL does not allow"),
+                        Some("names consist of the letters a to z and A to Z, digits and `_`".into()),
                     );
                 }
                 Some((Kind::Ident, token.value))
             }
             Kind::Text => {
-                self.error(token, "GLSL has no text in quotes", None);
+                self.error(token, "GLSL has no strings", None);
                 Some((Kind::Wrong, 0))
             }
             Kind::HashHash => {
-                let hint = "write the name out; only desktop GLSL and C paste tokens together";
+                let hint = "write the full name; only C and desktop GLSL can paste tokens";
                 self.error(token, "GLSL ES has no `##`", Some(hint.into()));
                 None
             }
             Kind::Hash => {
-                let hint = "a directive begins its line, and a macro cannot make text of its arguments";
+                let hint = "a directive must start its line, and macros cannot make strings of their arguments";
                 self.error(token, "`#` has no meaning here", Some(hint.into()));
                 None
             }
@@ -83,22 +83,22 @@ impl Preprocessor<'_, '_> {
         let character = char::from_u32(token.value).unwrap_or('\u{fffd}');
         let lookalike = LOOKALIKES.iter().find(|l| l.0.contains(character));
         let (message, hint) = match character {
-            '\0' => ("the text has a NUL character here".to_owned(), Some("delete it".to_owned())),
+            '\0' => ("there is a NUL character here".to_owned(), Some("delete it".to_owned())),
             '\\' => (
-                "a backslash joins lines, and so must be the last character of its line".into(),
-                Some("delete it, or what follows it, spaces included".into()),
+                "a backslash joins lines and must be the last character of its line".into(),
+                Some("delete it, or everything after it, including spaces".into()),
             ),
             '\'' | '\u{2018}' | '\u{2019}' | '\u{201c}' | '\u{201d}' | '`' => {
-                (format!("`{character}` has no meaning in GLSL"), Some("a comment begins with `//`".into()))
+                (format!("`{character}` has no meaning in GLSL"), Some("a comment starts with `//`".into()))
             }
             '@' | '$' => (format!("`{character}` has no meaning in GLSL"), None),
-            '\u{fffd}' => ("here was something that is no UTF-8 text".into(), Some("save the file as UTF-8".into())),
+            '\u{fffd}' => ("this is not valid UTF-8".into(), Some("save the file as UTF-8".into())),
             c if c.is_whitespace() || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}') => (
-                format!("here is an invisible character, U+{:04X}", u32::from(c)),
-                Some("replace it by a space; it often comes with text copied from a web page".into()),
+                format!("there is an invisible character here, U+{:04X}", u32::from(c)),
+                Some("replace it with a space; it often comes from text copied from a web page".into()),
             ),
             c if c.is_control() => {
-                (format!("here is a control character, U+{:04X}", u32::from(c)), Some("delete it".into()))
+                (format!("there is a control character here, U+{:04X}", u32::from(c)), Some("delete it".into()))
             }
             c => match lookalike {
                 Some((_, meant, _)) => (

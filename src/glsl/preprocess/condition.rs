@@ -180,14 +180,14 @@ impl Evaluation<'_, '_, '_, '_> {
     fn unary_here(&mut self) -> Option<i64> {
         let Some(token) = self.peek() else {
             let last = self.tokens.last().copied().unwrap_or(self.end);
-            let message = if self.tokens.is_empty() { "a value is missing here" } else { "this is not complete" };
+            let message = if self.tokens.is_empty() { "a value is missing here" } else { "this is incomplete" };
             self.all.error(&last, message, None);
             return None;
         };
         self.at += 1;
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            self.all.error(&token, format!("this nests more than {MAX_DEPTH} deep"), None);
+            self.all.error(&token, format!("this is nested more than {MAX_DEPTH} levels deep"), None);
             return None;
         }
         let value = match token.kind {
@@ -220,7 +220,7 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             Kind::Float => {
                 let text = self.all.text(token.span).to_owned();
-                self.all.error(&token, format!("`{text}`: a directive knows only integers"), None);
+                self.all.error(&token, format!("`{text}`: a directive accepts only integers"), None);
                 return None;
             }
             Kind::Wrong => return None,
@@ -241,8 +241,7 @@ impl Evaluation<'_, '_, '_, '_> {
     fn name(&mut self, token: &Token) {
         let text = self.all.names.get(Symbol(token.value)).to_owned();
         if let Some(id) = self.all.defined(token.value) {
-            let hint =
-                if self.all.origins[id].function_like { "give it its arguments" } else { "it stands in its own text" };
+            let hint = if self.all.origins[id].function_like { "add its arguments" } else { "it refers to itself" };
             self.all.error(token, format!("the macro `{text}` has no value here"), Some(hint.into()));
             return;
         }
@@ -251,10 +250,10 @@ impl Evaluation<'_, '_, '_, '_> {
                 let value = u8::from(text == "true");
                 (format!("`{text}` has no value in a directive"), format!("write `{value}`"))
             }
-            "defined" => ("`defined` cannot come out of a macro".into(), "write it in the condition itself".into()),
+            "defined" => ("`defined` cannot come from a macro".into(), "write it directly in the condition".into()),
             _ => (
                 format!("`{text}` is not defined, so it has no value here"),
-                format!("write `defined({text})` to ask whether it is"),
+                format!("write `defined({text})` to test whether it is defined"),
             ),
         };
         self.all.error(token, message, Some(hint));

@@ -67,13 +67,13 @@ impl Preprocessor<'_, '_> {
         if text.starts_with("GL_") {
             self.error(
                 &name,
-                format!("`{text}`: names that begin with `GL_` are kept for the language"),
+                format!("`{text}`: names that start with `GL_` are reserved"),
                 Some("choose another name".into()),
             );
             return None;
         }
         if text.contains("__") {
-            let message = format!("`{text}`: names with two underscores in a row are kept for the language");
+            let message = format!("`{text}`: names with two underscores in a row are reserved");
             self.warning(&name, message, None);
         }
         Some(name)
@@ -110,8 +110,8 @@ impl Preprocessor<'_, '_> {
             && is_suspicious(first.kind)
         {
             let text = self.text(name.span).to_owned();
-            let hint = format!("write a space behind `{text}`");
-            self.warning(first, "there is no space between the macro's name and its text", Some(hint));
+            let hint = format!("write a space after `{text}`");
+            self.warning(first, "there is no space between the name of the macro and its definition", Some(hint));
         }
         let body_start = self.table.bodies.len() as u32;
         let numbers = Numbers::new(&self.table.params[params.0 as usize..params.1 as usize]);
@@ -164,7 +164,7 @@ impl Preprocessor<'_, '_> {
                         false => !seen.insert(param.value),
                     };
                     if twice {
-                        self.error(param, format!("the parameter `{text}` is there twice"), None);
+                        self.error(param, format!("the parameter `{text}` is repeated"), None);
                         return None;
                     }
                     self.table.params.push(param.value);
@@ -226,13 +226,13 @@ impl Preprocessor<'_, '_> {
             return;
         }
         let text = self.names.get(Symbol(name.value));
-        let message = format!("the macro `{text}` is defined already, with another text");
+        let message = format!("the macro `{text}` is already defined differently");
         let mut diagnostic = Diagnostic::error(name.span, message);
         if let Some(at) = def.name_at {
             diagnostic = diagnostic.label(at, "first defined here");
         }
         let hint = if matches!(before.origin, MacroOrigin::BySite(_)) {
-            format!("the site defines `{text}` itself; write `#undef {text}` before, or `#ifndef {text}` around")
+            format!("Shadertoy defines `{text}` itself; write `#undef {text}` before, or `#ifndef {text}` around it")
         } else {
             format!("write `#undef {text}` before, or choose another name")
         };

@@ -37,7 +37,7 @@ impl Preprocessor<'_, '_> {
             Kind::Ident => {}
             _ => {
                 let text = self.text(name.span).to_owned();
-                self.error(&hash, format!("expected the name of a directive behind `#`, found `{text}`"), None);
+                self.error(&hash, format!("expected the name of a directive after `#`, found `{text}`"), None);
                 self.lexer.rest_of_line();
                 self.line_tokens();
                 return;
@@ -75,13 +75,13 @@ impl Preprocessor<'_, '_> {
             "line" => self.line_directive(name, line),
             "version" => self.error(
                 name,
-                "`#version` must stand before everything else, and the site's own header has it already",
+                "`#version` must come first, and Shadertoy's header already has it",
                 Some("delete the line: the language is always GLSL ES 3.00".into()),
             ),
             "extension" => self.error(
                 name,
-                "`#extension` must stand before all declarations, and the site's own come first",
-                Some("delete the line: what it asks for is in GLSL ES 3.00 or cannot be had".into()),
+                "`#extension` must come before all declarations, but Shadertoy's header comes first",
+                Some("delete the line: the feature is part of GLSL ES 3.00 or not available".into()),
             ),
             "pragma" => self.pragma(line),
             "include" => self.include(name, line),
@@ -117,7 +117,7 @@ impl Preprocessor<'_, '_> {
     pub(super) fn nothing_more(&mut self, rest: &[Token], directive: &str) {
         if let Some(extra) = rest.first() {
             let text = self.text(extra.span).to_owned();
-            self.error(extra, format!("`{text}` is too much behind `#{directive}`"), None);
+            self.error(extra, format!("unexpected `{text}` after `#{directive}`"), None);
         }
     }
 
@@ -202,7 +202,7 @@ impl Preprocessor<'_, '_> {
             return true;
         }
         if let Some(earlier) = self.conditionals[last].seen_else {
-            let message = format!("`#{text}` behind the `#else` of the same `#if`");
+            let message = format!("`#{text}` after the `#else` of the same `#if`");
             let diagnostic = Diagnostic::error(name.span, message)
                 .label(earlier.span, "the `#else`")
                 .label(self.conditionals[last].at.span, "the `#if`");
@@ -228,7 +228,7 @@ impl Preprocessor<'_, '_> {
             && self.text(stdgl.span) == "STDGL"
             && self.text(word.span) == "invariant"
         {
-            self.error(word, "a fragment shader has no `invariant(all)`", Some("delete the line".into()));
+            self.error(word, "`invariant(all)` is not allowed in a fragment shader", Some("delete the line".into()));
         }
         self.foreign_pragma(line);
     }

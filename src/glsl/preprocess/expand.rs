@@ -198,7 +198,7 @@ impl Preprocessor<'_, '_> {
     fn expand_argument(&mut self, argument: &[Token], out: &mut Vec<Token>) {
         self.call_depth += 1;
         if self.call_depth > MAX_CALL_DEPTH {
-            let message = format!("macro calls stand in each other's arguments more than {MAX_CALL_DEPTH} deep");
+            let message = format!("macro calls are nested more than {MAX_CALL_DEPTH} levels deep");
             self.stop(&argument[0], message, None);
         }
         stacker::maybe_grow(STACK_LEFT, STACK_MORE, || self.expand_line(argument, out));
@@ -271,7 +271,7 @@ impl Preprocessor<'_, '_> {
                 self.error(
                     name,
                     format!("the call of the macro `{label}` has no closing parenthesis"),
-                    Some("the macro's arguments reach to the end of the text: add the missing `)`".into()),
+                    Some("the arguments extend to the end of the file: add the missing `)`".into()),
                 );
             }
             return Err(Reported);
@@ -300,7 +300,7 @@ impl Preprocessor<'_, '_> {
         self.table.work = self.table.work.saturating_add(tokens);
         if self.table.work > MAX_MACRO_TOKENS {
             let message = format!("the macros expand to more than {MAX_MACRO_TOKENS} tokens");
-            self.stop(at, message, Some("macros that use each other double with every step: write a function".into()));
+            self.stop(at, message, Some("macros that use each other can grow exponentially: write a function".into()));
         }
     }
 }

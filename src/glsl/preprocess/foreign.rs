@@ -9,7 +9,7 @@ use crate::glsl::{lex::Token, near::nearest_identifier};
 /// Directives of Eddy's, which lie in the texts that it reads and are gone where the compiler sees them in their form.
 const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];
 
-const CHANNEL_FORM: &str = "the form is #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"";
+const CHANNEL_FORM: &str = "write #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"";
 
 impl Preprocessor<'_, '_> {
     /// Says what is wrong with an `#include` line that is not of the form that names a file.
@@ -27,17 +27,17 @@ impl Preprocessor<'_, '_> {
             "StrictCompatibility" => return,
             "iKeyboard" => Some((
                 "Eddy has no `#iKeyboard`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
-                "read the keyboard by a channel, as the site does: #iChannel0 \"keyboard\", and \
+                "read the keyboard from a channel, as on Shadertoy: #iChannel0 \"keyboard\", and \
                  texelFetch(iChannel0, ivec2(65, 0), 0).x is 1 while A is down"
                     .to_owned(),
             )),
             "iVertex" => Some((
                 "Eddy has no `#iVertex`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
-                "a pass with a vertex stage draws meshes: `draws` in eddy.toml names its stages".to_owned(),
+                "to draw meshes with a vertex stage, set `draws` of a pass in eddy.toml".to_owned(),
             )),
             "iFirstPersonControls" => Some((
                 "Eddy has no `#iFirstPersonControls`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
-                "turn the view by iMouse, or by an #iUniform".to_owned(),
+                "control the camera with iMouse or an #iUniform".to_owned(),
             )),
             "import" | "include_next" | "inject" | "use" | "require" | "pragma_include" => {
                 let path = quoted(&rest).filter(|path| !path.is_empty()).unwrap_or("noise.glsl");
@@ -45,7 +45,7 @@ impl Preprocessor<'_, '_> {
             }
             _ if other.eq_ignore_ascii_case("include") => {
                 let path = quoted(&rest).filter(|path| !path.is_empty()).unwrap_or("noise.glsl");
-                let message = format!("there is no directive `#{other}`: letter case counts");
+                let message = format!("there is no directive `#{other}`: upper and lower case differ");
                 Some((message, format!("write #include \"{path}\"")))
             }
             _ => None,
@@ -81,10 +81,9 @@ impl Preprocessor<'_, '_> {
             }
             "glslify" if rest.contains("require") => self.stop(
                 first,
-                "Eddy has no glslify, whose module this line asks for".into(),
+                "Eddy does not support glslify modules".into(),
                 Some(
-                    "run glslify first, or save the module's text beside this one and write #include \"noise.glsl\""
-                        .into(),
+                    "run glslify first, or save the module next to this file and write #include \"noise.glsl\"".into(),
                 ),
             ),
             _ => {}
@@ -110,33 +109,33 @@ fn quoted(rest: &str) -> Option<&str> {
 
 /// Returns what is wrong with an `#include` line, and the mend.
 fn include_mistake(rest: &str) -> (String, String) {
-    let form = || "the form is #include \"noise.glsl\"".to_owned();
+    let form = || "write #include \"noise.glsl\"".to_owned();
     let write = |path: &str| format!("write #include \"{path}\"");
     let path = quoted(rest);
     match rest.chars().next() {
-        None => ("this #include names no file".into(), form()),
-        Some('"' | '\'' | '<') if path.is_some_and(str::is_empty) => ("this #include names no file".into(), form()),
+        None => ("this #include has no file name".into(), form()),
+        Some('"' | '\'' | '<') if path.is_some_and(str::is_empty) => ("this #include has no file name".into(), form()),
         Some('<') => {
             let path = path.unwrap_or_default();
             if is_chunk(path) {
-                let message = format!("`{path}` is a chunk of three.js, which Eddy does not have");
-                (message, format!("save the chunk's text in a file beside this one: #include \"{path}.glsl\""))
+                let message = format!("`{path}` is a chunk of three.js, which Eddy does not include");
+                (message, format!("save the chunk in a file next to this one: #include \"{path}.glsl\""))
             } else if path == "metal_stdlib" {
-                ("this text is Metal, not GLSL".into(), "write the shader in GLSL ES 3.00".into())
+                ("this code is Metal, not GLSL".into(), "write the shader in GLSL ES 3.00".into())
             } else {
-                ("an #include line names its file in double quotes, not in angle brackets".into(), write(path))
+                ("write the #include file in double quotes, not in angle brackets".into(), write(path))
             }
         }
         Some('\'') => {
-            let message = "an #include line names its file in double quotes, not in single ones".into();
+            let message = "write the #include file in double quotes, not in single quotes".into();
             (message, write(path.unwrap_or_default()))
         }
         Some('"') => {
             let inner = &rest[1..];
             match inner.split_once('"') {
-                None => ("the closing quote behind the file's name is missing".into(), write(inner.trim())),
+                None => ("the closing quote after the file name is missing".into(), write(inner.trim())),
                 Some((path, more)) => {
-                    let message = format!("`{}` is too much behind the file of an #include", more.trim());
+                    let message = format!("unexpected `{}` after the #include file", more.trim());
                     (message, write(path))
                 }
             }
@@ -146,8 +145,8 @@ fn include_mistake(rest: &str) -> (String, String) {
             let path = path.trim_end_matches([';', ',', '"', '\'', '>']);
             match rest.split_once(['"', '<']) {
                 // `#include "a.glsl"` with something else before it.
-                Some(_) => ("an #include line names one file in double quotes".into(), form()),
-                None => ("an #include line names its file in double quotes".into(), write(path)),
+                Some(_) => ("an #include takes one file in double quotes".into(), form()),
+                None => ("write the #include file in double quotes".into(), write(path)),
             }
         }
     }
@@ -168,20 +167,20 @@ mod tests {
     #[test]
     fn each_form_has_its_mend() {
         for (rest, message, hint) in [
-            ("", "names no file", "the form is"),
-            ("\"\"", "names no file", "the form is"),
-            ("< >", "names no file", "the form is"),
+            ("", "has no file name", "write #include \"noise.glsl\""),
+            ("\"\"", "has no file name", "write #include \"noise.glsl\""),
+            ("< >", "has no file name", "write #include \"noise.glsl\""),
             ("<lib.glsl>", "not in angle brackets", "write #include \"lib.glsl\""),
             ("<lib/a b.glsl", "not in angle brackets", "write #include \"lib/a b.glsl\""),
             ("<common>", "chunk of three.js", "#include \"common.glsl\""),
-            ("<fog_pars_fragment>", "chunk of three.js", "save the chunk's text"),
+            ("<fog_pars_fragment>", "chunk of three.js", "save the chunk"),
             ("<metal_stdlib>", "Metal", "GLSL ES 3.00"),
-            ("'lib.glsl'", "not in single ones", "write #include \"lib.glsl\""),
+            ("'lib.glsl'", "not in single quotes", "write #include \"lib.glsl\""),
             ("\"lib.glsl", "closing quote", "write #include \"lib.glsl\""),
-            ("\"lib.glsl\" ; x", "`; x` is too much", "write #include \"lib.glsl\""),
+            ("\"lib.glsl\" ; x", "unexpected `; x`", "write #include \"lib.glsl\""),
             ("lib.glsl", "in double quotes", "write #include \"lib.glsl\""),
             ("lib/noise.glsl;", "in double quotes", "write #include \"lib/noise.glsl\""),
-            ("FILE \"a\"", "one file in double quotes", "the form is"),
+            ("FILE \"a\"", "one file in double quotes", "write #include \"noise.glsl\""),
         ] {
             let (said, mend) = include_mistake(rest);
             assert!(said.contains(message) && mend.contains(hint), "{rest}: {said}; {mend}");

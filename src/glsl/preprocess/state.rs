@@ -212,7 +212,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.is_cut = true;
         self.error(
             token,
-            "this comment is not closed: it hides the rest of the text",
+            "this comment is not closed: it hides the rest of the file",
             Some("close it with `*/`".into()),
         );
     }

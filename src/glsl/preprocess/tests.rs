@@ -121,24 +121,24 @@ fn definitions() {
     gives("#define A 1\n#define A 1\nA", "1");
     gives("#define A 1 +  2\n#define A   1 + 2 \nA", "1 + 2");
     gives("#define F(x) x\n#define F(x) x\nF(1)", "1");
-    refuses("#define A 1\n#define A 2", "defined already");
-    refuses("#define A 1+2\n#define A 1 + 2", "defined already");
-    refuses("#define F(x) x\n#define F(y) y", "defined already");
-    refuses("#define F(x) x\n#define F (x) x", "defined already");
+    refuses("#define A 1\n#define A 2", "already defined");
+    refuses("#define A 1+2\n#define A 1 + 2", "already defined");
+    refuses("#define F(x) x\n#define F(y) y", "already defined");
+    refuses("#define F(x) x\n#define F (x) x", "already defined");
     gives("#define A 1\n#undef A\n#define A 2\nA", "2");
     gives("#undef A", "");
     gives("#define HW_PERFORMANCE 1\n#undef HW_PERFORMANCE\n#define HW_PERFORMANCE 0\nHW_PERFORMANCE", "0");
-    refuses("#define HW_PERFORMANCE 0", "defined already");
+    refuses("#define HW_PERFORMANCE 0", "already defined");
     for name in ["__LINE__", "__FILE__", "__VERSION__", "GL_ES"] {
         refuses(&format!("#define {name} 1"), "part of the language");
         refuses(&format!("#undef {name}"), "part of the language");
     }
-    refuses("#define GL_A 1", "kept for the language");
+    refuses("#define GL_A 1", "reserved");
     refuses("#define defined 1", "operator");
     refuses("#define", "needs the name");
     refuses("#define 1 2", "cannot be the name");
-    refuses("#undef A B", "too much");
-    refuses("#define F(x, x) 1", "twice");
+    refuses("#undef A B", "unexpected");
+    refuses("#define F(x, x) 1", "repeated");
     refuses("#define F(...) 1", "variable number");
     refuses("#define F(x 1", "expected `,` or `)`");
     refuses("#define F(1) 1", "name of a parameter");
@@ -185,11 +185,11 @@ fn conditionals() {
     refuses("#endif", "without an `#if`");
     refuses("#else", "without an `#if`");
     refuses("#elif 1", "without an `#if`");
-    refuses("#if 1\n#else\n#else\n#endif", "behind the `#else`");
-    refuses("#if 0\n#else\n#elif 1\n#endif", "behind the `#else`");
-    refuses("#if 1\n#endif x", "too much");
-    refuses("#if 1\n#else x\n#endif", "too much");
-    refuses("#ifdef A B\n#endif", "too much");
+    refuses("#if 1\n#else\n#else\n#endif", "after the `#else`");
+    refuses("#if 0\n#else\n#elif 1\n#endif", "after the `#else`");
+    refuses("#if 1\n#endif x", "unexpected");
+    refuses("#if 1\n#else x\n#endif", "unexpected");
+    refuses("#ifdef A B\n#endif", "unexpected");
     refuses("#ifdef\n#endif", "needs the name");
     refuses("#ifdef 1\n#endif", "needs the name");
 }
@@ -230,7 +230,7 @@ fn expressions() {
     for (text, part) in [
         ("", "missing"),
         ("A", "`A` is not defined"),
-        ("1 +", "not complete"),
+        ("1 +", "incomplete"),
         ("(1", "not closed"),
         ("1)", "not expected"),
         ("1 2", "not expected"),
@@ -246,11 +246,11 @@ fn expressions() {
         ("4294967296", "32 bits"),
         ("defined 1", "takes the name"),
         ("defined(GL_ES", "takes the name"),
-        ("\"a\"", "quotes"),
+        ("\"a\"", "strings"),
     ] {
         refuses(&format!("#if {text}\n#endif"), part);
     }
-    refuses("#define D defined(A)\n#if D\n#endif", "out of a macro");
+    refuses("#define D defined(A)\n#if D\n#endif", "from a macro");
     refuses("#define F(x) x\n#if F\n#endif", "has no value");
     let nested = |depth| format!("#if {}1{}\ny\n#endif", "(".repeat(depth), ")".repeat(depth));
     gives(&nested(9_990), "y");
@@ -266,7 +266,7 @@ fn other_directives() {
     refuses("#version 300 es", "#version");
     refuses("#extension GL_OES_standard_derivatives : enable", "#extension");
     refuses("#include <a.glsl>", "in double quotes, not in angle brackets");
-    refuses("#include", "names no file");
+    refuses("#include", "has no file name");
     refuses("#include \"noise.glsl", "closing quote");
     refuses("#iKeyboard\nx", "no `#iKeyboard`");
     gives("#StrictCompatibility\nx", "x");
@@ -280,10 +280,10 @@ fn other_directives() {
 fn what_is_no_glsl() {
     assert_eq!(refuses("a \u{2212} b", "looks like `-`"), "a \u{2212} b");
     assert_eq!(refuses("a $ b", "no meaning"), "a b");
-    assert_eq!(refuses("float \u{3b1} = 1.0; \u{3b1};", "letter"), "float \u{3b1} = 1.0 ; \u{3b1} ;");
+    assert_eq!(refuses("float \u{3b1} = 1.0; \u{3b1};", "does not allow"), "float \u{3b1} = 1.0 ; \u{3b1} ;");
     refuses("a\u{a0}b", "U+00A0");
     refuses("a\0b", "NUL");
-    refuses("\"text\"", "quotes");
+    refuses("\"text\"", "strings");
     refuses("08", "octal");
     refuses("a /* b", "not closed");
     refuses("#define A /* b\nA", "not closed");
@@ -344,7 +344,7 @@ fn bombs_are_stopped_by_name() {
     refuses(&(empty + "A63"), "2000000");
     let nested = |depth| format!("#define F(x) x\n{}1{}", "F(".repeat(depth), ")".repeat(depth));
     gives(&nested(1000), "1");
-    refuses(&nested(1100), "1024 deep");
+    refuses(&nested(1100), "1024 levels deep");
     refuses(&nested(100_000), "2000000");
     // A chain that is long, but no bomb.
     let mut chain = String::from("#define A0 1\n");

@@ -14,9 +14,9 @@ pub struct Chord {
 /// The reason why a text is no chord.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChordError {
-    #[error("no key is called \"{0}\"; keys are written as A, 7, F3, Up, PageDown, Space or /")]
+    #[error("unknown key \"{0}\"; write keys as A, 7, F3, Up, PageDown, Space or /")]
     Key(String),
-    #[error("\"{0}\" cannot be held down; what can is Ctrl, Alt and Shift")]
+    #[error("unknown modifier \"{0}\"; use Ctrl, Alt or Shift")]
     Modifier(String),
 }
 

@@ -37,8 +37,8 @@ impl Group {
             Group::Window => "Window",
             Group::Search => "Find",
             Group::FindBar => "While the find bar is open",
-            Group::Trace => "While the panel Trace is open",
-            Group::Code => "While typing code",
+            Group::Trace => "While the Trace panel is open",
+            Group::Code => "Code editor",
             Group::Caret => "Caret and selection",
         }
     }
@@ -54,9 +54,15 @@ pub struct Entry {
     pub title: &'static str,
     pub keys: &'static [&'static str],
     pub group: Group,
+    /// Further words by which the palette finds it, in small letters: what other programs call it.
+    pub synonyms: &'static str,
 }
 
 impl Entry {
+    pub const fn found_by(self, synonyms: &'static str) -> Entry {
+        Entry { synonyms, ..self }
+    }
+
     /// Returns whether a key that is held down does it again and again.
     pub fn repeats(&self) -> bool {
         use Action as A;
@@ -74,5 +80,23 @@ impl Entry {
         ];
         matches!(self.action, A::Code(_) | A::Trace(TraceAction::Go(..)) | A::Layout(LayoutAction::Resize(_)))
             || again.contains(&self.action)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gui::actions::ACTIONS;
+
+    /// People look for what they want to do, so that comes first: "Open settings file", not "The file of settings".
+    #[test]
+    fn titles_begin_with_what_is_done() {
+        let never = ["a", "all", "an", "back", "every", "in", "on", "one", "the", "this", "to", "what"];
+        for entry in ACTIONS {
+            let first = entry.title.split([' ', ':']).next().unwrap_or_default();
+            assert!(first.starts_with(char::is_uppercase), "{}", entry.title);
+            assert!(!never.contains(&first.to_lowercase().as_str()), "{}", entry.title);
+            assert!(!entry.title.ends_with('.') && !entry.title.contains(", or "), "{}", entry.title);
+            assert!(entry.synonyms.chars().all(|c| c.is_lowercase() || !c.is_alphabetic()), "{}", entry.synonyms);
+        }
     }
 }

@@ -13,7 +13,7 @@ pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
-            let text = format!("{}; write lines such as: palette = \"Ctrl+Shift+P\"", error.message());
+            let text = format!("{}; write lines like: palette = \"Ctrl+Shift+P\"", error.message());
             return (keymap, vec![Mistake { line: line(error.span()), text }]);
         }
     };
@@ -25,13 +25,13 @@ pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
         let Some(entry) = ACTIONS.iter().find(|e| e.name == name) else {
             let mend = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => "the file that Eddy writes lists them all".to_owned(),
+                None => "the file that Eddy creates lists all actions".to_owned(),
             };
-            wrong(at, format!("there is no action \"{name}\"; {mend}"));
+            wrong(at, format!("unknown action \"{name}\"; {mend}"));
             continue;
         };
         let Some(texts) = texts(item) else {
-            wrong(at, format!("the keys of {name} must be one text or a list: {name} = [\"Ctrl+K\", \"F4\"]"));
+            wrong(at, format!("the keys of {name} must be a string or a list: {name} = [\"Ctrl+K\", \"F4\"]"));
             continue;
         };
         let mut chords = Vec::new();
@@ -44,7 +44,7 @@ pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
                         let other = other.name;
                         wrong(
                             at,
-                            format!("{chord} is {other}'s already, in line {first}; give one of them another key"),
+                            format!("{chord} is already used by {other} in line {first}; give one of them another key"),
                         );
                     } else {
                         given.push((entry, chord, at));
@@ -76,8 +76,8 @@ fn texts(item: &Item) -> Option<Vec<Spanned<'_>>> {
 /// Returns the text of a new file: every action with the keys it has, each as a comment.
 pub fn template() -> String {
     let mut text = String::from(
-        "# Keys of Eddy. Take the # from a line to change it; what is left out stays as it is.\n\
-         # name = \"Ctrl+K\", several as [\"Ctrl+K\", \"F4\"], none as \"\". On a Mac, Ctrl is the Command key.\n",
+        "# Keyboard shortcuts of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
+         # name = \"Ctrl+K\"; several: [\"Ctrl+K\", \"F4\"]; none: \"\". On a Mac, Ctrl is the Command key.\n",
     );
     for group in Group::ALL {
         // Writing to a string does not fail.
@@ -114,10 +114,10 @@ mod tests {
         let (keymap, mistakes) = read(text);
         let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let wanted = [
-            (2, "there is no action \"palete\"; did you mean \"palette\"?"),
-            (3, "the keys of save must be one text or a list: save = [\"Ctrl+K\", \"F4\"]"),
-            (5, "lab = \"Ctrl+Fo\": no key is called \"Fo\"; keys are written as A, 7, F3, Up, PageDown, Space or /"),
-            (7, "F7 is quit's already, in line 6; give one of them another key"),
+            (2, "unknown action \"palete\"; did you mean \"palette\"?"),
+            (3, "the keys of save must be a string or a list: save = [\"Ctrl+K\", \"F4\"]"),
+            (5, "lab = \"Ctrl+Fo\": unknown key \"Fo\"; write keys as A, 7, F3, Up, PageDown, Space or /"),
+            (7, "F7 is already used by quit in line 6; give one of them another key"),
         ];
         assert_eq!(told, wanted);
         let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::New].map(|a| keymap.hint(a));
@@ -125,7 +125,7 @@ mod tests {
         let (_, mistakes) = read("save = \"F2\"\nopen = \n");
         assert_eq!(mistakes.len(), 1);
         assert_eq!(mistakes[0].line, 2);
-        assert!(mistakes[0].text.ends_with("write lines such as: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
+        assert!(mistakes[0].text.ends_with("write lines like: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
     }
 
     /// The new file says what holds without it.

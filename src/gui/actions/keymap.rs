@@ -2,6 +2,7 @@
 
 use super::{Action, Chord, Entry, Group, table::ACTIONS};
 use egui::{Event, Key, Modifiers};
+use std::{ops::Deref, sync::Arc};
 
 /// Holds what is open and has the keyboard, and so whose keys are listened to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -9,6 +10,49 @@ pub struct Listening {
     pub code: bool,
     pub find_bar: bool,
     pub trace: bool,
+}
+
+impl Listening {
+    /// The levels whose keys are listened to, the first come first.
+    fn levels(self) -> impl Iterator<Item = usize> {
+        let levels = [self.code, self.find_bar, self.trace, true];
+        levels.into_iter().enumerate().filter(|(_, is_on)| *is_on).map(|(level, _)| level)
+    }
+}
+
+/// The keys as tips and menus say them: those that work where the keyboard is.
+#[derive(Clone, Debug, Default)]
+pub struct KeysHere {
+    keymap: Arc<Keymap>,
+    listening: Listening,
+}
+
+impl KeysHere {
+    pub fn new(keymap: Arc<Keymap>, listening: Listening) -> Self {
+        Self { keymap, listening }
+    }
+
+    /// Returns the key of an action as a tooltip says it: the first of several that work here, empty for none.
+    pub fn hint(&self, action: Action) -> String {
+        self.keymap.hint_where(action, self.listening)
+    }
+
+    /// Returns a tip with the action's key after it.
+    pub fn tip(&self, tip: &str, action: Action) -> String {
+        match self.hint(action) {
+            key if key.is_empty() => tip.to_owned(),
+            key => format!("{tip} ({key})"),
+        }
+    }
+}
+
+/// Everything else does not depend on the place.
+impl Deref for KeysHere {
+    type Target = Keymap;
+
+    fn deref(&self) -> &Keymap {
+        &self.keymap
+    }
 }
 
 /// The keys of every action.
@@ -43,17 +87,20 @@ impl Keymap {
         ACTIONS.iter().position(|e| e.action == action).map_or(&[], |i| &self.chords[i])
     }
 
-    /// Returns the key of an action as a tooltip says it: the first of several, empty for none.
+    /// Returns the first key of an action, empty for none.
+    #[cfg(test)]
     pub fn hint(&self, action: Action) -> String {
         self.chords(action).first().map(Chord::to_string).unwrap_or_default()
     }
 
-    /// Returns a tip with the action's key behind it.
-    pub fn tip(&self, tip: &str, action: Action) -> String {
-        match self.hint(action) {
-            key if key.is_empty() => tip.to_owned(),
-            key => format!("{tip} ({key})"),
-        }
+    /// Returns the key that does an action where these are listened to: the first that nothing which comes before takes.
+    /// Empty where there is none.
+    fn hint_where(&self, action: Action, listening: Listening) -> String {
+        let Some(i) = ACTIONS.iter().position(|e| e.action == action) else { return String::new() };
+        let own = level(ACTIONS[i].group);
+        let before: Vec<usize> = listening.levels().filter(|level| *level < own).collect();
+        let works = |chord: &&Chord| before.iter().all(|l| self.holder(*l, chord.key, chord.modifiers).is_none());
+        self.chords[i].iter().find(works).map(Chord::to_string).unwrap_or_default()
     }
 
     /// Returns all keys of an action, with what stands in their way.
@@ -68,9 +115,7 @@ impl Keymap {
     /// Returns what a key press means.
     pub fn pressed(&self, event: &Event, listening: Listening) -> Option<&'static Entry> {
         let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
-        let levels = [listening.code, listening.find_bar, listening.trace, true];
-        let levels = || levels.into_iter().enumerate().filter(|(_, is_on)| *is_on).map(|(level, _)| level);
-        let find = |key: Key, m: Modifiers| levels().find_map(|level| self.holder(level, key, m));
+        let find = |key: Key, m: Modifiers| listening.levels().find_map(|level| self.holder(level, key, m));
         // Letters and digits are called by one letter, signs by a word.
         let shifted = modifiers.shift && key.name().len() > 1;
         find(*key, *modifiers)
@@ -176,6 +221,26 @@ mod tests {
         let play = ACTIONS.iter().find(|e| e.name == "play").unwrap();
         assert_eq!(keymap.listed(play), "Alt+Up (not while typing), F5");
         keymap.give(play, vec![]);
-        assert_eq!((keymap.listed(play).as_str(), keymap.tip("Play", Action::TogglePlay).as_str()), ("", "Play"));
+        assert_eq!((keymap.listed(play).as_str(), keymap.hint(Action::TogglePlay).as_str()), ("", ""));
+    }
+
+    /// In the code Alt+Down moves a line, and Reset has another key that works there.
+    #[test]
+    fn tips_say_the_keys_that_work_where_the_keyboard_is() {
+        let (code, elsewhere) = (Listening { code: true, ..Listening::default() }, Listening::default());
+        let trace = Listening { trace: true, ..code };
+        let hint = |listening, action| KeysHere::new(Arc::default(), listening).hint(action);
+        assert_eq!(
+            (hint(elsewhere, Action::Reset).as_str(), hint(code, Action::Reset).as_str()),
+            ("Alt+Down", "Ctrl+Shift+F5")
+        );
+        assert_eq!(hint(trace, Action::TogglePlay), "", "F5 continues, Alt+Up moves");
+        for (entry, at) in ACTIONS.iter().flat_map(|entry| [code, elsewhere, trace].map(|at| (entry, at))) {
+            let Ok(said) = Chord::parse(&hint(at, entry.action)) else { continue };
+            let does = Keymap::default().pressed(&press(said.key, said.modifiers), at);
+            // The code's own keys are for where the code has the keyboard.
+            let is_heard = at.levels().any(|l| l == level(entry.group));
+            assert!(!is_heard || does.is_some_and(|e| e.name == entry.name), "{said} with {at:?}");
+        }
     }
 }

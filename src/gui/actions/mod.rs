@@ -19,7 +19,7 @@ mod watch;
 pub use action::Action;
 pub use chord::Chord;
 pub use entry::{Entry, Group};
-pub use keymap::{Keymap, Listening};
+pub use keymap::{Keymap, KeysHere, Listening};
 pub use layout::LayoutAction;
 pub use picture::{PictureAction, SCALES, SIZES};
 pub use table::ACTIONS;

@@ -9,7 +9,7 @@ pub type KeyFile = WatchedFile<Arc<Keymap>>;
 
 impl Content for Arc<Keymap> {
     const NAME: &str = "keybindings.toml";
-    const STAYS: &str = "The keys stay as they are.";
+    const STAYS: &str = "The keyboard shortcuts stay as they are.";
 
     fn read(text: &str) -> (Self, Vec<Mistake>) {
         let (keymap, mistakes) = file::read(text);
@@ -44,10 +44,7 @@ mod tests {
         assert_eq!(keys.keymap().hint(Action::Help), "F1");
         fs::write(&path, "help = \"F9\"\nhelp-me = \"F1\"\n").unwrap();
         let told = keys.refresh();
-        assert!(
-            told.len() == 1 && told[0].starts_with(&format!("{}:2: there is no action", path.display())),
-            "{told:?}"
-        );
+        assert!(told.len() == 1 && told[0].starts_with(&format!("{}:2: unknown action", path.display())), "{told:?}");
         assert_eq!(keys.keymap().hint(Action::Help), "F9");
         assert_eq!(keys.refresh(), [""; 0], "told once");
         keys.write_if_missing().unwrap();

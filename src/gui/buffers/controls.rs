@@ -29,7 +29,8 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
         }
         if state.page == Page::Graph {
             separator(ui);
-            let fit = ui.selectable_label(state.sheet.fits(), "Fit").on_hover_text("All of it; the wheel goes near");
+            let fit =
+                ui.selectable_label(state.sheet.fits(), "Fit").on_hover_text("Fit the whole graph; scroll to zoom");
             if out.clicked("buffers:fit-graph", &fit) {
                 state.sheet.fit();
             }
@@ -39,9 +40,9 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
         channels(state, ui, out);
         separator(ui);
         let paints = [
-            (Paint::Range, "Range", "From black, the range's begin, to white, its end"),
-            (Paint::Sign, "Signed", "Red above zero, blue below, the brighter the farther"),
-            (Paint::FalseColour, "False colour", "From blue, the range's begin, through green and yellow to red"),
+            (Paint::Range, "Range", "Black at the start of the range, white at its end"),
+            (Paint::Sign, "Signed", "Red above zero, blue below; brighter is farther from zero"),
+            (Paint::FalseColour, "False colour", "Blue at the start of the range, through green and yellow to red"),
         ];
         for (paint, name, tip) in paints {
             let response = ui.selectable_label(state.look.paint == paint, name).on_hover_text(tip);
@@ -71,14 +72,14 @@ fn separator(ui: &mut Ui) {
 
 fn channels(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
     let components = state.seen.as_ref().map_or(4, |seen| seen.read.components);
-    let all = ui.selectable_label(state.look.channel.is_none(), "RGB").on_hover_text("All components as a colour");
+    let all = ui.selectable_label(state.look.channel.is_none(), "RGB").on_hover_text("Show all components as a colour");
     if out.clicked("buffers:channel:all", &all) {
         state.look.channel = None;
     }
     for channel in 0..components {
         let name = COMPONENTS[usize::from(channel) & 3];
         let is_on = state.look.channel == Some(channel);
-        let response = ui.selectable_label(is_on, name.to_uppercase()).on_hover_text(format!("Only {name}"));
+        let response = ui.selectable_label(is_on, name.to_uppercase()).on_hover_text(format!("Show {name} only"));
         if out.clicked(&format!("buffers:channel:{name}"), &response) {
             state.look.channel = (!is_on).then_some(channel);
         }
@@ -99,12 +100,13 @@ fn range(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
         out.place(place, response.rect);
         response.on_hover_text(name).changed()
     };
-    let is_low = field(ui, "buffers:low", "Begin of the range", &mut low);
+    let is_low = field(ui, "buffers:low", "Start of the range", &mut low);
     let is_high = field(ui, "buffers:high", "End of the range", &mut high);
     if is_low || is_high {
         state.look.range = Some((low, high));
     }
-    let auto = ui.selectable_label(state.look.range.is_none(), "Auto").on_hover_text("From the least to the largest");
+    let auto =
+        ui.selectable_label(state.look.range.is_none(), "Auto").on_hover_text("From the smallest to the largest value");
     if out.clicked("buffers:auto", &auto) {
         state.look.range = if state.look.range.is_none() { Some((0.0, 1.0)) } else { None };
     }
@@ -115,11 +117,11 @@ fn exposure(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
     let response = ui.add(field.prefix("EV "));
     accessible::name(&response, egui::Role::SpinButton, format!("Exposure: {}", state.look.exposure));
     out.place("buffers:exposure", response.rect);
-    response.on_hover_text("Exposure in stops: one more shows values twice as bright");
+    response.on_hover_text("Exposure in stops: +1 doubles the brightness");
 }
 
 fn size(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
-    let fit = ui.selectable_label(state.zoom.fits(), "Fit").on_hover_text("All of it (Home)");
+    let fit = ui.selectable_label(state.zoom.fits(), "Fit").on_hover_text("Fit the whole texture (Home)");
     if out.clicked("buffers:fit", &fit) {
         state.zoom.fit();
     }

@@ -62,10 +62,10 @@ fn about(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
     let pixels = &seen.read.pixels;
     let scale = state.scale.unwrap_or(1.0) * ui.pixels_per_point() * 100.0;
     let mut lines = vec![(format!("{}×{} texels", pixels.width, pixels.height), p.weak)];
-    lines.push((format!("shown at {scale:.0} %"), p.weak));
+    lines.push((format!("zoom {scale:.0} %"), p.weak));
     lines.extend(state.texel.map(|(x, y)| (format!("texel {x},{y}"), p.text)));
     if seen.read.nonfinite.is_none() {
-        lines.push(("every number is finite".to_owned(), p.good));
+        lines.push(("all values are finite".to_owned(), p.good));
     }
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width().max(1.0), 5.0 * ROW), Sense::hover());
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));

@@ -43,7 +43,7 @@ fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chos
     accessible::choice(&response, egui::Role::Button, is_chosen, format!("Buffer {name}{bad}{spoken}"));
     if ui.is_rect_visible(rect) {
         let fill = match (is_chosen, response.hovered()) {
-            (true, _) => p.accent_fill,
+            (true, _) => p.chosen,
             (false, true) => p.button,
             (false, false) => p.raised,
         };

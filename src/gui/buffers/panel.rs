@@ -34,7 +34,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<
         return;
     }
     let Some(target) = target else {
-        ui.colored_label(theme::of(ui).weak, "The project has no pass that makes a picture.");
+        ui.colored_label(theme::of(ui).weak, "This project has no pass that draws.");
         return;
     };
     let room = ui.available_rect_before_wrap();

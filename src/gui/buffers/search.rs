@@ -23,7 +23,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
     ui.horizontal_wrapped(|ui| match search {
         Some(Search::UnderWay { done, of }) => {
             ui.spinner();
-            ui.label(format!("Looking for the first NaN: frame {done} of {of}"));
+            ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
             if out.clicked("buffers:stop", &ui.button("Stop")) {
                 out.ask(Command::FindNonfinite(false));
             }
@@ -40,13 +40,13 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
                     state.reveals = Some((x, y));
                 }
             }
-            find(ui, "Find the first cause", out);
+            find(ui, "Find first cause", out);
         }
         Some(Search::Ended(end)) => {
             match end {
                 SearchEnd::Found(found) => first(state, ui, found, out),
                 SearchEnd::Nowhere { first, last } => {
-                    let text = format!("Every texel of every pass is a finite number in frames {first} to {last}.");
+                    let text = format!("All texels of all passes are finite in frames {first} to {last}.");
                     let label = ui.add(Label::new(RichText::new(text).color(p.good)).wrap());
                     out.place("buffers:found", label.rect);
                 }
@@ -55,8 +55,8 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
                     out.place("buffers:found", label.rect);
                 }
             }
-            find(ui, "Again", out);
-            let close = ui.button("Close").on_hover_text("Do not show this any more");
+            find(ui, "Search again", out);
+            let close = ui.button("Close").on_hover_text("Dismiss");
             if out.clicked("buffers:close-search", &close) {
                 out.ask(Command::FindNonfinite(false));
             }
@@ -65,8 +65,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
 }
 
 fn find(ui: &mut Ui, name: &str, out: &mut Outbox) {
-    let tip = "Draws the frames that are kept once more beside the picture, and names the first NaN: pass, frame, \
-               texel and line";
+    let tip = "Replays the kept frames in the background and reports the first NaN: pass, frame, texel and line";
     let response = ui.button(name).on_hover_text(tip);
     if out.clicked("buffers:find", &response) {
         out.ask(Command::FindNonfinite(true));
@@ -78,7 +77,7 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Out
     let (pass, (x, y)) = (found.pass.title(), found.texel);
     let head = match found.is_older {
         true => {
-            format!("{pass} has it at {x},{y} before the frames that were looked through: go back, and look again.")
+            format!("{pass} has it at {x},{y} before the searched frames: step back and search again.")
         }
         false => format!("First NaN: {pass}, frame {}, texel {x},{y} ({} in that frame).", found.frame, found.texels),
     };
@@ -93,15 +92,15 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Out
         ui.add(Label::new(RichText::new(words).color(p.text)).wrap());
         if let Some(place) = place
             && let Some(tab) = &place.tab
-            && out.clicked("buffers:go-to", &ui.button("Go to the line"))
+            && out.clicked("buffers:go-to", &ui.button("Go to line"))
         {
             out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
         }
     } else if !found.is_older {
-        let words = "No operation makes it: it is too large for the pass's format, or was read from a texture.";
+        let words = "No operation produces it: it is too large for the pass's format, or was read from a texture.";
         ui.add(Label::new(RichText::new(words).color(p.text)).wrap());
     }
-    if out.clicked("buffers:show-texel", &ui.button("Show the texel")) {
+    if out.clicked("buffers:show-texel", &ui.button("Show texel")) {
         state.choose((found.pass.clone(), 0));
         state.reveals = Some(found.texel);
     }

@@ -54,7 +54,7 @@ pub fn choose(
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: false };
             set(out, Some(Channel { input: Input::Keyboard, sampler }));
         }
-        if out.clicked("choose:file", &ui.button("Picture…")) {
+        if out.clicked("choose:file", &ui.button("Image file…")) {
             out.wishes.push(Wish::Pick(Pick::Picture { channel: index }));
         }
     });
@@ -84,7 +84,7 @@ pub fn choose(
 }
 
 fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatches: &mut Swatches<'_>) {
-    ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).accent_fill } else { theme::of(ui).background });
+    ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).chosen } else { theme::of(ui).background });
     let place = Rect::from_center_size(pos2(rect.center().x, rect.top() + 34.0), vec2(60.0, 60.0));
     swatches.show(ui, place, input);
     let mut job =
@@ -118,7 +118,7 @@ fn sampler(ui: &mut Ui, channel: &Channel, out: &mut Outbox, set: impl Fn(&mut O
         });
         accessible::name(&wrap.response, egui::Role::ComboBox, "Wrap");
         if matches!(channel.input, Input::Texture(_) | Input::Cubemap(_) | Input::Video(_) | Input::Webcam) {
-            ui.checkbox(&mut sampler.vflip, "flip").on_hover_text("The picture's top row lies at v = 1");
+            ui.checkbox(&mut sampler.vflip, "flip").on_hover_text("Put the top row of the image at v = 1");
         }
     });
     if sampler != channel.sampler {

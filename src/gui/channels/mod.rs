@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnai
     let rect = ui.available_rect_before_wrap();
     let mut swatches = Swatches { session, thumbnails, live };
     let Some(pass) = pass(session, tab) else {
-        let text = "Common is put before every pass; channels belong to the passes";
+        let text = "Common is shared code; channels belong to passes";
         let painter = ui.painter().with_clip_rect(rect);
         let font = FontId::proportional(12.0);
         painter.text(rect.center(), Align2::CENTER_CENTER, text, font, theme::of(ui).weak);
@@ -98,7 +98,7 @@ fn show_empty(ui: &Ui, card: Rect, index: usize) -> Response {
         ui.painter().text(at, Align2::CENTER_CENTER, index, FontId::proportional(11.0), p.weak);
     }
     response
-        .on_hover_text(format!("iChannel{index} reads nothing. Click to give it an input"))
+        .on_hover_text(format!("iChannel{index} has no input. Click to choose one"))
         .on_hover_cursor(egui::CursorIcon::PointingHand)
 }
 
@@ -139,7 +139,7 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         painter.galley(pos2(text.left(), y - galley.size().y / 2.0), galley, color);
     };
     let (tint, how) = match missing {
-        Some(_) => (p.warning, "is no pass".to_owned()),
+        Some(_) => (p.warning, "no such pass".to_owned()),
         None => (p.text, sampler_name(channel)),
     };
     let of_how = if missing.is_some() { p.warning } else { p.weak };
@@ -158,7 +158,7 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         line(card.center().y, &format!("{index}  {name}"), 12.0, tint);
     }
     let more = match missing {
-        Some(id) => format!("There is no {}; the channel reads zeros", id.title()),
+        Some(id) => format!("There is no {}; the channel reads zero", id.title()),
         None => sampler_name(channel),
     };
     response.on_hover_text(format!("iChannel{index}: {name}\n{more}")).on_hover_cursor(egui::CursorIcon::PointingHand)

@@ -129,8 +129,8 @@ impl FindBar {
                 out.place(name, response.rect);
             };
             let (case, regex) = (&mut self.query.match_case, &mut self.query.is_regex);
-            switch(ui, case, "find:case", "Aa", "Upper and lower case count", Action::FindCase);
-            switch(ui, regex, "find:regex", ".*", "A regular expression; $1 in the replacement", Action::FindRegex);
+            switch(ui, case, "find:case", "Aa", "Match case", Action::FindCase);
+            switch(ui, regex, "find:regex", ".*", "Use regular expression; $1 in the replacement", Action::FindRegex);
             self.refresh(tab, editor);
             let at = self.found.matches.iter().position(|m| *m == editor.buffer().selection().range());
             let (text, color) = match (&self.found.finder, self.found.matches.len(), at) {
@@ -143,8 +143,8 @@ impl FindBar {
             let count = ui.colored_label(color, text);
             out.place("find:count", count.rect);
             for (icon, label, forward, action) in [
-                (Icon::Previous, "Previous match", false, Action::FindPrevious),
-                (Icon::Next, "Next match", true, Action::FindNext),
+                (Icon::Previous, "Find previous", false, Action::FindPrevious),
+                (Icon::Next, "Find next", true, Action::FindNext),
             ] {
                 if icons::button(ui, icon, label).on_hover_text(out.keys.tip(label, action)).clicked() {
                     self.step(tab, editor, forward);
@@ -153,7 +153,7 @@ impl FindBar {
             if self.replaces {
                 self.replacing(ui, tab, editor, out);
             } else {
-                let tip = out.keys.tip("Replace too", Action::Replace);
+                let tip = out.keys.tip("Show replace", Action::Replace);
                 if ui.button("Replace…").on_hover_text(tip).clicked() {
                     self.replaces = true;
                 }
@@ -171,7 +171,8 @@ impl FindBar {
             field.request_focus();
         }
         let some = !self.found.matches.is_empty();
-        let one = ui.add_enabled(some, Button::new("Replace")).on_hover_text("This match, then on to the next (Enter)");
+        let one =
+            ui.add_enabled(some, Button::new("Replace")).on_hover_text("Replace this match and find the next (Enter)");
         if out.clicked("find:replace", &one) || (entered && some) {
             self.replace_one(tab, editor);
         }

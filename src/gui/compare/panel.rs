@@ -57,9 +57,9 @@ pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbo
 fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     ui.label("Against");
     let choices = [
-        (Choice::LastSave, "Last save", "compare:last-save", "The project as it was last saved, read or begun"),
-        (Choice::Project, "Project", "compare:project", "A folder, a file, or a preset's name"),
-        (Choice::Revision, "Revision", "compare:revision", "The project in a revision of its git repository"),
+        (Choice::LastSave, "Last save", "compare:last-save", "The project as last saved or opened"),
+        (Choice::Project, "Project", "compare:project", "A folder, a file or the name of a preset"),
+        (Choice::Revision, "Revision", "compare:revision", "The project at a revision of its git repository"),
     ];
     for (choice, name, place, tip) in choices {
         let response = ui.selectable_label(state.choice == choice, name).on_hover_text(tip);
@@ -69,8 +69,8 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     }
     let (text, name, hint, width) = match state.choice {
         Choice::LastSave => return,
-        Choice::Project => (&mut state.project, "The other project", "folder, file or preset", 170.0),
-        Choice::Revision => (&mut state.revision, "The revision", "HEAD~1, a branch, a hash", 110.0),
+        Choice::Project => (&mut state.project, "The other project", "Folder, file or preset", 170.0),
+        Choice::Revision => (&mut state.revision, "The revision", "HEAD~1, a branch or a hash", 110.0),
     };
     let field = ui.add(TextEdit::singleline(text).desired_width(width).hint_text(hint));
     accessible::name(&field, egui::Role::TextInput, name);
@@ -79,7 +79,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
         out.commands.extend(state.against().map(|against| Command::Compare(Some(against))));
     }
     if state.choice == Choice::Project {
-        let browse = ui.button("Browse…").on_hover_text("The other project's folder");
+        let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
         if out.clicked("compare:browse", &browse) {
             out.wishes.push(Wish::Pick(Pick::Reference));
         }
@@ -94,20 +94,21 @@ fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) 
         }
         if of > 1 {
             let part = done as f32 / of as f32;
-            let bar = ProgressBar::new(part).desired_width(130.0).text(format!("frame {done} of {of}"));
+            let bar = ProgressBar::new(part).desired_width(130.0).text(format!("Frame {done} of {of}"));
             let response = ui.add(bar);
-            accessible::name(&response, egui::Role::ProgressIndicator, format!("Drawn: frame {done} of {of}"));
+            accessible::name(&response, egui::Role::ProgressIndicator, format!("Drawing frame {done} of {of}"));
         } else {
             ui.spinner();
         }
         return;
     }
     let against = state.against();
-    let tip = "Draws the frames since the reset once more, by both, from the same inputs. Beside a picture at work the \
-               times are noisier; paused they are not";
+    let tip = "Replays the frames since the last reset with both projects and the same inputs. Pause the picture \
+               for less noisy times";
     let compare = ui.add_enabled(against.is_some(), egui::Button::new("Compare")).on_hover_text(tip);
     let is_asked = out.clicked("compare:begin", &compare);
-    let follows = ui.checkbox(&mut state.follows, "after each edit").on_hover_text("Compare again when new code draws");
+    let follows =
+        ui.checkbox(&mut state.follows, "After each edit").on_hover_text("Compare again whenever new code is drawn");
     out.place("compare:follow", follows.rect);
     if state.is_measuring() {
         ui.spinner();
@@ -123,9 +124,9 @@ fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) 
 fn views(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     let views = [
         (View::Side, "Side by side", "compare:side", "This project on the left"),
-        (View::Wipe, "Wipe", "compare:wipe", "One over the other: drag the line, or the arrow keys"),
+        (View::Wipe, "Wipe", "compare:wipe", "One over the other: drag the line or use the arrow keys"),
         (View::Difference, "Difference", "compare:difference", "The difference of each component"),
-        (View::Flip, "FLIP", "compare:flip", "How much of a difference an eye sees when one flips between both"),
+        (View::Flip, "FLIP", "compare:flip", "Visible difference when flipping between the two"),
     ];
     for (view, name, place, tip) in views {
         let response = ui.selectable_label(state.view == view, name).on_hover_text(tip);
@@ -137,7 +138,7 @@ fn views(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
         ui.add_space(6.0);
         for gain in GAINS {
             let response = ui.selectable_label(state.gain == gain, format!("× {gain}"));
-            let response = response.on_hover_text(format!("{gain} times as large"));
+            let response = response.on_hover_text(format!("Multiply the difference by {gain}"));
             if out.clicked(&format!("compare:gain:{gain}"), &response) {
                 state.gain = gain;
             }
@@ -169,13 +170,13 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
 
 fn whereabouts(comparison: &Comparison) -> String {
     let Comparison { pass, frame, ours, against, is_cut, frames, .. } = comparison;
-    let cut = if *is_cut { format!(" · the last {frames} frames, from empty buffers") } else { String::new() };
+    let cut = if *is_cut { format!(" · last {frames} frames, from empty buffers") } else { String::new() };
     format!("{} in frame {frame}, {}x{}, against {}{cut}", pass.title(), ours.width, ours.height, against.name())
 }
 
 pub(super) fn distance(apart: &Apart, comparison: &Comparison) -> String {
     if apart.texels_apart == 0 {
-        return "The same in every bit".to_owned();
+        return "Identical in every bit".to_owned();
     }
     let ssim = apart.ssim.map_or("none".to_owned(), |ssim| format!("{ssim:.5}"));
     format!(
@@ -192,8 +193,8 @@ pub(super) fn distance(apart: &Apart, comparison: &Comparison) -> String {
 pub(super) fn pace(times: &Times) -> String {
     let Times { ours, theirs, ratio, ratio_low, ratio_high, turns } = times;
     format!(
-        "{ours:.3} ms a frame against {theirs:.3}: {ratio:.3} times (quartiles {ratio_low:.3} to {ratio_high:.3}, \
-         {turns} turns)"
+        "{ours:.3} ms per frame against {theirs:.3}: ratio {ratio:.3} (quartiles {ratio_low:.3} to {ratio_high:.3}, \
+         {turns} runs)"
     )
 }
 

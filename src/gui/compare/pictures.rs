@@ -20,11 +20,11 @@ pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut Outbox) {
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
     let (view, gain) = (state.view, state.gain);
     let Some(seen) = &mut state.seen else {
-        let words = "Compare draws this project and another one from the same inputs.";
+        let words = "Compare draws this project and another one with the same inputs.";
         let galley = painter.layout(words.to_owned(), FontId::proportional(12.5), p.weak, area.width() - 24.0);
         let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), area);
         painter.galley(pos2(at.left(), at.top()), galley, p.weak);
-        accessible::name(&response, egui::Role::Canvas, "Comparison, none yet");
+        accessible::name(&response, egui::Role::Canvas, "No comparison yet");
         return;
     };
     let size = {
@@ -76,7 +76,7 @@ pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut Outbox) {
     });
     let shown = match view {
         View::Side => "side by side".to_owned(),
-        View::Wipe => format!("wiped at {:.0} %", state.wipe * 100.0),
+        View::Wipe => format!("wipe at {:.0} %", state.wipe * 100.0),
         View::Difference => format!("difference times {gain}"),
         View::Flip => "FLIP".to_owned(),
     };

@@ -22,7 +22,7 @@ pub fn show(dialog: &Dialog) -> Outcome {
         },
         Err(Error::Response(ResponseError::Cancelled)) => Outcome::Cancelled,
         Err(e) => {
-            log::info!("no file dialog by the desktop's portal: {e}");
+            log::info!("the desktop portal did not open a file dialog: {e}");
             Outcome::Unavailable
         }
     }

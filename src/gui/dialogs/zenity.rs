@@ -41,7 +41,7 @@ fn show_with(program: &Path, dialog: &Dialog) -> Outcome {
     let output = match command.output() {
         Ok(output) => output,
         Err(e) => {
-            log::info!("no file dialog by zenity: {e}");
+            log::info!("zenity did not open a file dialog: {e}");
             return Outcome::Unavailable;
         }
     };

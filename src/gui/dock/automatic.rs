@@ -21,6 +21,8 @@ const BELOW: f32 = 250.0;
 const LEAST_CHANNELS: f32 = 44.0;
 /// Channels grow to so much where nothing else wants the room.
 const MOST_CHANNELS: f32 = 150.0;
+/// Uniforms that are no higher than this show a line of advice and nothing to turn.
+pub const COLLAPSED: f32 = 44.0;
 /// A table of costs is so high.
 const COSTS: f32 = 170.0;
 /// The part of the code's height that the way of a pixel has.
@@ -121,6 +123,11 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
     let least_below = wants_channels + wants_aside.min(BAR + 60.0);
     let picture = wants_picture.min((size.y - least_below).max(size.y * 0.4));
     let below = size.y - picture;
+    // Uniforms that there are none of leave their room to the picture.
+    let is_collapsed = heights.uniforms <= COLLAPSED && !open.contains(&Panel::Costs);
+    let given = below - wants_aside - wants_channels.max(BAR + MOST_CHANNELS);
+    let given = if has_picture && wants_aside * wants_channels > 0.0 && is_collapsed { given.max(0.0) } else { 0.0 };
+    let (picture, below) = (picture + given, below - given);
     let (channels, aside_height) = if wants_aside == 0.0 {
         (below, 0.0)
     } else if wants_channels == 0.0 {
@@ -133,7 +140,8 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
             // Cards of one line say it too; what is above them must not be scrolled for.
             (wants_channels + spare).max(BAR + LEAST_CHANNELS)
         };
-        (channels.min(below * 0.6), below - channels.min(below * 0.6))
+        let most = if is_collapsed { below - wants_aside.min(below * 0.4) } else { below * 0.6 };
+        (channels.min(most), below - channels.min(most))
     };
     // Where nothing is below it, the picture has it all.
     let picture = if wants_channels + wants_aside == 0.0 { size.y } else { picture };

@@ -118,7 +118,7 @@ impl Behavior<Panel> for Bars<'_> {
         ui.spacing_mut().item_spacing.x = 4.0;
         let close = icons::flat(ui, Icon::Close, &format!("Close {}", panel.title()));
         self.contents.place(format!("panel:close:{}", panel.name()), close.rect);
-        if close.on_hover_text("Close; \"View\" at the top opens it again").clicked() {
+        if close.on_hover_text("Close (reopen it from the View menu)").clicked() {
             self.closed = Some(panel);
         }
         self.contents.tools(ui, panel);

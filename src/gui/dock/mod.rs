@@ -12,7 +12,7 @@ mod panel;
 mod separators;
 mod tree;
 
-pub use automatic::Heights;
+pub use automatic::{COLLAPSED, Heights};
 pub use bars::Contents;
 pub use node::Node;
 pub use panel::{BAR, Panel, Side};

@@ -125,7 +125,7 @@ impl Node {
         let mut count = 0;
         node.count(&mut count);
         if count != node.panels().len() {
-            return Err("a panel is in it twice".into());
+            return Err("a panel is listed twice".into());
         }
         Ok(node)
     }
@@ -143,14 +143,14 @@ impl Node {
             let names = Panel::ALL.map(Panel::name).join(", ");
             return Panel::named(name)
                 .map(Node::Panel)
-                .ok_or_else(|| format!("there is no panel \"{name}\"; there are {names}"));
+                .ok_or_else(|| format!("unknown panel \"{name}\"; the panels are {names}"));
         }
-        let table = value.as_inline_table().ok_or("a panel's name, a row, a column or tabs are wanted")?;
+        let table = value.as_inline_table().ok_or("expected the name of a panel, a row, a column or tabs")?;
         let nodes = |key: &str| -> Result<Option<Vec<Node>>, String> {
             let Some(list) = table.get(key) else { return Ok(None) };
             let list = list.as_array().ok_or_else(|| format!("{key} must be a list"))?;
             if list.is_empty() {
-                return Err(format!("{key} has nothing in it"));
+                return Err(format!("{key} is empty"));
             }
             list.iter().map(Node::read).collect::<Result<_, _>>().map(Some)
         };
@@ -169,7 +169,7 @@ impl Node {
             let front = front.unwrap_or(0).min(tabs.len() - 1);
             Ok(Node::Tabs(tabs, front))
         } else {
-            Err("a row, a column or tabs are wanted".into())
+            Err("expected a row, a column or tabs".into())
         }
     }
 }

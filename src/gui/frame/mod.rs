@@ -48,7 +48,11 @@ pub fn run(
 }
 
 #[cfg(test)]
+mod contrast;
+#[cfg(test)]
 mod harness;
+#[cfg(test)]
+mod looks;
 #[cfg(test)]
 mod names;
 #[cfg(test)]

@@ -117,11 +117,9 @@ fn every_panel_has_names() {
 #[test]
 fn what_is_open_for_moments_has_names() {
     let Some(mut stage) = open(false) else { return };
-    for (widget, wanted) in [
-        ("button:view", "All in their usual places"),
-        ("button:time", "Time to go to"),
-        ("button:options", "Close the picture"),
-    ] {
+    for (widget, wanted) in
+        [("button:view", "Reset layout"), ("button:time", "Time to go to"), ("button:options", "Close picture")]
+    {
         click(&mut stage, widget);
         has(&named(&stage, widget), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
@@ -143,7 +141,7 @@ fn what_is_open_for_moments_has_names() {
 
     press(&mut stage, CTRL_SHIFT, Key::B);
     click(&mut stage, "passes:row:Buffer A");
-    for (widget, wanted) in [("passes:size", "fixed"), ("passes:format", "rgba32f   four floats, as on the site")] {
+    for (widget, wanted) in [("passes:size", "fixed"), ("passes:format", "rgba32f   four floats, as on Shadertoy")] {
         click(&mut stage, widget);
         has(&named(&stage, widget), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
@@ -171,7 +169,7 @@ fn what_is_open_for_moments_has_names() {
 
     stage.state_mut().session.apply(Command::Hold);
     stage.run_steps(3);
-    has(&named(&stage, "a halt"), &["Play", "Smaller resolution"]);
+    has(&named(&stage, "a halt"), &["Play", "Lower resolution"]);
 }
 
 #[test]

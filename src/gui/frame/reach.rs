@@ -12,11 +12,11 @@ use egui::{Key, Modifiers};
 fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     let Some(mut stage) = open(false) else { return };
     let transport = |stage: &Stage| stage.state().session.transport();
-    choose(&mut stage, "always 640");
+    choose(&mut stage, "640");
     assert_eq!(transport(&stage).fixed_size, Some((640, 360)));
-    choose(&mut stage, "size: 1/2");
+    choose(&mut stage, "scale: 1/2");
     assert_eq!((transport(&stage).fixed_size, transport(&stage).scale), (None, 0.5));
-    choose(&mut stage, "shape: the view");
+    choose(&mut stage, "fill the panel");
     stage.run_steps(3);
     let area = stage.state().shell.place("viewport").unwrap();
     let shape = |stage: &Stage| f64::from(transport(stage).resolution.0) / f64::from(transport(stage).resolution.1);
@@ -37,12 +37,12 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
         session.custom_uniform_value(uniform).components()[0]
     };
     assert_eq!(red(&stage), 0.25);
-    choose(&mut stage, "uniforms: all back");
+    choose(&mut stage, "reset all uniforms");
     assert_eq!(red(&stage), 0.5);
 
     choose(&mut stage, "add common");
     assert!(stage.state().session.tabs().contains(&Tab::Common));
-    choose(&mut stage, "add a buffer");
+    choose(&mut stage, "add buffer");
     let b = Tab::Pass(PassId::Buffer("B".into()));
     assert!(stage.state().session.tabs().contains(&b));
     stage.run_steps(2);
@@ -51,7 +51,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     stage.state_mut().session.apply(Command::Hold);
     stage.run_steps(2);
     assert!(stage.state().session.halt().is_some());
-    choose(&mut stage, "slow frame: go on");
+    choose(&mut stage, "slow frame: continue");
     assert!(stage.state().session.halt().is_none());
     choose(&mut stage, "open folder");
     until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
@@ -90,7 +90,7 @@ fn the_panel_with_the_keyboard_is_sized_and_moved_by_keys() {
     let left = stage.state().shell.place("editor").unwrap().left();
     // The harness keeps 8 points clear on each side; three digits of a line's number and the room beside them take 57.
     assert!(left < 8.0 + 57.0 + 3.0, "{left}: no more than the numbers of lines are before it");
-    choose(&mut stage, "this panel: close");
+    choose(&mut stage, "close panel");
     assert!(!stage.state().shell.dock().is_open(Panel::Code));
 }
 

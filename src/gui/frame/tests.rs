@@ -308,7 +308,7 @@ fn what_cannot_be_used_is_told_and_a_project_is_opened() {
     };
     let before = stage.session.project().clone();
     stage.drop_files(&["notes.docx"], None);
-    assert!(stage.session.notices().last().unwrap().text.contains("notes.docx is nothing that Eddy opens"));
+    assert!(stage.session.notices().last().unwrap().text.contains("notes.docx is not a file Eddy can open"));
     assert_eq!(*stage.session.project(), before);
     stage.drop_files(&["lone.glsl"], None);
     assert_eq!(stage.session.project().name, "lone");

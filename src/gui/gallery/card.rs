@@ -105,7 +105,7 @@ impl Card {
             }
             Thumbnail::Failed(why) => {
                 painter.rect_filled(place, top, p.surround);
-                painter.text(place.center(), Align2::CENTER_CENTER, "No picture", FontId::proportional(12.0), p.weak);
+                painter.text(place.center(), Align2::CENTER_CENTER, "No thumbnail", FontId::proportional(12.0), p.weak);
                 trouble = Some(why);
             }
         }

@@ -3,6 +3,7 @@
 //! Owns what is searched for and which category is shown.
 
 mod card;
+mod grid;
 mod start;
 
 use super::{
@@ -14,9 +15,9 @@ use super::{
 use crate::{project::presets, session::Session};
 use card::Card;
 use egui::{Frame, Margin, RichText, ScrollArea, TextEdit, Ui, pos2, vec2};
+use grid::{GAP, columns};
 use std::time::Instant;
 
-const GAP: f32 = 16.0;
 /// A picture comes alive when the pointer has rested on its card for so long.
 const RESTS: f32 = 0.15;
 
@@ -99,10 +100,10 @@ impl Gallery {
             let field = TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(150.0);
             let field = field.background_color(p.button);
             let field = ui.add(field);
-            accessible::name(&field, egui::Role::TextInput, "Search the presets");
+            accessible::name(&field, egui::Role::TextInput, "Search presets");
             out.place("gallery:search", field.rect);
         });
-        ui.colored_label(p.weak, "Editing a preset edits a copy. Rest the pointer on a card to see it move.");
+        ui.colored_label(p.weak, "Editing a preset edits a copy. Hover over a card to play it.");
     }
 
     /// Shows the cards. Returns the one that the pointer is on.
@@ -129,7 +130,7 @@ impl Gallery {
         }
         if is_empty {
             ui.add_space(10.0);
-            ui.colored_label(theme::of(ui).weak, format!("No preset has \"{}\" in its words", self.search.trim()));
+            ui.colored_label(theme::of(ui).weak, format!("No preset matches \"{}\"", self.search.trim()));
         }
         hovered
     }
@@ -138,8 +139,7 @@ impl Gallery {
 /// Shows cards in rows, each as high as its longest text asks.
 fn grid(ui: &mut Ui, cards: &[&'static Card], thumbnails: &mut Thumbnails, out: &mut Outbox) -> Option<&'static str> {
     let room = ui.available_width();
-    let columns = ((room + GAP) / (230.0 + GAP)).floor().clamp(1.0, 6.0);
-    let width = ((room - GAP * (columns - 1.0)) / columns).min(360.0).floor();
+    let (columns, width) = columns(room);
     let mut hovered = None;
     for row in cards.chunks(columns as usize) {
         let texts: Vec<_> = row.iter().map(|card| card.text(ui, width)).collect();

@@ -1,5 +1,6 @@
 //! The first row: a new shader, what is on the clipboard, a file or a folder, and what was open before.
 
+use super::grid::{self, GAP};
 use crate::{
     gui::{
         accessible,
@@ -12,7 +13,6 @@ use crate::{
 use egui::{FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
 
 const HEIGHT: f32 = 54.0;
-const GAP: f32 = 10.0;
 /// As many as fill two rows of a usual window.
 const RECENT: usize = 8;
 
@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let tiles = [
         ("gallery:new", "New shader", new),
         ("gallery:paste", "Paste", format!("{paste}: Shadertoy JSON, GLSL, a path")),
-        ("gallery:open-file", "Open file…", format!("{open}, or drop one here")),
+        ("gallery:open-file", "Open file…", format!("{open}, or drop a file here")),
         ("gallery:open", "Open folder…", "eddy.toml, or GLSL files".into()),
     ];
     let mut clicked = None;
@@ -66,9 +66,10 @@ fn recent_row(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
 
 /// Shows tiles of one size, as many beside each other as there is room for.
 fn rows<T>(ui: &mut Ui, tiles: &[T], mut show: impl FnMut(&mut Ui, Rect, &T)) {
-    let room = ui.available_width();
+    // As wide together as the cards below, whose edge they share.
+    let room = grid::width(ui.available_width());
     let columns = ((room + GAP) / (190.0 + GAP)).floor().clamp(1.0, 4.0);
-    let width = ((room - GAP * (columns - 1.0)) / columns).min(300.0).floor();
+    let width = (room - GAP * (columns - 1.0)) / columns;
     for row in tiles.chunks(columns as usize) {
         let (place, _) = ui.allocate_exact_size(vec2(room, HEIGHT), Sense::hover());
         for (i, one) in row.iter().enumerate() {
@@ -88,15 +89,16 @@ fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str, is_first: bool)
     painter.rect_filled(
         rect,
         6.0,
-        if hot {
-            p.button_hovered
-        } else if is_first {
-            p.button
-        } else {
-            p.panel
+        // In light, what is grey looks as if it could not be clicked.
+        match (hot, is_first, p.is_dark) {
+            (true, ..) => p.button_hovered,
+            (false, true, true) => p.button,
+            (false, true, false) => p.raised,
+            (false, false, _) => p.panel,
         },
     );
-    let border = if hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, p.line) };
+    let edge = if is_first && !p.is_dark { p.button_edge } else { p.line };
+    let border = if hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, edge) };
     painter.rect_stroke(rect, 6.0, border, StrokeKind::Inside);
     for (text, size, color, y) in [(title, 14.0, p.strong, 9.0), (about, 11.5, p.weak, 30.0)] {
         let mut job = LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(size), color);

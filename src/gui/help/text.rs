@@ -1,6 +1,6 @@
 //! Owns what the help says besides the keys.
 
-/// A part of the help: a title, and paragraphs. What stands behind a tab is code.
+/// A part of the help: a title, and paragraphs. A paragraph that begins with a tab is code.
 pub(super) struct Section {
     pub title: &'static str,
     pub paragraphs: &'static [&'static str],
@@ -10,87 +10,89 @@ pub(super) const SECTIONS: &[Section] = &[
     Section {
         title: "First steps",
         paragraphs: &[
-            "Take a preset from the gallery, or begin a new shader. What is typed is compiled by itself and shown; \
-             where it has an error, the last good picture runs on and the list below the code says \
+            "Open a preset from the gallery, or choose New. Type in the code: Eddy compiles as you type and updates the \
+             picture. If there is an error, the last working version keeps running, and the list below the code says \
              what is wrong and where.",
-            "Editing a preset edits a copy. Save writes the project into a folder of plain texts. What is typed is in \
-             a recovery file within a second, and is offered at the next start if Eddy ended before it was saved.",
-            "Another editor can be used beside this one: a file that it saves is taken in at once.",
+            "Press Ctrl+Shift+P for the command palette, which finds every command by a few letters. Drag the picture \
+             to move iMouse; press Alt+Up to play or pause.",
+            "Save with Ctrl+S. A project is a folder of plain GLSL files; presets are never changed, as editing one \
+             edits a copy. Unsaved work is backed up within a second and offered again after a crash.",
+            "You can use another editor at the same time: Eddy reloads a file when it is saved.",
         ],
     },
     Section {
         title: "Keyboard",
         paragraphs: &[
-            "A blue frame shows what has the keyboard. Click the picture to send keys to the shader, the code to type.",
-            "F6 goes to the next part of the window, Shift+F6 to the one before. Tab goes from one control to the next \
-             within it, Space or Enter presses it, the arrow keys turn a slider. Escape gives the keyboard back to the \
-             code or to the picture, whichever had it last.",
-            "Shift+F10, or the menu key, opens the menu of a tab. The command palette has \"This panel\" for what a hand \
-             drags: it makes the panel that has the keyboard wider, narrower, higher or lower, and moves or closes it.",
-            "In a dialog Enter presses the coloured button, Escape cancels. The command palette finds every action by \
-             a few letters of its name.",
+            "A blue frame shows which panel has keyboard focus. Click the picture to send keys to the shader, click the \
+             code to type.",
+            "F6 focuses the next panel, Shift+F6 the previous one. Inside a panel, Tab goes to the next control, Space \
+             or Enter presses it, and the arrow keys move a slider. Escape returns to the code or the picture.",
+            "Shift+F10 or the menu key opens the menu of a tab. To resize, move or close the focused panel from the \
+             keyboard, search the command palette for \"panel\".",
+            "In a dialog, Enter presses the highlighted button and Escape cancels.",
         ],
     },
     Section {
-        title: "The picture",
+        title: "Picture",
         paragraphs: &[
-            "The mouse over the picture is iMouse: xy is where it is while it is down, zw where it went down. Keys are \
-             read from the keyboard's texture, which a channel can be set to.",
-            "A new size starts buffers anew. Sizes, scales and the pass that is shown are chosen in the bar below. A \
-             picture is saved in the project's folder, or where pictures are kept for a project without one.",
-            "A frame that takes longer than the limit pauses the picture and asks what to do. The text is never \
-             touched.",
+            "iMouse follows the mouse over the picture: xy is the position while the button is held, zw where it was \
+             pressed. To read keys, set a channel to Keyboard.",
+            "Choose the resolution and the shown pass in the toolbar below the picture. Changing the resolution \
+             restarts the buffers. Screenshots are saved in the project's folder, or in your pictures folder if the \
+             project is not saved.",
+            "If a frame exceeds the time limit, Eddy pauses the picture and asks what to do. Your text is never changed.",
         ],
     },
     Section {
         title: "Passes and channels",
         paragraphs: &[
-            "Passes are drawn in the order of their tabs, Image last. Common stands before the text of each. + adds \
-             one; a right click on a tab shows or removes it.",
-            "A channel is what iChannel0 to iChannel3 read: another pass, the keyboard, a picture. A pass that reads \
-             itself, or one that is drawn after it, sees the frame before.",
+            "Passes are drawn in the order of their tabs, Image last. Common is shared code, inserted before the code \
+             of every pass. Press + to add a pass; right-click a tab to show or remove one.",
+            "A pass reads its inputs from iChannel0 to iChannel3: another pass, the keyboard or an image file. A pass \
+             that reads itself, or a pass drawn after it, gets the previous frame.",
         ],
     },
     Section {
         title: "Uniforms",
         paragraphs: &[
-            "A line in the code declares a uniform that is turned by hand, without compiling:",
+            "Add a line like one of these to get a slider, which changes the value without compiling:",
             "\t#iUniform float speed = 1.0 in { 0.0, 5.0 }",
             "\t#iUniform color3 tint = color3(1.0, 0.5, 0.0)",
-            "Types are float, int, bool, vec2, vec3, vec4 and color3. A step of a slider is written as step 0.1 behind \
+            "Types are float, int, bool, vec2, vec3, vec4 and color3. To set the step of a slider, write step 0.1 after \
              the range.",
-            "Drag a slider, or click its number to type one. A double click on the name or the rail goes back to the \
-             default. Values are saved with the project.",
+            "Drag a slider, or click its number to type a value. Double-click the name or the slider to reset it. \
+             Values are saved with the project.",
         ],
     },
     Section {
-        title: "Seeing inside",
+        title: "Debugging",
         paragraphs: &[
-            "Probe expression draws the value at the caret instead of the picture: the bar over it says its range, its \
-             histogram and the number under the mouse. Stripes are pixels that never came by. Escape ends it. With \
-             Ctrl and Alt held, what the pointer is over is probed. Buffers go on as before.",
-            "Trace pixel, or a click on the picture with Ctrl and Shift held, pauses and follows one pixel through its \
-             code. Each line can then be gone to and back again: forwards by the usual keys of a debugger, backwards \
-             by the same keys with Alt. A click beside a line's number sets a breakpoint, which can have a condition. \
-             Watches are expressions of the language, and may call your own functions.",
-            "A comment prints what an expression is where it stands, each time, and means nothing to the site:",
+            "Probe draws the value of the expression at the caret instead of the picture. The bar above it shows the \
+             range, a histogram and the value under the mouse. Stripes mark pixels that do not evaluate the expression. \
+             Press Escape to close the probe. Hold Ctrl+Alt to probe the expression under the mouse. Buffers keep \
+             running.",
+            "Trace steps through the code of one pixel, line by line. Ctrl+Shift+click a pixel of the picture to start. \
+             Use the usual debugger keys to step forwards, and the same keys with Alt to step backwards. Click next to \
+             a line number to set a breakpoint, which can have a condition. Watches are GLSL expressions and may call \
+             your own functions.",
+            "Add a comment like this to print the value of an expression each time the line is reached; Shadertoy \
+             ignores it:",
             "\t//@print distance * 0.5",
-            "Another comment has a number of a pass measured, which the panel Measurements plots over time while it is \
-             open:",
+            "Add a comment like this to plot a value of a pass over time in the Measurements panel:",
             "\t//@probe sum(buffer_a.x)",
-            "One frame back draws the frame before again, with every buffer as it was. Record input writes down what \
-             each frame is given, so that the command line draws the same frames again.",
-            "Compare draws this project and another one (its last save, a revision of its git repository, any other \
-             project) from the same inputs, and shows both pictures, their difference and how their times compare.",
-            "Check the picture holds some of its pixels against double precision, and lists what GLSL leaves undefined \
-             below the code.",
+            "Step one frame back draws the previous frame with all buffers as they were. Record input saves what each \
+             frame is given, so that the command line can draw the same frames again.",
+            "Compare draws this project and another one (the last save, a git revision or any other project) with the \
+             same inputs, and shows both pictures, their difference and their times.",
+            "Check precision compares some pixels with double precision, and lists what GLSL leaves undefined below \
+             the code.",
         ],
     },
     Section {
-        title: "The lab and costs",
+        title: "Costs and the lab",
         paragraphs: &[
-            "The table of costs says what each pass takes in time and memory. The lab measures methods against a \
-             reference and plots their speed against their error.",
+            "The Costs panel shows the time and memory of each pass. The Lab panel compares methods with a reference \
+             and plots speed against error.",
         ],
     },
 ];

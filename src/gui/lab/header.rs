@@ -25,9 +25,7 @@ pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
             more(ui, lab, out);
             let is_known = !lab.known(lab.extent).results.errors.is_empty();
             let save = ui.add_enabled(is_known && lab.saving.is_none(), Button::new("Save report…"));
-            let save = save.on_hover_text(
-                "Tables, plots and one HTML page of all that is measured, as `eddy lab --out` writes them",
-            );
+            let save = save.on_hover_text("Write tables, plots and an HTML page of all results, like `eddy lab --out`");
             if out.clicked("lab:save-report", &save) {
                 Lab::pick(out, Pick::LabReport);
             }
@@ -61,8 +59,8 @@ fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     ui.spacing_mut().item_spacing.x = 2.0;
     let mut chosen = lab.extent;
     for (extent, name, tip) in [
-        (Extent::Quick, "Quick", "Small grids and every second setting: seconds"),
-        (Extent::Full, "Full", "The grids of the report and every setting: minutes"),
+        (Extent::Quick, "Quick", "Small grids and every second setting: takes seconds"),
+        (Extent::Full, "Full", "Full grids and every setting: takes minutes"),
     ] {
         let button = ui.add(Button::new(name).selected(lab.extent == extent)).on_hover_text(tip);
         if out.clicked(&format!("lab:{}", name_of(extent)), &button) {
@@ -77,7 +75,7 @@ fn start(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     if let Some(run) = &lab.run {
         let is_stopping = run.background.is_stopping();
         let button = ui.add_enabled(!is_stopping, Button::new(if is_stopping { "Stopping…" } else { "Stop" }));
-        let button = button.on_hover_text("What is measured is kept; Start goes on where it was");
+        let button = button.on_hover_text("Results are kept; Start resumes the run");
         if out.clicked("lab:stop", &button) {
             run.background.stop();
         }
@@ -87,10 +85,10 @@ fn start(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     let is_temporary = matches!(lab.folder, Folder::Temporary(_));
     let is_begun = lab.shown.is_some();
     let (label, tip) = match (is_whole, is_begun) {
-        (true, _) if is_temporary => ("Run again", "Measure all of it anew"),
-        (true, _) => ("Start", "All is measured. To measure it again, choose another folder"),
-        (false, true) => ("Go on", "Measure what is missing"),
-        (false, false) => ("Start", "Measure in the background; the window goes on"),
+        (true, _) if is_temporary => ("Run again", "Measure everything again"),
+        (true, _) => ("Start", "Everything is measured. To measure again, choose another folder"),
+        (false, true) => ("Resume", "Measure the missing points"),
+        (false, false) => ("Start", "Measure in the background"),
     };
     let text = RichText::new(label).color(theme::of(ui).strong);
     let button = ui.add_enabled(!is_whole || is_temporary, Button::new(text).fill(theme::of(ui).accent_fill));
@@ -111,7 +109,8 @@ fn progress(ui: &mut Ui, lab: &Lab) {
     }
     let bar = ProgressBar::new(part).desired_width(width).desired_height(18.0).fill(theme::of(ui).accent_fill);
     let text = RichText::new(words.clone()).size(11.5).color(theme::of(ui).strong);
-    let tip = "Costs are measured beside this window: a picture at work makes them larger. `eddy lab` on a quiet machine gives those to publish";
+    let tip = "Costs are measured while the window draws, which makes them larger. For publication run `eddy lab` \
+               on an idle machine";
     ui.add(bar.text(text).corner_radius(4)).on_hover_text(format!("{words}\n{tip}"));
 }
 
@@ -126,7 +125,7 @@ fn more(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         ui.colored_label(theme::of(ui).weak, place);
         let choose = ui.add_enabled(lab.run.is_none(), Button::new("Keep results in a folder…"));
         let choose =
-            choose.on_hover_text("A run goes on where the folder's was; `eddy lab merge` can join it with others");
+            choose.on_hover_text("A run resumes from the folder's results; `eddy lab merge` joins several folders");
         if out.clicked("lab:choose-folder", &choose) {
             Lab::pick(out, Pick::LabFolder);
             ui.close();

@@ -60,8 +60,8 @@ fn method(ui: &mut Ui, shown: &Shown, n: usize) -> bool {
 fn key(ui: &mut Ui) {
     let ink = theme::of(ui).text;
     for (look, words) in [
-        (Some(Look::Full), "best at its cost"),
-        (Some(Look::Grey), "another is cheaper and closer"),
+        (Some(Look::Full), "best at its cost (on the frontier)"),
+        (Some(Look::Grey), "beaten: another is cheaper and more accurate"),
         (Some(Look::Hollow), "fails a hard case"),
         (None, "the frontier"),
     ] {
@@ -75,10 +75,10 @@ fn key(ui: &mut Ui) {
             }
         }
     }
-    line(ui, "faint: its cost is an estimate as yet", 11.5, theme::of(ui).weak);
+    line(ui, "faint: the cost is still an estimate", 11.5, theme::of(ui).weak);
     ui.add_space(4.0);
     ui.label(
-        RichText::new("A click on a point opens its project. Drag to move, scroll to zoom, double-click to see all.")
+        RichText::new("Click a point to open its project. Drag to pan, scroll to zoom, double-click to see all.")
             .size(11.0)
             .color(theme::of(ui).weak),
     );

@@ -61,7 +61,7 @@ impl Lab {
             let points = study.points(self.extent).len();
             let grids: Vec<String> = study.grids(self.extent).iter().map(u32::to_string).collect();
             let words = match self.run {
-                Some(_) => "The first points come soon.".to_owned(),
+                Some(_) => "Measuring the first points…".to_owned(),
                 None => format!("Start measures {points} points on grids of {} texels a side.", grids.join(", ")),
             };
             ui.colored_label(theme::of(ui).weak, words);

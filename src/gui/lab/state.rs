@@ -107,7 +107,7 @@ impl Lab {
                     self.known_mut(extent).is_saved = self.run.is_none();
                     (format!("wrote {}", path.join("index.html").display()), false)
                 }
-                Err(why) => (format!("the report was not written: {why}"), true),
+                Err(why) => (format!("the report could not be written: {why}"), true),
             });
         }
         let Some(run) = &mut self.run else { return };
@@ -153,7 +153,8 @@ impl Lab {
             Folder::Temporary(Some(folder)) => Ok(folder.path().join(name_of(extent))),
             Folder::Temporary(none) => {
                 let made = tempfile::Builder::new().prefix("eddy-lab-").tempdir();
-                let made = made.map_err(|e| format!("no temporary folder: {e}; choose a folder for the results"))?;
+                let made = made
+                    .map_err(|e| format!("cannot create a temporary folder: {e}; choose a folder for the results"))?;
                 Ok(none.insert(made).path().join(name_of(extent)))
             }
         }
@@ -180,7 +181,7 @@ impl Lab {
         let open = move || Gpu::another(&adapter, &GpuOptions::default());
         let options = Options { out, extent, repeats: cost::MIN_REPEATS, shard: Shard::WHOLE };
         let background = Background::start(open, vec![study], options, self.wake.clone());
-        let background = background.map_err(|e| format!("no thread for the lab: {e}"))?;
+        let background = background.map_err(|e| format!("cannot start a thread for the lab: {e}"))?;
         self.run = Some(Run { background, study: self.study, extent, progress: Progress::Begins });
         Ok(())
     }
@@ -210,7 +211,8 @@ impl Lab {
         if is_temporary && !known.is_saved && !known.results.errors.is_empty() {
             let folder = folder.display();
             return Err(format!(
-                "{folder} holds results, and those of this window are saved nowhere: save a report first, or choose an empty folder"
+                "{folder} already holds results, and the results in this window are not saved: save a report first, \
+                 or choose an empty folder"
             ));
         }
         *known = Known { results: there, estimates: Vec::new(), is_saved: true };
@@ -233,7 +235,7 @@ impl Lab {
             Ok(_) => {
                 (self.saving, self.told) = (Some((self.extent, saved)), Some(("writing the report…".into(), false)))
             }
-            Err(e) => self.told = Some((format!("no thread for the report: {e}"), true)),
+            Err(e) => self.told = Some((format!("cannot start a thread for the report: {e}"), true)),
         }
     }
 
@@ -281,7 +283,7 @@ pub(super) fn name_of(extent: Extent) -> &'static str {
 fn write_report(folder: &Path, studies: &[&dyn Study], results: &Results, is_own: bool) -> Result<(), String> {
     let taken = [lab::RESULTS_FILE, "index.html"].into_iter().find(|name| folder.join(name).exists());
     if let (Some(name), false) = (taken, is_own) {
-        return Err(format!("{} holds {name} already; choose another folder", folder.display()));
+        return Err(format!("{} already holds {name}; choose another folder", folder.display()));
     }
     let said = |e: LabError| e.to_string();
     results.write(folder).map_err(said)?;

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: 
                 }
             }
             Some(Unmeasured { why, mend }) => {
-                let text = RichText::new(format!("Nothing is measured here: {why}")).color(p.warning);
+                let text = RichText::new(format!("Not measured: {why}")).color(p.warning);
                 ui.add(Label::new(text).wrap());
                 ui.add(Label::new(RichText::new(mend).color(p.weak)).wrap());
             }
@@ -61,7 +61,7 @@ fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &m
         ui.label(text).on_hover_text(&measure.text);
         let place = &measure.place;
         let link = ui.add(Link::new(measure.whereabouts()));
-        if out.clicked(&format!("measures:go:{index}"), &link.on_hover_text("Go to the comment"))
+        if out.clicked(&format!("measures:go:{index}"), &link.on_hover_text("Go to comment"))
             && let Some(tab) = &place.tab
         {
             out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));

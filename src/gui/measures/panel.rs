@@ -15,8 +15,8 @@ pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut 
     ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
     let measures = session.measures();
     if measures.is_empty() {
-        let text = "A comment //@probe sum(buffer_a.x) in any pass has its number measured here, over time: the sum of a \
-                    component of a pass, or its min, max, mean, rms, or how many of it are nonfinite.";
+        let text = "Add a comment like //@probe sum(buffer_a.x) to any pass to plot that value over time. \
+                    Functions: sum, min, max, mean, rms and nonfinite (the number of non-finite values).";
         ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
         return;
     }
@@ -38,8 +38,8 @@ pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut 
 fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &mut Outbox) {
     ui.horizontal_wrapped(|ui| {
         for (axis, place, tip) in [
-            (Axis::Frame, "measures:axis:frame", "Over the number of the frame"),
-            (Axis::Time, "measures:axis:time", "Over time, in seconds"),
+            (Axis::Frame, "measures:axis:frame", "Plot over the frame number"),
+            (Axis::Time, "measures:axis:time", "Plot over time in seconds"),
         ] {
             let response = ui.selectable_label(state.axis == axis, axis.name()).on_hover_text(tip);
             if out.clicked(place, &response) {
@@ -49,12 +49,11 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
         ui.separator();
         let is_empty = measures.iter().all(|measure| measure.record.newest().is_none());
         let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
-        let save =
-            save.on_hover_text("A row for each frame, a column for each comment; in a new file beside the pictures");
+        let save = save.on_hover_text("One row per frame, one column per comment; saved next to the screenshots");
         if out.clicked("measures:save", &save) {
             out.ask(Command::SaveMeasures);
         }
-        let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Begin all of them anew");
+        let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Clear all plots and start again");
         if out.clicked("measures:clear", &clear) {
             out.ask(Command::ClearMeasures);
         }

@@ -67,6 +67,8 @@ struct Fit<'a> {
     title: &'a str,
     choice: Choice<'a>,
     letters: Vec<usize>,
+    /// The further word by which it was found, where its title alone does not fit.
+    synonym: Option<&'a str>,
 }
 
 impl Palette {
@@ -118,7 +120,7 @@ impl Palette {
                 Frame::popup(ui.style()).inner_margin(Margin::same(6)).show(ui, |ui| {
                     ui.set_width(width);
                     let field = TextEdit::singleline(&mut open.typed).id(Id::unique("palette field"));
-                    let field = field.hint_text("What to do: a few letters of its name").desired_width(f32::INFINITY);
+                    let field = field.hint_text("Type a command").desired_width(f32::INFINITY);
                     let field = ui.add(field.margin(Margin::symmetric(8, 6)));
                     out.place("field:palette", field.rect);
                     if std::mem::take(&mut open.takes_focus) {
@@ -131,14 +133,14 @@ impl Palette {
                     ui.add_space(4.0);
                     ui.spacing_mut().item_spacing.y = 0.0;
                     if fits.is_empty() {
-                        ui.colored_label(theme::of(ui).weak, "Nothing is called so.");
+                        ui.colored_label(theme::of(ui).weak, "No matching command.");
                     }
                     for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
                         let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
                         let is_selected = i == open.selected;
                         accessible::choice(&response, egui::Role::ListBoxOption, is_selected, fit.title);
                         if i == open.selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).chosen);
                         } else if response.hovered() {
                             ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
                         }
@@ -207,13 +209,16 @@ fn fits<'a>(typed: &str, recent: &[Action], offers: &'a [Offer]) -> Vec<Fit<'a>>
         Choice::Offer(_) => usize::MAX,
     };
     let actions = ACTIONS.iter().filter(|entry| entry.action != Action::Palette);
-    let actions = actions.map(|entry| (entry.name, entry.title, Choice::Action(entry.action)));
-    let offers = offers.iter().map(|offer| (offer.name.as_str(), offer.title.as_str(), Choice::Offer(offer)));
+    let actions = actions.map(|entry| (entry.name, entry.title, entry.synonyms, Choice::Action(entry.action)));
+    let offers = offers.iter().map(|offer| (offer.name.as_str(), offer.title.as_str(), "", Choice::Offer(offer)));
     let mut found: Vec<_> = actions
         .chain(offers)
-        .filter_map(|(name, title, choice)| {
-            let (cost, letters) = fuzzy::fit(typed, title)?;
-            Some((cost, age(choice), Fit { name, title, choice, letters }))
+        .filter_map(|(name, title, synonyms, choice)| {
+            let own = fuzzy::fit(typed, title).map(|(cost, letters)| (cost, letters, None));
+            let other =
+                fuzzy::fit_with(typed, title, synonyms).map(|(cost, letters, word)| (cost, letters, Some(word)));
+            let (cost, letters, synonym) = own.into_iter().chain(other).min_by_key(|(cost, ..)| *cost)?;
+            Some((cost, age(choice), Fit { name, title, choice, letters, synonym }))
         })
         .collect();
     // Equal ones stay in the table's order.
@@ -235,6 +240,9 @@ fn row(ui: &Ui, rect: Rect, fit: &Fit<'_>, key: &str, is_selected: bool) {
         };
         job.append(letter.encode_utf8(&mut [0; 4]), 0.0, egui::TextFormat::simple(FontId::proportional(13.5), color));
     }
+    if let Some(word) = fit.synonym {
+        job.append(word, 8.0, egui::TextFormat::simple(FontId::proportional(12.0), weak));
+    }
     let room = rect.width() - key.size().x - 36.0;
     job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(40.0));
     let title = painter.layout_job(job);
@@ -246,6 +254,11 @@ fn row(ui: &Ui, rect: Rect, fit: &Fit<'_>, key: &str, is_selected: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gui::{
+        actions::{PictureAction, SIZES},
+        dock::Panel,
+        settings::Theme,
+    };
 
     fn action(fit: &Fit<'_>) -> Option<Action> {
         match fit.choice {
@@ -267,8 +280,40 @@ mod tests {
         assert_eq!(first("full"), Action::Fullscreen);
         assert_eq!(first("FIND REPL"), Action::Replace);
         assert_eq!(first("open folder"), Action::OpenFolder);
-        assert_eq!(first("light"), Action::Theme(crate::gui::settings::Theme::Light));
+        assert_eq!(first("light"), Action::Theme(Theme::Light));
         assert!(fits("qqq", &[], &[]).is_empty());
+    }
+
+    /// Words of other programs, and of people who have not read ours.
+    #[test]
+    fn words_that_people_know_find_an_action() {
+        use Action as A;
+        for (typed, wanted) in [
+            ("debug", A::Panel(Panel::Trace)),
+            ("export", A::SaveAs),
+            ("shortcuts", A::KeyFile),
+            ("keybindings", A::KeyFile),
+            ("preferences", A::SettingsFile),
+            ("options", A::SettingsFile),
+            ("profiler", A::Costs),
+            ("performance", A::Costs),
+            ("video", A::Record),
+            ("screenshot", A::Screenshot),
+            ("fullscreen", A::Fullscreen),
+            ("examples", A::Gallery),
+            ("import", A::Open),
+            ("sliders", A::Panel(Panel::Uniforms)),
+            ("search", A::Find),
+            ("presentation", A::Present),
+            ("4k", A::Picture(PictureAction::Size(SIZES[5]))),
+            ("dark mode", A::Theme(Theme::Dark)),
+        ] {
+            assert_eq!(first(typed), wanted, "{typed}");
+        }
+        assert_eq!(fits("profiler", &[], &[])[0].synonym, Some("profiler"));
+        assert_eq!(fits("costs", &[], &[])[0].synonym, None, "its own title fits");
+        let by = |typed: &str| fits(typed, &[], &[]).iter().filter_map(action).collect::<Vec<_>>();
+        assert!(by("debug").contains(&A::TracePixel) && by("export").contains(&A::Screenshot));
     }
 
     #[test]

@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
     }
     let Some(pass) = tab.pass().and_then(|id| project.pass(id)) else {
         ui.heading("Common");
-        ui.label("Its text is put before that of every pass.");
+        ui.label("Its code is inserted before the code of every pass.");
         shows(ui, tab, None, out);
         return;
     };
@@ -72,28 +72,28 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             ui.label("Steps");
             steps(ui, project, pass, out);
             ui.end_row();
-            ui.label("Read with");
+            ui.label("Sampling");
             samplers(ui, project, &pass.id, out);
             ui.end_row();
         }
         let can_be_filled = pass.settings.meshes().is_none();
         if is_buffer && can_be_filled {
-            ui.label("Begins with");
+            ui.label("Initial state");
             fills::show(ui, pass, FillKind::Initial, &mut typed.initial, out);
             ui.end_row();
         }
         if (is_buffer || pass.id == PassId::Image) && can_be_filled {
-            ui.label("Edges").on_hover_text("The outermost texels, overwritten after each draw");
+            ui.label("Edges").on_hover_text("Overwrite the outermost texels after each draw");
             fills::show(ui, pass, FillKind::Boundary, &mut typed.boundary, out);
             ui.end_row();
         }
     });
     let note = match &pass.id {
-        PassId::Image => "Image has the size of the canvas and 32-bit floats.",
-        PassId::Cubemap => "Cubemap passes are kept and saved; Eddy does not draw them yet.",
-        PassId::Sound => "Sound passes are kept and saved; Eddy does not play them yet.",
+        PassId::Image => "Image has the picture's resolution and 32-bit floats.",
+        PassId::Cubemap => "Cubemap passes are saved, but Eddy does not draw them yet.",
+        PassId::Sound => "Sound passes are saved, but Eddy does not play them yet.",
         PassId::Buffer(_) if pass.settings.meshes().is_some() => {
-            "This pass draws meshes; which ones, and its camera, are said in eddy.toml."
+            "This pass draws meshes. Edit eddy.toml to change the meshes and the camera."
         }
         PassId::Buffer(_) => "",
     };
@@ -108,11 +108,11 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
 fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut Outbox) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        if out.clicked("passes:text", &ui.button("Edit its text")) {
+        if out.clicked("passes:text", &ui.button("Edit code")) {
             out.wishes.push(Wish::GoTo(tab.clone(), None));
         }
         if let Some(pass) = pass.filter(|id| !matches!(id, PassId::Sound | PassId::Cubemap))
-            && out.clicked("passes:show", &ui.button("Show its picture"))
+            && out.clicked("passes:show", &ui.button("Show this pass"))
         {
             out.ask(Command::ShowPass(pass.clone()));
         }
@@ -156,7 +156,7 @@ fn checked(project: &Project, id: &PassId, name: &str) -> (Option<PassId>, Optio
     let why = match &wanted {
         None => Some(PassId::NAMES.to_owned()),
         Some(other) if other != id && project.pass(other).is_some() => {
-            Some(format!("There is a {} already", other.title()))
+            Some(format!("{} already exists", other.title()))
         }
         Some(_) => None,
     };
@@ -183,8 +183,8 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
     let now = pass.settings.size;
     ui.horizontal(|ui| {
         let label = match now {
-            PassSize::Canvas => "the canvas",
-            PassSize::Scale(_) => "of the canvas",
+            PassSize::Canvas => "picture size",
+            PassSize::Scale(_) => "scaled",
             PassSize::Fixed(..) => "fixed",
         };
         let combo = ComboBox::from_id_salt("size").width(104.0).selected_text(label).show_ui(ui, |ui| {
@@ -194,8 +194,8 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
                 _ => 0.5,
             };
             for (name, label, size) in [
-                ("canvas", "the canvas", PassSize::Canvas),
-                ("scale", "of the canvas", PassSize::Scale(factor)),
+                ("canvas", "picture size", PassSize::Canvas),
+                ("scale", "scaled", PassSize::Scale(factor)),
                 ("fixed", "fixed", PassSize::Fixed(width, height)),
             ] {
                 let is_now = std::mem::discriminant(&size) == std::mem::discriminant(&now);
@@ -227,7 +227,7 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
         }
         if !matches!(now, PassSize::Fixed(..)) {
             let (width, height) = now.of(canvas);
-            ui.colored_label(theme::of(ui).weak, format!("{width}×{height} now"));
+            ui.colored_label(theme::of(ui).weak, format!("currently {width}×{height}"));
         }
     });
 }
@@ -247,20 +247,20 @@ fn format(ui: &mut Ui, pass: &Pass, out: &mut Outbox) {
         combo_box(&combo.response, "format", out);
         let bytes = now.bytes();
         let unit = if bytes == 1 { "byte" } else { "bytes" };
-        ui.colored_label(theme::of(ui).weak, format!("{bytes} {unit} a texel"));
+        ui.colored_label(theme::of(ui).weak, format!("{bytes} {unit} per texel"));
     });
     let more = pass.settings.meshes().map_or(0, |g| g.more_targets.len());
     if more > 0 {
         ui.end_row();
         ui.label("");
         let names: Vec<&str> = pass.settings.formats().iter().skip(1).map(|f| f.name()).collect();
-        ui.colored_label(theme::of(ui).weak, format!("further targets: {}", names.join(", ")));
+        ui.colored_label(theme::of(ui).weak, format!("more targets: {}", names.join(", ")));
     }
 }
 
 fn meaning(format: PassFormat) -> &'static str {
     match format {
-        PassFormat::Rgba32f => "four floats, as on the site",
+        PassFormat::Rgba32f => "four floats, as on Shadertoy",
         PassFormat::Rgba16f => "four half floats",
         PassFormat::Rgba8 => "four from 0 to 1, 256 values",
         PassFormat::Rg32f => "two floats",
@@ -276,12 +276,12 @@ fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
     let now = pass.settings.region;
     ui.vertical(|ui| {
         let mut is_part = now.is_some();
-        let check = ui.checkbox(&mut is_part, "draw only a part");
+        let check = ui.checkbox(&mut is_part, "draw only a region");
         if out.clicked("passes:region", &check) {
             let (width, height) = pass.settings.size.of(session.transport().resolution);
             edit(out, PassEdit::Region(pass.id.clone(), is_part.then_some(Region { x: 0, y: 0, width, height })));
         }
-        check.on_hover_text("The other texels keep what they held");
+        check.on_hover_text("Texels outside the region keep their values");
         let Some(now) = now else { return };
         let mut next = now;
         ui.horizontal(|ui| {
@@ -312,16 +312,16 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut Outbox) {
             if value != now {
                 edit(out, PassEdit::Steps(pass.id.clone(), value));
             }
-            ui.label(if now == 1 { "time a frame" } else { "times a frame" });
+            ui.label(if now == 1 { "time per frame" } else { "times per frame" });
         });
         if let Some(before) = buffers.last() {
             let is_joined = group.is_some_and(|g| g.passes.contains(before));
             let mut joined = is_joined;
-            let check = ui.checkbox(&mut joined, format!("in turns with {}", before.title()));
+            let check = ui.checkbox(&mut joined, format!("alternating with {}", before.title()));
             if out.clicked("passes:joined", &check) && joined != is_joined {
                 edit(out, PassEdit::WithPrevious(pass.id.clone(), joined));
             }
-            check.on_hover_text("Both are drawn once, one after the other, then both again");
+            check.on_hover_text("Draw both once, in order, then repeat");
         }
     });
 }
@@ -338,7 +338,7 @@ fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut Outbox) {
     let filter = same(readers.iter().map(|c| c.sampler.filter));
     let wrap = same(readers.iter().map(|c| c.sampler.wrap));
     ui.horizontal(|ui| {
-        let label = filter.map_or("several filters", filter_name);
+        let label = filter.map_or("mixed filters", filter_name);
         let combo = ComboBox::from_id_salt("filter").width(84.0).selected_text(label).show_ui(ui, |ui| {
             for one in [Filter::Nearest, Filter::Linear, Filter::Mipmap] {
                 let item = ui.selectable_label(filter == Some(one), filter_name(one));
@@ -348,7 +348,7 @@ fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut Outbox) {
             }
         });
         combo_box(&combo.response, "filter", out);
-        let label = wrap.map_or("several wraps", wrap_name);
+        let label = wrap.map_or("mixed wraps", wrap_name);
         let combo = ComboBox::from_id_salt("wrap").width(84.0).selected_text(label).show_ui(ui, |ui| {
             for one in [Wrap::Clamp, Wrap::Repeat] {
                 let item = ui.selectable_label(wrap == Some(one), wrap_name(one));

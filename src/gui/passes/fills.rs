@@ -77,7 +77,7 @@ pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out
                 }
             });
             let what = match kind {
-                FillKind::Initial => "Begins with",
+                FillKind::Initial => "Initial state",
                 FillKind::Boundary => "Edges",
             };
             accessible::name(&combo.response, Role::ComboBox, what);
@@ -93,7 +93,7 @@ pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out
             if kind == FillKind::Boundary && now.is_some() {
                 let mut next = width;
                 let drag = ui.add(DragValue::new(&mut next).range(1..=32_768).speed(0.1));
-                accessible::name(&drag, Role::SpinButton, "Width of the edges in texels");
+                accessible::name(&drag, Role::SpinButton, "Edge width in texels");
                 out.place("passes:boundary:width", drag.rect);
                 ui.label(if width == 1 { "texel wide" } else { "texels wide" });
                 if next != width {
@@ -112,14 +112,14 @@ pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out
 
 /// The text of a value. Returns what is to be put in its place when it has been typed.
 fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut Outbox) -> Option<FillValue> {
-    let hint = if form == Form::File { "state.npy, or a picture" } else { FIRST };
+    let hint = if form == Form::File { "state.npy or an image file" } else { FIRST };
     let hint = RichText::new(hint).color(theme::of(ui).weak);
     let field = TextEdit::singleline(&mut filling.text).hint_text(hint).font(egui::TextStyle::Monospace);
     let width = ui.available_width().clamp(140.0, 420.0);
     let response = ui.add_sized(vec2(width, 24.0), field);
     let (name, tip) = match form {
-        Form::File => ("File", "A picture or .npy file in the project's folder; row 0 of an array is the bottom"),
-        _ => ("Expression", "A vec4 in GLSL: sees Common, fragCoord and the site's uniforms"),
+        Form::File => ("File", "An image or .npy file in the project's folder; row 0 of an array is the bottom"),
+        _ => ("Expression", "A vec4 expression in GLSL; may use Common, fragCoord and Shadertoy's uniforms"),
     };
     accessible::name(&response, Role::TextInput, format!("{name}, {key}"));
     out.place(format!("passes:{key}:text"), response.rect);

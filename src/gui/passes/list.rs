@@ -82,7 +82,7 @@ fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let fill = match (tab == chosen, response.hovered()) {
-        (true, _) => theme::of(ui).accent_fill,
+        (true, _) => theme::of(ui).chosen,
         (false, true) => theme::of(ui).button,
         (false, false) => theme::of(ui).panel,
     };
@@ -152,8 +152,8 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut Outbox) {
         project.passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
     let at = buffers.iter().position(|id| chosen.pass() == Some(*id));
     let moves = [
-        ("passes:up", Icon::Previous, "Draw it earlier", at.and_then(|at| at.checked_sub(1))),
-        ("passes:down", Icon::Next, "Draw it later", at.map(|at| at + 1).filter(|to| *to < buffers.len())),
+        ("passes:up", Icon::Previous, "Draw earlier", at.and_then(|at| at.checked_sub(1))),
+        ("passes:down", Icon::Next, "Draw later", at.map(|at| at + 1).filter(|to| *to < buffers.len())),
     ];
     for (name, icon, tip, to) in moves {
         let button = ui.add_enabled_ui(to.is_some(), |ui| icons::button(ui, icon, tip)).inner;
@@ -169,5 +169,5 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut Outbox) {
     if out.clicked("passes:remove", &remove) {
         out.ask(Command::EditPasses(PassEdit::Remove(chosen.clone())));
     }
-    remove.on_disabled_hover_text("Image is what a project shows").on_hover_text("It can be taken back");
+    remove.on_disabled_hover_text("Image cannot be removed").on_hover_text("Can be undone");
 }

@@ -9,6 +9,7 @@ mod list;
 use super::{
     accessible,
     actions::Action,
+    menus,
     outbox::{Outbox, Wish},
     theme,
 };
@@ -17,7 +18,7 @@ use crate::{
     session::{Command, Session},
 };
 use detail::Typed;
-use egui::{Frame, Id, Margin, Popup, PopupCloseBehavior, Response, RichText, Ui, Window, WindowDrag, vec2};
+use egui::{Frame, Id, Margin, Response, RichText, Ui, Window, WindowDrag, vec2};
 
 /// Width of the list; the rest is the chosen pass's.
 const LIST: f32 = 196.0;
@@ -129,7 +130,7 @@ impl Passes {
 /// Adding, and the way back.
 fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     ui.horizontal(|ui| {
-        let add = adding(ui, "Add", |ui| add_menu(ui, session, out));
+        let add = adding(ui, "Add", |ui| add_menu(ui, session, true, out));
         out.place("passes:add", add.rect);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let redo = session.pass_redo().map(|step| step.title.to_owned());
@@ -151,19 +152,21 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 /// A button with a menu that stays while one types in it.
 pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     let button = ui.button(label);
-    let menu = Popup::from_toggle_button_response(&button);
-    menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
+    menus::below(&button, contents);
     button
 }
 
-/// The passes that can be added: what the site has, and a buffer of any name.
-pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+/// The passes that can be added: what the site has, and a buffer of any name. `chooses`: what is added is chosen in the
+/// window of passes, which is open; elsewhere nothing opens over the picture.
+pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut Outbox) {
     let id = Id::unique("name of a new buffer");
     ui.set_min_width(190.0);
     let add = |ui: &mut Ui, tab: Tab, out: &mut Outbox| {
         out.ask(Command::AddTab(tab.clone()));
         out.wishes.push(Wish::GoTo(tab.clone(), None));
-        out.wishes.push(Wish::ChoosePass(tab));
+        if chooses {
+            out.wishes.push(Wish::ChoosePass(tab));
+        }
         ui.data_mut(|d| d.remove_temp::<String>(id));
         ui.close();
     };
@@ -174,11 +177,11 @@ pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         }
     }
     ui.separator();
-    ui.label(RichText::new("A buffer of any name").color(theme::of(ui).weak).small());
+    ui.label(RichText::new("Add a buffer with a name of your own").color(theme::of(ui).weak).small());
     let mut name = ui.data_mut(|d| d.get_temp_mut_or_default::<String>(id).clone());
     ui.horizontal(|ui| {
         let field = ui.add(egui::TextEdit::singleline(&mut name).hint_text("velocity").desired_width(110.0));
-        accessible::name(&field, egui::Role::TextInput, "Name of a new buffer");
+        accessible::name(&field, egui::Role::TextInput, "Name of the new buffer");
         out.place("add:name", field.rect);
         let wanted = PassId::buffer_named(&name).map(Tab::Pass);
         let is_free = wanted.as_ref().is_some_and(|tab| !session.tabs().contains(tab));
@@ -187,7 +190,7 @@ pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         let clicked = out.clicked("add:named", &button);
         let why = match &wanted {
             None => PassId::NAMES.to_owned(),
-            Some(tab) => format!("There is a {} already", tab.title()),
+            Some(tab) => format!("{} already exists", tab.title()),
         };
         button.on_disabled_hover_text(why);
         if let Some(tab) = wanted.filter(|_| is_free && (entered || clicked)) {
@@ -198,7 +201,8 @@ pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     ui.data_mut(|d| d.insert_temp(id, name));
 }
 
-/// Common, the site's four buffers that are not there yet or else the next letter, and the cubemap pass.
+/// Common, and the site's four buffers that are not there yet or else the next letter. No cubemap and no sound pass:
+/// Eddy does not draw them yet.
 fn addable(tabs: &[Tab]) -> Vec<Tab> {
     let buffer = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
     let is_free = |tab: &Tab| !tabs.contains(tab);
@@ -206,8 +210,7 @@ fn addable(tabs: &[Tab]) -> Vec<Tab> {
     if buffers.is_empty() {
         buffers.extend(('E'..='Z').map(buffer).find(is_free));
     }
-    let rest = std::iter::once(Tab::Pass(PassId::Cubemap)).filter(is_free);
-    std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(rest).collect()
+    std::iter::once(Tab::Common).filter(is_free).chain(buffers).collect()
 }
 
 /// Returns the buffer that comes next: the site's four, then further letters.
@@ -226,6 +229,6 @@ mod tests {
         let cube = tab(PassId::Cubemap);
         assert_eq!(addable(&[buffer("B"), cube.clone()]), [Tab::Common, buffer("A"), buffer("C"), buffer("D")]);
         let full = ["A", "B", "C", "D", "E"].map(buffer).into_iter().chain([Tab::Common]).collect::<Vec<_>>();
-        assert_eq!(addable(&full), [buffer("F"), cube]);
+        assert_eq!(addable(&full), [buffer("F")]);
     }
 }

@@ -48,10 +48,10 @@ impl Losses {
             return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
         }
         if let Err(e) = renew(session) {
-            log::error!("no other device: {e}");
+            log::error!("no other GPU is available: {e}");
             return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
         }
-        let text = format!("{reason}; the window has another now. Nothing of your texts is lost");
+        let text = format!("{reason}; the window has switched to a new one. Your texts are unchanged");
         session.apply(Command::Notify { level: Level::Warning, text, path: None });
         Ok(())
     }
@@ -72,7 +72,7 @@ pub fn caught<W, T>(
     let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
     // Whatever was left half done may make this stumble too.
     let rescue = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
-    let rescue = rescue.unwrap_or_else(|_| ". Your unsaved work could not be written".into());
+    let rescue = rescue.unwrap_or_else(|_| ". Your unsaved work could not be saved".into());
     Err(GuiError::Panicked { reason, rescue })
 }
 
@@ -88,7 +88,7 @@ pub fn save_unsaved(session: &Session) -> String {
             session.forget_unsaved();
             format!(". Your unsaved work is in {}", folder.display())
         }
-        Err(reason) => format!(". Your unsaved work could not be written anywhere: {reason}"),
+        Err(reason) => format!(". Your unsaved work could not be saved: {reason}"),
     }
 }
 

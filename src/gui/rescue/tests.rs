@@ -38,7 +38,7 @@ fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
     gpu.lose();
     assert!(matches!(watch(1, &mut session), (Ok(()), 1)));
     assert!(matches!(watch(12, &mut session), (Ok(()), 1)), "eleven seconds later is another accident");
-    let warned = |n: &&crate::session::Notice| n.text.contains("Nothing of your texts is lost");
+    let warned = |n: &&crate::session::Notice| n.text.contains("Your texts are unchanged");
     assert_eq!(session.notices().iter().filter(warned).count(), 2);
     let (Err(error), 0) = watch(13, &mut session) else { panic!("a device that is lost each second") };
     let saved = folder.path().join("mine-recovered-0001");

@@ -14,7 +14,7 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
-            let text = format!("{}; write lines such as: theme = \"dark\"", error.message().trim_end());
+            let text = format!("{}; write lines like: theme = \"dark\"", error.message().trim_end());
             return (settings, vec![Mistake { line: line(error.span()), text }]);
         }
     };
@@ -25,13 +25,13 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
         let Some(key) = KEYS.iter().find(|key| key.name == name) else {
             let mend = match nearest(name, KEYS.iter().map(|key| key.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("there are {}", KEYS.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")),
+                None => format!("the settings are {}", KEYS.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")),
             };
-            wrong(format!("there is no setting \"{name}\"; {mend}"));
+            wrong(format!("unknown setting \"{name}\"; {mend}"));
             continue;
         };
         let Some(value) = item.as_value() else {
-            wrong(format!("{name} is one value, such as: {name} = {}", key.usual));
+            wrong(format!("{name} takes one value: {name} = {}", key.usual));
             continue;
         };
         if let Err(what) = (key.read)(&mut settings, value) {
@@ -45,7 +45,7 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
 pub fn change(text: &str, change: Change) -> Result<String, Mistake> {
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
         let line = 1 + text[..error.span().map_or(0, |s| s.start)].matches('\n').count();
-        Mistake { line, text: format!("{}; what you changed in the window is not kept", error.message().trim_end()) }
+        Mistake { line, text: format!("{}; your change in the window is not saved", error.message().trim_end()) }
     })?;
     let (name, value) = change.written();
     match document.get_mut(name).and_then(Item::as_value_mut) {
@@ -63,8 +63,8 @@ pub fn change(text: &str, change: Change) -> Result<String, Mistake> {
 /// Returns the text of a new file: every setting as it is at first, each as a comment.
 pub fn template() -> String {
     let mut text = String::from(
-        "# Settings of Eddy. Take the # from a line to change it; what is left out stays as it is.\n\
-         # It is read when you come back to the window. Keys are in keybindings.toml beside it.\n",
+        "# Settings of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
+         # Eddy reads this file when you switch back to its window. Keyboard shortcuts are in keybindings.toml next to it.\n",
     );
     for key in KEYS {
         // Writing to a string does not fail.
@@ -101,12 +101,12 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let all = "theme, zoom, code-size, code-font, word-wrap, frame-timeout";
-        let nothing_near = format!("there is no setting \"editor\"; there are {all}");
+        let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
-            (2, "there is no setting \"them\"; did you mean \"theme\"?"),
+            (2, "unknown setting \"them\"; did you mean \"theme\"?"),
             (3, "theme must be \"system\", \"dark\" or \"light\""),
             (4, "zoom must be a number from 0.5 to 4"),
-            (5, "word-wrap is one value, such as: word-wrap = false"),
+            (5, "word-wrap takes one value: word-wrap = false"),
             (7, nothing_near.as_str()),
         ];
         assert_eq!(told, wanted);

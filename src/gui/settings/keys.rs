@@ -111,7 +111,7 @@ pub(super) struct Key {
 pub(super) const KEYS: &[Key] = &[
     Key {
         name: "theme",
-        about: "Colours of the window: \"system\" (what the system prefers), \"dark\" or \"light\"",
+        about: "Theme: \"system\", \"dark\" or \"light\"",
         usual: "\"system\"",
         read: |settings, value| {
             let theme = Theme::ALL.into_iter().find(|theme| value.as_str() == Some(theme.name()));
@@ -121,7 +121,7 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "zoom",
-        about: "Size of everything in the window, from 0.5 to 4",
+        about: "Zoom of the window, from 0.5 to 4",
         usual: "1.0",
         read: |settings, value| {
             settings.zoom = number(value, &ZOOMS)?;
@@ -130,7 +130,7 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "code-size",
-        about: "Size of code in points, from 8 to 32",
+        about: "Code size in points, from 8 to 32",
         usual: "13.0",
         read: |settings, value| {
             settings.code_size = number(value, &CODE_SIZES)?;
@@ -139,17 +139,17 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "code-font",
-        about: "The file of a font for code (.ttf or .otf), \"\" for Eddy's own",
+        about: "Font file for code (.ttf or .otf); \"\" for the built-in font",
         usual: "\"\"",
         read: |settings, value| {
-            let path = value.as_str().ok_or("must be the path of a font: \"/home/me/fonts/mono.ttf\"")?;
+            let path = value.as_str().ok_or("must be the path of a font file: \"/home/me/fonts/mono.ttf\"")?;
             settings.code_font = (!path.is_empty()).then(|| path.to_owned());
             Ok(())
         },
     },
     Key {
         name: "word-wrap",
-        about: "Long lines of code go on in the next row: true or false",
+        about: "Wrap long lines of code: true or false",
         usual: "false",
         read: |settings, value| {
             settings.word_wrap = value.as_bool().ok_or("must be true or false")?;
@@ -158,7 +158,7 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "frame-timeout",
-        about: "Seconds after which a frame pauses the picture; eddy --frame-timeout goes before it",
+        about: "Pause when a frame takes longer than this many seconds; --frame-timeout overrides it",
         usual: "2.0",
         read: |settings, value| {
             let secs = float(value).filter(|secs| *secs > 0.0 && *secs <= MOST_SECONDS);

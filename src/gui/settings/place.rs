@@ -8,8 +8,7 @@ use std::{collections::BTreeSet, fs, io, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 
 const NAME: &str = "window.toml";
-const HEADER: &str =
-    "# The window of Eddy when it was closed last. Without this file everything is where it is at first.\n";
+const HEADER: &str = "# Window state of Eddy when it was last closed. Delete this file to reset the layout.\n";
 const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layout"];
 
 /// Says where the window is, in points of the system.
@@ -142,7 +141,7 @@ fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
         mistakes.push((1 + text[..start].matches('\n').count(), what));
     };
     for (name, _) in table.iter().filter(|(name, _)| !KEYS.contains(name)) {
-        wrong(name, format!("there is no \"{name}\" here; there are {}", KEYS.join(", ")));
+        wrong(name, format!("unknown key \"{name}\"; the keys are {}", KEYS.join(", ")));
     }
     let value = |name: &str| table.get(name).and_then(Item::as_value);
     let number = |name: &str| value(name).and_then(|v| v.as_float().or_else(|| v.as_integer().map(|n| n as f64)));
@@ -155,13 +154,13 @@ fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
         let names = list.as_array().map(|list| list.iter().filter_map(Value::as_str).collect::<Vec<_>>());
         for name in names.iter().flatten().filter(|name| Panel::named(name).is_none()) {
             let all = Panel::ALL.map(Panel::name).join(", ");
-            wrong("open", format!("there is no panel \"{name}\"; there are {all}"));
+            wrong("open", format!("unknown panel \"{name}\"; the panels are {all}"));
         }
         remembered.open = names.map(|names| names.into_iter().filter_map(Panel::named).collect());
     }
     match value("layout").map(Node::from_value) {
         Some(Ok(node)) => remembered.layout = Some(node),
-        Some(Err(what)) => wrong("layout", format!("the layout is the usual one: {what}")),
+        Some(Err(what)) => wrong("layout", format!("the default layout is used: {what}")),
         None => {}
     }
     (remembered, mistakes)
@@ -219,7 +218,7 @@ mod tests {
         assert_eq!(remembered.layout, None);
         let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
         assert_eq!(lines, [3, 4, 5], "{mistakes:?}");
-        assert!(mistakes[2].1.ends_with("a panel is in it twice"), "{mistakes:?}");
+        assert!(mistakes[2].1.ends_with("a panel is listed twice"), "{mistakes:?}");
         let (remembered, mistakes) = read("x = \n");
         assert_eq!((remembered, mistakes.len()), (Remembered::default(), 1));
     }

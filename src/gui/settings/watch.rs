@@ -30,7 +30,7 @@ impl SettingsFile {
     /// Changes a setting, here and in the file. Err: why it is not in the file, and so holds until the window closes.
     pub fn change(&mut self, change: Change) -> Result<(), String> {
         change.apply(self.content_mut());
-        self.edit(|text| file::change(text, change), "The setting holds until the window closes.")
+        self.edit(|text| file::change(text, change), "The setting applies until the window closes.")
     }
 }
 
@@ -52,10 +52,7 @@ mod tests {
         assert_eq!(next.settings().theme, Theme::Light);
         fs::write(&path, "zoom = 2.0 # mine\nthem = 1\n").unwrap();
         let told = file.refresh();
-        assert!(
-            told.len() == 1 && told[0].starts_with(&format!("{}:2: there is no setting", path.display())),
-            "{told:?}"
-        );
+        assert!(told.len() == 1 && told[0].starts_with(&format!("{}:2: unknown setting", path.display())), "{told:?}");
         assert_eq!((file.settings().zoom, file.settings().theme), (2.0, Theme::System));
         assert_eq!(file.refresh(), [""; 0], "told once");
         fs::write(&path, "zoom = = 2\n").unwrap();

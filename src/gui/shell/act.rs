@@ -89,12 +89,12 @@ impl Shell {
             Action::ZoomReset => self.zoom(None, out),
             Action::SettingsFile => {
                 let path = self.settings.write_if_missing();
-                out.ask(told("Settings are", path));
+                out.ask(told("The settings are", path));
             }
             Action::Help => self.help = if self.help.is_some() { None } else { Some(Help::new()) },
             Action::Palette if self.palette.is_open() => self.palette.close(ui),
             Action::Palette => self.palette.open(ui),
-            Action::KeyFile => out.ask(told("Keys are given", self.keys.write_if_missing())),
+            Action::KeyFile => out.ask(told("The keyboard shortcuts are", self.keys.write_if_missing())),
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
             Action::FindNext => self.code.find_on(true),
@@ -149,9 +149,11 @@ impl Shell {
             PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
             PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),
             PictureAction::LastGood if is_halted => out.ask(Command::DrawLastGood),
-            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => {
-                out.ask(Command::Notify { level: Level::Info, text: "No frame has taken too long.".into(), path: None })
-            }
+            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => out.ask(Command::Notify {
+                level: Level::Info,
+                text: "No frame has exceeded the time limit.".into(),
+                path: None,
+            }),
         }
     }
 
@@ -229,7 +231,7 @@ fn told(what: &str, path: Result<&Path, String>) -> Command {
     match path {
         Ok(path) => Command::Notify {
             level: Level::Info,
-            text: format!("{what} in {}. It is read when you come back to this window.", path.display()),
+            text: format!("{what} in {}. Eddy reads the file when you switch back to this window.", path.display()),
             path: Some(path.to_owned()),
         },
         Err(text) => Command::Notify { level: Level::Error, text, path: None },

@@ -6,7 +6,7 @@ mod panels;
 mod report;
 
 use super::{
-    actions::{Action, KeyFile, Listening},
+    actions::{Action, KeyFile, KeysHere, Listening},
     buffers::Buffers,
     channels::Live,
     code::CodePanel,
@@ -192,7 +192,7 @@ impl Shell {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
         let mistakes = self.refresh_files(ui);
-        let mut out = Outbox::new(self.keys.keymap().clone());
+        let mut out = Outbox::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
         for text in mistakes {
             out.ask(Command::Notify { level: Level::Error, text, path: None });
         }
@@ -296,14 +296,19 @@ impl Shell {
         }
     }
 
-    /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
-    /// what is typed.
-    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
-        let listening = Listening {
+    /// Returns whose keys are listened to.
+    fn listening(&self, ui: &Ui) -> Listening {
+        Listening {
             code: self.code.has_keys(ui.ctx()),
             find_bar: self.code.is_finding(),
             trace: !self.gallery && self.dock.is_seen(Panel::Trace),
-        };
+        }
+    }
+
+    /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
+    /// what is typed.
+    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
+        let listening = self.listening(ui);
         let keymap = self.keys.keymap().clone();
         let drops_text = &mut self.drops_text;
         // A field for a name has an undo of its own.
@@ -346,6 +351,12 @@ impl Shell {
     #[cfg(test)]
     pub fn place(&self, name: &str) -> Option<egui::Rect> {
         self.places.places.get(name).copied()
+    }
+
+    /// Returns every named place.
+    #[cfg(test)]
+    pub fn places(&self) -> impl Iterator<Item = (&str, egui::Rect)> {
+        self.places.places.iter().map(|(name, rect)| (name.as_str(), *rect))
     }
 
     /// Has no dialogs of the desktop's.

@@ -3,6 +3,7 @@
 use super::Shell;
 use crate::{
     gui::{
+        actions::Action,
         buffers::{self, Buffers},
         channels::{self, Live},
         code::CodePanel,
@@ -82,7 +83,7 @@ impl Shell {
             // The rest is the picture's, with the mouse.
             let size = vec2((whole.width() * 0.56).clamp(320.0_f32.min(whole.width()), 1000.0), whole.height());
             let place = Rect::from_min_size(whole.min, size);
-            egui::Area::new(Id::unique("code over the picture"))
+            egui::Area::new(Id::unique("code over picture"))
                 .order(Order::Middle)
                 .fixed_pos(place.min)
                 .constrain(false)
@@ -93,8 +94,31 @@ impl Shell {
                     ui.set_clip_rect(place);
                     self.code.show(ui, session, out);
                 });
+            way_out(ui, whole, out);
         });
     }
+}
+
+/// A button at the picture's corner by which a hand leaves code over picture; seen while the pointer moves there.
+fn way_out(ui: &Ui, whole: Rect, out: &mut Outbox) {
+    let corner = Rect::from_min_max(whole.right_top() + vec2(-260.0, 0.0), whole.right_top() + vec2(0.0, 120.0));
+    if !ui.ctx().pointer_latest_pos().is_some_and(|at| corner.contains(at)) {
+        return;
+    }
+    egui::Area::new(Id::unique("leave code over picture"))
+        .order(Order::Foreground)
+        .fixed_pos(whole.right_top() + vec2(-10.0, 10.0))
+        .pivot(egui::Align2::RIGHT_TOP)
+        .show(ui.ctx(), |ui| {
+            theme::put_over_picture(ui);
+            Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::same(4)).show(ui, |ui| {
+                let button = ui.button("Leave code over picture");
+                let tip = out.keys.tip("Show all panels again", Action::Present);
+                if out.clicked("button:leave-present", &button.on_hover_text(tip)) {
+                    out.act(Action::Present);
+                }
+            });
+        });
 }
 
 /// The panels with a state of their own.

@@ -6,7 +6,10 @@ pub use palette::{DARK, LIGHT, Palette};
 
 use palette::{DARK_OVER_PICTURE, LIGHT_OVER_PICTURE};
 
-use egui::{CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Ui, Visuals, vec2};
+use egui::{
+    CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Ui, Visuals,
+    epaint::FontColorTransferFunction, vec2,
+};
 
 /// Returns the colours of what is shown in a place.
 pub fn of(ui: &Ui) -> &'static Palette {
@@ -61,6 +64,10 @@ fn set(style: &mut Style, palette: &Palette) {
 
 fn visuals(p: &Palette) -> Visuals {
     let mut v = if p.is_dark { Visuals::dark() } else { Visuals::light() };
+    // Dark on light looks thinner than it is drawn.
+    if !p.is_dark {
+        v.text_options.color_transfer_function = FontColorTransferFunction::Gamma(0.6);
+    }
     v.panel_fill = p.panel;
     v.window_fill = p.raised;
     v.window_stroke = Stroke::new(1.0, p.line);
@@ -73,7 +80,7 @@ fn visuals(p: &Palette) -> Visuals {
     v.warn_fg_color = p.warning;
     v.error_fg_color = p.error;
     v.weak_text_color = Some(p.weak);
-    v.selection.bg_fill = p.accent_fill;
+    v.selection.bg_fill = p.chosen;
     v.selection.stroke = Stroke::new(1.0, p.strong);
     let shade = egui::Color32::from_black_alpha(if p.is_dark { 110 } else { 46 });
     let shadow = Shadow { offset: [0, 6], blur: 20, spread: 0, color: shade };

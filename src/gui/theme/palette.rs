@@ -23,8 +23,10 @@ pub struct Palette {
     pub weak: Color32,
     pub strong: Color32,
     pub accent: Color32,
-    /// Behind text of what is chosen.
+    /// Fills what is wanted first, parts of rails, and what is pressed.
     pub accent_fill: Color32,
+    /// Behind text of what is chosen: no blue, which means what is wanted first.
+    pub chosen: Color32,
     pub error: Color32,
     pub warning: Color32,
     /// A place found.
@@ -86,10 +88,11 @@ pub const DARK: Palette = Palette {
     line: rgb(53, 58, 68),
     surround: rgb(15, 16, 19),
     text: rgb(214, 219, 228),
-    weak: rgb(146, 154, 169),
+    weak: rgb(166, 174, 188),
     strong: rgb(244, 246, 250),
     accent: rgb(92, 168, 255),
     accent_fill: rgb(36, 82, 138),
+    chosen: rgb(78, 86, 104),
     error: rgb(255, 120, 117),
     warning: rgb(240, 190, 100),
     found: rgb(196, 160, 60),
@@ -101,7 +104,7 @@ pub const DARK: Palette = Palette {
         uses: rgb(52, 60, 74),
         found: rgb(94, 80, 36),
         bracket: Color32::from_rgba_premultiplied(14, 14, 14, 14),
-        numbers: rgb(98, 106, 121),
+        numbers: rgb(134, 142, 157),
         row: Color32::TRANSPARENT,
     },
 };
@@ -143,10 +146,11 @@ pub const LIGHT: Palette = Palette {
     line: rgb(211, 215, 222),
     surround: rgb(221, 224, 229),
     text: rgb(40, 45, 56),
-    weak: rgb(92, 100, 115),
+    weak: rgb(82, 90, 105),
     strong: rgb(14, 17, 23),
     accent: rgb(20, 98, 204),
     accent_fill: rgb(190, 216, 250),
+    chosen: rgb(196, 203, 216),
     error: rgb(186, 26, 38),
     warning: rgb(146, 86, 0),
     found: rgb(196, 150, 20),
@@ -158,7 +162,7 @@ pub const LIGHT: Palette = Palette {
         uses: rgb(225, 231, 240),
         found: rgb(255, 228, 150),
         bracket: Color32::from_rgba_premultiplied(0, 0, 0, 16),
-        numbers: rgb(140, 148, 161),
+        numbers: rgb(100, 108, 122),
         row: Color32::TRANSPARENT,
     },
 };
@@ -224,7 +228,9 @@ mod tests {
                     assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}: {}", contrast(text, ground));
                 }
             }
-            for ground in [p.button, p.button_hovered, p.accent_fill, p.code.selection, p.code.found, p.code.uses] {
+            for ground in
+                [p.button, p.button_hovered, p.accent_fill, p.chosen, p.code.selection, p.code.found, p.code.uses]
+            {
                 assert!(contrast(p.strong, ground) >= 4.5, "{ground:?}: {}", contrast(p.strong, ground));
             }
         }

@@ -90,7 +90,7 @@ impl Live {
                 // A panic is this picture's alone.
                 let drawn = catch_unwind(AssertUnwindSafe(|| draw(&gpu, &mut device, &name, &wanted, &sender, &*wake)));
                 if let Err(why) = drawn.unwrap_or_else(|_| Err("this is a bug in Eddy".into())) {
-                    log::warn!("{name} does not move: {why}");
+                    log::warn!("{name} cannot be played: {why}");
                 }
                 wanted.wait_for_another(&name);
             }
@@ -98,7 +98,7 @@ impl Live {
         match std::thread::Builder::new().name("live thumbnail".into()).stack_size(64 << 20).spawn(work) {
             Ok(_) => self.frames = Some(frames),
             // The pictures then stand still, which is all that is lost.
-            Err(e) => log::warn!("no thread for moving pictures: {e}"),
+            Err(e) => log::warn!("cannot start a thread for live thumbnails: {e}"),
         }
     }
 

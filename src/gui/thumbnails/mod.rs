@@ -66,7 +66,7 @@ impl Thumbnails {
         };
         if let Err(e) = std::thread::Builder::new().name("thumbnails".into()).spawn(work) {
             // The cards then stay without pictures, which is all they lose.
-            log::warn!("no thread for thumbnails: {e}");
+            log::warn!("cannot start a thread for thumbnails: {e}");
         }
         Self { known: HashMap::new(), wanted, made, live }
     }
@@ -99,7 +99,7 @@ impl Thumbnails {
             return known.clone();
         }
         if self.wanted.send(subject.clone()).is_err() {
-            self.known.insert(subject, Thumbnail::Failed("no thread makes thumbnails".into()));
+            self.known.insert(subject, Thumbnail::Failed("the thumbnail thread has ended".into()));
             return Thumbnail::Waiting;
         }
         self.known.insert(subject, Thumbnail::Waiting);
@@ -119,7 +119,7 @@ fn make(subject: &Subject) -> Result<ColorImage, String> {
 
 /// The picture that lies in the program.
 fn preset(name: &str) -> Result<ColorImage, String> {
-    let bytes = presets::thumbnail(name).ok_or_else(|| format!("{name} has no picture"))?;
+    let bytes = presets::thumbnail(name).ok_or_else(|| format!("{name} has no thumbnail"))?;
     let image = image::load_from_memory(bytes).map_err(|e| e.to_string())?.to_rgba8();
     let size = [image.width() as usize, image.height() as usize];
     Ok(ColorImage::from_rgba_unmultiplied(size, image.as_raw()))

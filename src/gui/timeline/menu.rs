@@ -73,9 +73,9 @@ fn menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         ui.end_row();
     });
     let mut keeps = session.keeps_inputs();
-    let switch = ui.checkbox(&mut keeps, "An edit draws the same frame anew").on_hover_text(
-        "New code draws every frame since the last reset again, with the same mouse, keys, times and uniforms. Another \
-         size of the picture begins anew",
+    let switch = ui.checkbox(&mut keeps, "After an edit, replay to this frame").on_hover_text(
+        "After an edit, draws all frames since the last reset again with the same mouse, keys, times and uniforms. \
+         Changing the resolution restarts at frame 0",
     );
     out.place("time:keep-inputs", switch.rect);
     if switch.changed() {
@@ -90,7 +90,7 @@ fn go_to(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let hint = seconds::written(session.transport().time_secs);
     let edit = TextEdit::singleline(&mut text).id(field()).hint_text(hint).text_color(ink).desired_width(110.0);
     let edit = edit.margin(egui::Margin::symmetric(6, 3)).align(egui::Align2::LEFT_CENTER);
-    let response = ui.add(edit).on_hover_text("Seconds, or as 1:02.5. Enter goes there");
+    let response = ui.add(edit).on_hover_text("Seconds, or minutes as in 1:02.5. Press Enter to go there");
     accessible::name(&response, Role::TextInput, "Time to go to");
     out.place("time:field", response.rect);
     if ui.data_mut(|data| data.remove_temp::<bool>(is_asked())).is_some() {
@@ -125,14 +125,14 @@ fn speed(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 fn fixed_rate(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let rate = session.transport().fixed_rate;
     let mut is_fixed = rate.is_some();
-    let switch = ui.checkbox(&mut is_fixed, "Fixed step").on_hover_text(
-        "Every frame takes the same time, however long it really takes: what is drawn does not depend on the machine",
-    );
+    let switch = ui
+        .checkbox(&mut is_fixed, "Fixed step")
+        .on_hover_text("Advance time by the same amount each frame, so that the result does not depend on the machine");
     out.place("time:fixed", switch.rect);
     let mut value = rate.unwrap_or(60.0);
-    let field = DragValue::new(&mut value).speed(0.5).range(1.0..=1000.0).max_decimals(2).suffix(" frames a second");
+    let field = DragValue::new(&mut value).speed(0.5).range(1.0..=1000.0).max_decimals(2).suffix(" frames per second");
     let response = ui.add_enabled(is_fixed, field);
-    accessible::name(&response, Role::SpinButton, "Frames in a second of time");
+    accessible::name(&response, Role::SpinButton, "Frames per second of iTime");
     if switch.changed() || (is_fixed && response.changed()) {
         out.ask(Command::SetFixedRate(is_fixed.then_some(value)));
     }
@@ -142,7 +142,7 @@ fn range(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let range = session.time_range();
     let time = session.transport().time_secs;
     let mut is_on = range.is_some();
-    let switch = ui.checkbox(&mut is_on, "Loop").on_hover_text("Plays a part again and again, from the same state");
+    let switch = ui.checkbox(&mut is_on, "Loop").on_hover_text("Repeat a range from the same state");
     out.place("time:loop", switch.rect);
     let usual = TimeRange { from: (time - USUAL_RANGE).max(0.0), to: time.max(USUAL_RANGE) };
     let TimeRange { mut from, mut to } = range.unwrap_or(usual);
@@ -154,11 +154,11 @@ fn range(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             accessible::name(&response, Role::SpinButton, name);
             response.changed()
         };
-        let mut is_changed = number(ui, "Loop from", &mut from);
+        let mut is_changed = number(ui, "Set start", &mut from);
         ui.label("to");
-        is_changed |= number(ui, "Loop to", &mut to);
+        is_changed |= number(ui, "Set end", &mut to);
         for (name, tip, end) in
-            [("[", "From the time that is shown", &mut from), ("]", "To the time that is shown", &mut to)]
+            [("[", "Start the loop at the current time", &mut from), ("]", "End the loop at the current time", &mut to)]
         {
             let response =
                 ui.add_enabled(range.is_some(), Button::new(name).min_size(vec2(22.0, 22.0))).on_hover_text(tip);

@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let mut tip = egui::Tooltip::for_enabled(&response);
     tip.popup = tip.popup.align(egui::RectAlign::TOP_START);
     tip.show(|ui| {
-        ui.label("Click or drag: go to a time. Shift+drag: play a part again and again. Shift+click: no longer");
+        ui.label("Click or drag to go to a time. Shift+drag to loop a range, Shift+click to clear the loop");
     });
     let end = seconds::end([transport.time_secs, reach.last_secs, range.map_or(0.0, |range| range.to)]);
     accessible::name(

@@ -143,10 +143,12 @@ impl Debugger {
         };
         self.said = match (found, action) {
             (Some(at), _) if at != self.at => None,
-            (_, TraceAction::ToCursor(Direction::Forward)) => Some("that line does not run any more"),
-            (_, TraceAction::ToCursor(Direction::Back)) => Some("that line has not run before"),
-            (_, TraceAction::Go(_, Direction::Back) | TraceAction::Continue(Direction::Back)) => Some("the begin"),
-            _ => Some("the end"),
+            (_, TraceAction::ToCursor(Direction::Forward)) => Some("the line is not reached again"),
+            (_, TraceAction::ToCursor(Direction::Back)) => Some("the line was not reached before"),
+            (_, TraceAction::Go(_, Direction::Back) | TraceAction::Continue(Direction::Back)) => {
+                Some("start of the trace")
+            }
+            _ => Some("end of the trace"),
         };
         if let Some(at) = found {
             self.go_to(at);

@@ -36,13 +36,13 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
         if parts::button(
             ui,
             "trace:pick",
-            "Pick a pixel",
-            &out.keys.tip("Then click it in the picture", Action::TracePixel),
+            "Pick pixel",
+            &out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel),
             out,
         ) {
             out.act(Action::TracePixel);
         }
-        if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Trace no pixel any more", out) {
+        if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Stop tracing", out) {
             out.ask(Command::Trace(None));
         }
         let view = session.trace();
@@ -55,8 +55,8 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
     let Some(traced) = debugger.examiner.as_ref().map(|examiner| examiner.traced.clone()) else {
         let how = out.keys.hint(Action::TracePixel);
         let text = format!(
-            "Ctrl+Shift+click a pixel of the picture, or press {how} and click. Its way through the code can then be \
-             gone line by line, forwards and backwards."
+            "Ctrl+Shift+click a pixel of the picture, or press {how} and click it, to step through its code line by \
+             line, forwards and backwards."
         );
         ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
         breakpoints(debugger, ui, out);
@@ -70,17 +70,17 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
         if ui.available_width() > WIDE {
             ui.columns(2, |columns| {
                 watches(debugger, &mut columns[0], out);
+                breakpoints(debugger, &mut columns[0], out);
                 variables(debugger, &mut columns[0], out);
                 turns(debugger, &mut columns[1], out);
                 printed(debugger, &mut columns[1], out);
-                breakpoints(debugger, &mut columns[1], out);
             });
         } else {
             watches(debugger, ui, out);
+            breakpoints(debugger, ui, out);
             variables(debugger, ui, out);
             turns(debugger, ui, out);
             printed(debugger, ui, out);
-            breakpoints(debugger, ui, out);
         }
     });
     parting::show(&traced, session, ui, out);
@@ -97,17 +97,17 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
         let mut words = format!("{} at {x},{y} in frame {}", traced.pass.title(), traced.frame);
         if let Some(moment) = traced.history.moments.get(at) {
             words += &match moment.kind {
-                MomentKind::Turn(turn) => format!(" · turn {turn}"),
+                MomentKind::Turn(turn) => format!(" · iteration {turn}"),
                 MomentKind::Return => " · returns".to_owned(),
                 _ => String::new(),
             };
         }
         let label = ui.label(RichText::new(words).color(p.text));
         out.place("trace:where", label.rect);
-        ui.colored_label(p.weak, format!("moment {} of {count}", at + 1));
+        ui.colored_label(p.weak, format!("step {} of {count}", at + 1));
         if let Some((fragment, name)) = traced.mesh() {
             let side = if fragment.is_front { "front" } else { "back" };
-            let words = format!("draw {}, {name}: triangle {}, seen from its {side}", fragment.draw, fragment.triangle);
+            let words = format!("draw {}, {name}: triangle {}, {side} side", fragment.draw, fragment.triangle);
             let label = ui.colored_label(p.weak, words);
             out.place("trace:mesh", label.rect);
         }
@@ -115,12 +115,11 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
             ui.colored_label(p.warning, said);
         }
         if traced.is_endless || traced.history.is_cut {
-            ui.colored_label(p.warning, "it goes on: only the begin was kept");
+            ui.colored_label(p.warning, "too long: only the first steps were kept");
         }
         let stack = debugger.look().map(|seen| seen.stack.clone()).unwrap_or_default();
         for (index, (name, moment)) in stack.iter().enumerate() {
-            let response =
-                ui.selectable_label(index == 0, format!("{name}()")).on_hover_text("To where it was called from");
+            let response = ui.selectable_label(index == 0, format!("{name}()")).on_hover_text("Go to the call");
             if out.clicked(&format!("trace:call:{index}"), &response) && index > 0 {
                 go_to = Some(*moment);
             }
@@ -138,7 +137,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     let seen: Vec<_> = debugger.look().map(|seen| seen.watches.clone()).unwrap_or_default();
     for (index, watch) in debugger.watches.iter_mut().enumerate() {
         ui.horizontal(|ui| {
-            let close = icons::flat(ui, Icon::Close, "Remove the watch");
+            let close = icons::flat(ui, Icon::Close, "Remove watch");
             if out.clicked(&format!("trace:watch:{index}:remove"), &close) {
                 removed = Some(index);
             }
@@ -166,7 +165,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     let field = TextEdit::singleline(&mut debugger.new_watch)
         .id_salt("new watch")
         .font(egui::TextStyle::Monospace)
-        .hint_text("An expression, and Enter")
+        .hint_text("Add expression")
         .desired_width(190.0);
     let field = ui.add(field);
     out.place("trace:watch:new", field.rect);
@@ -183,7 +182,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
 fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     let Some(seen) = debugger.look() else { return };
     if let Some(result) = &seen.result {
-        parts::title(ui, "Gives back");
+        parts::title(ui, "Return value");
         parts::value(ui, "return", result, false);
     }
     parts::title(ui, "Variables");
@@ -209,7 +208,7 @@ fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     if printed.is_empty() {
         return;
     }
-    parts::title(ui, "Printed by comments");
+    parts::title(ui, "//@print output");
     let mut go_to = None;
     for comment in printed.iter() {
         let count = comment.values.len();
@@ -227,7 +226,7 @@ fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
                 };
                 let is_here = *at == debugger.at;
                 let label = ui.selectable_label(is_here, RichText::new(text).monospace().size(12.0).color(color));
-                if label.on_hover_text("To that moment").clicked() {
+                if label.on_hover_text("Go to this step").clicked() {
                     go_to = Some(*at);
                 }
             }
@@ -243,20 +242,25 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     parts::title(ui, "Breakpoints");
     if debugger.breakpoints.is_empty() {
         let key = out.keys.hint(Action::Trace(TraceAction::Breakpoint));
-        ui.colored_label(theme::of(ui).weak, format!("Click beside a line's number, or press {key} in it."));
+        ui.colored_label(theme::of(ui).weak, format!("Click next to a line number, or press {key} on the line."));
         return;
     }
     let wrong = debugger.look().map(|seen| seen.conditions.clone()).unwrap_or_default();
     let (mut removed, mut is_edited) = (None, false);
     for (index, breakpoint) in debugger.breakpoints.iter_mut().enumerate() {
         ui.horizontal(|ui| {
-            let close = icons::flat(ui, Icon::Close, "Remove the breakpoint");
+            let close = icons::flat(ui, Icon::Close, "Remove breakpoint");
             if out.clicked(&format!("trace:breakpoint:{index}:remove"), &close) {
                 removed = Some(index);
             }
             let name = format!("{} line {}", breakpoint.tab.title(), breakpoint.line + 1);
-            let switch = ui.checkbox(&mut breakpoint.is_on, "").on_hover_text("It stops, or is passed");
-            accessible::choice(&switch, egui::Role::CheckBox, breakpoint.is_on, format!("{name} stops"));
+            let switch = ui.checkbox(&mut breakpoint.is_on, "").on_hover_text("Enable or disable");
+            accessible::choice(
+                &switch,
+                egui::Role::CheckBox,
+                breakpoint.is_on,
+                format!("Breakpoint at {name} enabled"),
+            );
             is_edited |= switch.changed();
             let link = ui.link(name);
             if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
@@ -265,7 +269,7 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
             let field = TextEdit::singleline(&mut breakpoint.condition)
                 .id_salt(("condition", index))
                 .font(egui::TextStyle::Monospace)
-                .hint_text("always, or a condition")
+                .hint_text("Condition (optional)")
                 .desired_width(150.0);
             let field = ui.add(field);
             out.place(format!("trace:breakpoint:{index}:condition"), field.rect);

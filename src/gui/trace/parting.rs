@@ -27,24 +27,24 @@ pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
     let is_apart = ulps.iter().flatten().any(|ulps| *ulps > 0);
     let parting = session.parting();
     let first = ui.horizontal_wrapped(|ui| {
-        ui.colored_label(p.weak, "walker");
+        ui.colored_label(p.weak, "CPU");
         let value = traced.value.map_or("draws nothing".into(), |value| list(&value));
         ui.label(RichText::new(value).monospace().size(11.5).color(p.text));
-        ui.colored_label(p.weak, "device");
+        ui.colored_label(p.weak, "GPU");
         let device = format!("{} as {}", list(&traced.device), traced.format.name());
         ui.label(RichText::new(device).monospace().size(11.5).color(p.text));
         if let Some(ulps) = &ulps {
             let words: Vec<String> = ulps.iter().map(u32::to_string).collect();
             let color = if is_apart { p.warning } else { p.good };
             let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
-            label.on_hover_text("Numbers of single precision between the two");
+            label.on_hover_text("ULPs: the number of single-precision values between the two");
         }
         let is_searching = parting == Some(PartingView::UnderWay);
         if is_searching {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
-            let tip = "Draw the device's value of each assignment until one is not the walker's";
-            if parts::button(ui, "trace:part", "Find where they part", tip, out) {
+            let tip = "Compare each assignment on the CPU and the GPU until one differs";
+            if parts::button(ui, "trace:part", "Find first difference", tip, out) {
                 out.ask(Command::FindParting);
             }
         }
@@ -54,7 +54,7 @@ pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
         Some(PartingView::Ended(Ok(parted))) => found(traced, parted, ui, out),
         Some(PartingView::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
         Some(PartingView::UnderWay) => {
-            ui.colored_label(p.weak, "drawing the device's values");
+            ui.colored_label(p.weak, "comparing assignments…");
         }
         None => {}
     }
@@ -62,23 +62,23 @@ pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
 
 fn found(traced: &Traced, parted: &Parted, ui: &mut Ui, out: &mut Outbox) {
     let p = theme::of(ui);
-    let of = format!("{} of {} assignments were compared", parted.compared, parted.of);
+    let of = format!("{} of {} assignments compared", parted.compared, parted.of);
     let Some(first) = &parted.first else {
-        let label = ui.colored_label(p.text, format!("They part at none: {of}"));
+        let label = ui.colored_label(p.text, format!("No assignment differs: {of}"));
         out.place("trace:parted", label.rect);
         return;
     };
     let place = traced.place(first.assignment.span);
     let walker: Vec<String> = first.assignment.walker.iter().map(Number::to_string).collect();
     let device = match &first.device {
-        Some(device) => format!("{} on the device", list(device)),
-        None => "the device does not come there".to_owned(),
+        Some(device) => format!("{} on the GPU", list(device)),
+        None => "not reached on the GPU".to_owned(),
     };
     let ulps: Vec<String> = first.ulps.iter().map(u32::to_string).collect();
     let apart = if ulps.is_empty() { String::new() } else { format!(", {} ULPs apart", ulps.join(", ")) };
-    let words = format!("{}{apart}: {} by the walker, {device}", first.assignment.name, walker.join(", "));
+    let words = format!("{}{apart}: {} on the CPU, {device}", first.assignment.name, walker.join(", "));
     ui.horizontal(|ui| {
-        ui.colored_label(p.weak, "first found at");
+        ui.colored_label(p.weak, "First difference at");
         if let Some((tab, line, range)) = place {
             let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
             let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));

@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -
     let mut asked = None;
     let more = if rows.is_cut { ", the first" } else { "" };
     ui.horizontal(|ui| {
-        parts::title(ui, &format!("Loop: {} turns{more}", rows.rows.len()));
+        parts::title(ui, &format!("Loop: {} iterations{more}", rows.rows.len()));
         asked = choice(ui, rows, plotted, out);
     });
     plot(ui, rows, plotted, out);
@@ -59,7 +59,7 @@ pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -
         for index in shown {
             let row = &rows.rows[index];
             let (place, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-            accessible::name(&response, egui::Role::Button, format!("Turn {}", index + 1));
+            accessible::name(&response, egui::Role::Button, format!("Iteration {}", index + 1));
             if rows.current == Some(index) {
                 ui.painter().rect_filled(place, 2.0, p.accent_fill);
             } else if response.hovered() || response.has_focus() {
@@ -101,7 +101,7 @@ fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -> 
         }
     });
     out.place("trace:plotted", combo.response.rect);
-    combo.response.on_hover_text("The variable that is drawn over the turns");
+    combo.response.on_hover_text("Variable to plot over the iterations");
     asked
 }
 
@@ -109,7 +109,7 @@ fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -> 
 fn plot(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) {
     let Some(column) = chosen(rows, plotted) else { return };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), PLOT), Sense::hover());
-    accessible::name(&response, egui::Role::Canvas, format!("{} over the turns", rows.names[column]));
+    accessible::name(&response, egui::Role::Canvas, format!("{} over the iterations", rows.names[column]));
     out.place("trace:plot", rect);
     let p = theme::of(ui);
     ui.painter().rect_filled(rect, 3.0, p.background);

@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         fill(ui, place, custom_uniform, all[i], i);
         let name = format!("{}.{component}", custom_uniform.name);
         let number = number(ui, place, custom_uniform, all, i, &name);
-        let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).weak);
+        let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).text);
         // In a narrow panel the number alone has room.
         let at = place.left_center() + vec2(PADDING, -label.size().y / 2.0);
         if at.x + label.size().x <= number.left() + PADDING {
@@ -77,7 +77,15 @@ pub(super) fn number(
     ui.spacing_mut().interact_size = vec2(10.0, HEIGHT - 6.0);
     let font = FontId::monospace(12.0);
     ui.style_mut().override_font_id = Some(font);
-    ui.name_inputs(name, |ui| ui.add(field)).on_hover_text("Drag, or click to type").rect
+    let response = ui.name_inputs(name, |ui| {
+        // What is typed in has the whole cell, and not the least width of a number.
+        let id = ui.next_auto_id();
+        if ui.memory(|m| m.has_focus(id)) {
+            ui.spacing_mut().interact_size.x = place.width() - 2.0;
+        }
+        ui.add(field)
+    });
+    response.on_hover_text("Drag, or click to type").rect
 }
 
 /// As many decimals as the step has, so that numbers keep their place while they are dragged.
@@ -103,6 +111,8 @@ mod tests {
             default: CustomUniformValue::Vector(vec![1.0, 0.8, 0.6]),
             range: None,
             step: Some([0.001; 4]),
+            about: String::new(),
+            group: String::new(),
             span: Span::new(SourceId::NONE, 0..0),
             declared_in: Vec::new(),
         };

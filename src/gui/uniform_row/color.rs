@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
     let is_double = response.double_clicked();
     let stroke = if response.hovered() || response.has_focus() { theme::of(ui).accent } else { theme::of(ui).line };
     ui.painter().rect(place, 4.0, shown(all), Stroke::new(1.0, stroke), StrokeKind::Inside);
-    let response = response.on_hover_text("A picker for the colour");
+    let response = response.on_hover_text("Open colour picker");
     let opened = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         picker::show(ui, all);
         ui.add_space(4.0);

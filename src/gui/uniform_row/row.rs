@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out:
         let label = format!("Reset {}", custom_uniform.name);
         let button = icons::button(&mut child(ui, place), Icon::Reset, &label);
         let tip = format!(
-            "Back to {}\nA double click on the name or the rail does the same",
+            "Reset to {}\n(or double-click the name or the slider)",
             custom_uniform.default.glsl(custom_uniform.ty)
         );
         wants_default |= out.clicked(&format!("uniform:reset:{}", custom_uniform.name), &button.on_hover_text(tip));
@@ -69,9 +69,11 @@ fn title(ui: &mut Ui, custom_uniform: &CustomUniform, place: Rect) -> bool {
     child(ui, place).add(label).on_hover_text(tip(custom_uniform)).double_clicked()
 }
 
+/// The author's description, then what the line declares.
 fn tip(custom_uniform: &CustomUniform) -> String {
-    let mut text = format!(
-        "{} {}, at first {}",
+    let mut text = if custom_uniform.about.is_empty() { String::new() } else { format!("{}\n", custom_uniform.about) };
+    text += &format!(
+        "{} {}, default {}",
         custom_uniform.ty.name(),
         custom_uniform.name,
         custom_uniform.default.glsl(custom_uniform.ty)
@@ -82,7 +84,7 @@ fn tip(custom_uniform: &CustomUniform) -> String {
             CustomUniformValue::new(custom_uniform.ty, &range.min[..n]),
             CustomUniformValue::new(custom_uniform.ty, &range.max[..n]),
         );
-        text.push_str(&format!(", from {} to {}", min.glsl(custom_uniform.ty), max.glsl(custom_uniform.ty)));
+        text.push_str(&format!(", range {} to {}", min.glsl(custom_uniform.ty), max.glsl(custom_uniform.ty)));
     }
     text
 }

@@ -25,6 +25,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
             slider = slider.step_by(step);
         }
         ui.spacing_mut().slider_width = rail.width();
+        ui.visuals_mut().selection.bg_fill = theme::of(ui).accent_fill;
         let response = ui.name_inputs(&custom_uniform.name, |ui| ui.put(rail, slider));
         // Beside dragging, which is the slider's.
         is_reset = ui.interact(rail, response.id.with("default"), Sense::CLICK).double_clicked();

@@ -45,7 +45,7 @@ fn read(bytes: &[u8]) -> Result<Header, String> {
     }
     let resolution = line().ok_or_else(cut)?;
     let (scanlines, texels, orientation) = axes(&resolution)
-        .ok_or_else(|| format!("its size is {:?}, which should be as in \"-Y 480 +X 640\"", brief(&resolution)))?;
+        .ok_or_else(|| format!("its size is {:?}, but should look like \"-Y 480 +X 640\"", brief(&resolution)))?;
     Ok(Header { length, scanlines, texels, orientation })
 }
 

@@ -59,17 +59,17 @@ fn broken_pictures_are_clear_errors() {
     };
     for (path, expected) in [
         (write("cut.png", &whole[..whole.len() / 2]), "cut.png"),
-        (write("empty.png", b""), "cut short"),
+        (write("empty.png", b""), "truncated"),
         (write("text.png", b"hello, this is no picture at all"), "damaged"),
-        (write("notes.txt", b"hello, this is no picture at all"), "not a picture of a known kind"),
+        (write("notes.txt", b"hello, this is no picture at all"), "not a supported image"),
         (write("zero.png", &with_size(0, 64)), "zero.png"),
         (write("huge.png", &with_size(0x7fff_ffff, 0x7fff_ffff)), "huge.png"),
         (
             write("large.png", &with_size(20000, 20000)),
-            "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 \
-            MiB",
+            "large.png: the image has 20000x20000 texels, which take 1600000000 bytes; the limit for an image is \
+             512 MiB",
         ),
-        (write("long.png", &with_size(40000, 2)), "40000x2 texels, and a side may have 32768"),
+        (write("long.png", &with_size(40000, 2)), "40000x2 texels, and the limit per side is 32768"),
         (dir.path().join("missing.png"), "cannot read"),
         (dir.path().join("sub"), "folder"),
     ] {
@@ -248,7 +248,7 @@ fn a_radiance_picture_is_upright_however_its_scanlines_run() {
     let xyz = read(b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n\0\0\0\0").unwrap_err();
     assert!(xyz.to_string().ends_with("a.hdr: its colours are CIE XYZ, and Eddy reads RGB: ra_xyze -r converts them"));
     let long = read(b"#?RGBE\n\n+X 40000 +Y 1\n").unwrap_err().to_string();
-    assert!(long.contains("a side may have 32768"), "{long}");
+    assert!(long.contains("the limit per side is 32768"), "{long}");
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn a_kind_of_picture_that_is_not_read_is_named() {
         let path = dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         let error = load_file(&path, true).unwrap_err();
-        let says = format!("{name} is a picture of the kind {kind}, which is not read; known are PNG, JPEG");
+        let says = format!("{name} is a {kind} image, which is not supported; supported are PNG, JPEG");
         assert!(error.to_string().contains(&says) && error.hint().contains("PNG"), "{error}");
     }
 }

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 /// An error of loading a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    #[error("there is no mesh builtin:{0}")]
+    #[error("unknown mesh builtin:{0}")]
     UnknownBuiltin(String),
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("{} is relative, and the project has no folder yet to start from", .0.display())]
+    #[error("{} is a relative path, but the project has no folder yet", .0.display())]
     NoFolder(PathBuf),
-    #[error("{} is no model Eddy knows by its ending", .0.display())]
+    #[error("{} is not a supported model: unknown file extension", .0.display())]
     UnknownKind(PathBuf),
     #[error("{} is broken: {reason}", path.display())]
     Broken { path: PathBuf, reason: String },
@@ -21,13 +21,13 @@ pub enum MeshError {
     Line { path: PathBuf, line: usize, reason: String, mend: String },
     #[error("{} is too large: {excess}", path.display())]
     TooLarge { path: PathBuf, excess: String },
-    #[error("{} names a file: {error}", path.display())]
+    #[error("{} refers to a file: {error}", path.display())]
     Named { path: PathBuf, error: FileError },
     #[error("{}: this is glTF {version}; Eddy reads 2.0", path.display())]
     Version { path: PathBuf, version: String },
     #[error("{} needs {what}, which Eddy cannot read{because}", path.display())]
     Needs { path: PathBuf, what: String, because: String, mend: String },
-    #[error("{} holds no triangles{but}", path.display())]
+    #[error("{} has no triangles{but}", path.display())]
     Empty { path: PathBuf, but: String },
 }
 
@@ -45,20 +45,20 @@ impl MeshError {
         match self {
             MeshError::UnknownBuiltin(name) => match nearest(name, NAMES) {
                 Some(near) => format!("did you mean builtin:{near}?"),
-                None => format!("there are {}", listed(&NAMES)),
+                None => format!("available: {}", listed(&NAMES)),
             },
             MeshError::File(error) | MeshError::Named { error, .. } => error.hint(),
             MeshError::NoFolder(_) => "save the project first, and put the model into its folder".into(),
             MeshError::TooLarge { .. } => "simplify the model before it is exported".into(),
-            MeshError::UnknownKind(_) => "name a .glb, .gltf or .obj file".into(),
+            MeshError::UnknownKind(_) => "use a .glb, .gltf or .obj file".into(),
             MeshError::Line { mend, .. } => mend.clone(),
-            MeshError::Broken { .. } => "export the model anew".into(),
+            MeshError::Broken { .. } => "re-export the model".into(),
             MeshError::Version { version, .. } if version.starts_with("1.") || version.starts_with("0.") => {
-                "export the model anew as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()
+                "re-export the model as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()
             }
-            MeshError::Version { .. } => "export the model anew as glTF 2.0".into(),
+            MeshError::Version { .. } => "re-export the model as glTF 2.0".into(),
             MeshError::Needs { mend, .. } => mend.clone(),
-            MeshError::Empty { .. } => "export the model's surface as triangles".into(),
+            MeshError::Empty { .. } => "export the surface of the model as triangles".into(),
         }
     }
 

@@ -10,11 +10,11 @@ use crate::project::Normals;
 /// A mesh with everything a vertex has. `normals`: which are made where there are none.
 pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, Trouble> {
     if !raw.indices.len().is_multiple_of(3) {
-        return Err(Trouble::broken(format!("{} corners make no whole number of triangles", raw.indices.len())));
+        return Err(Trouble::broken(format!("{} corners are not a whole number of triangles", raw.indices.len())));
     }
     let count = raw.vertices.len();
     if let Some(index) = raw.indices.iter().find(|i| **i as usize >= count) {
-        return Err(Trouble::broken(format!("a triangle names vertex {index}, and there are {count}")));
+        return Err(Trouble::broken(format!("a triangle uses vertex {index}, but there are {count}")));
     }
     let broken = |numbers: &[f32]| numbers.iter().any(|x| !x.is_finite());
     for (at, v) in raw.vertices.iter().enumerate() {

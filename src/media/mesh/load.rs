@@ -58,8 +58,8 @@ pub(in crate::media) fn load_within(
         made.add(vertices as u64, raw.indices.len() as u64 / 3).and_then(|()| made.fit(room)).map_err(|trouble| {
             match trouble {
                 Trouble::TooLarge(excess) if parts_corners => Trouble::TooLarge(format!(
-                    "{excess}. It has no normals, and flat ones take three vertices a triangle: normals = \"smooth\" \
-                     in its draw takes fewer"
+                    "{excess}. It has no normals, and flat normals need three vertices per triangle: set normals = \
+                     \"smooth\" in its draw to need fewer"
                 )),
                 other => other,
             }
@@ -81,7 +81,7 @@ pub(in crate::media) fn load_within(
         Ok((left_out, mut warnings)) => {
             warnings.extend(left_out.beside().map(|what| MeshWarning {
                 message: format!("{what} are not drawn"),
-                hint: "a pass draws triangles: export the rest as triangles, too".into(),
+                hint: "a pass draws only triangles: export the rest as triangles too".into(),
             }));
             Ok(Loaded { mesh, warnings })
         }

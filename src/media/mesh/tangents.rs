@@ -21,7 +21,7 @@ pub(super) fn check(raw: &Raw) -> Result<(), Trouble> {
         return Ok(());
     }
     Err(Trouble::TooLarge(format!(
-        "{most} corners of its triangles meet at one place, too many to make tangents for them"
+        "{most} corners of its triangles meet at one point, too many to compute tangents for"
     )))
 }
 

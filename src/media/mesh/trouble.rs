@@ -96,7 +96,7 @@ impl Counts {
             return Ok(());
         }
         let all = limits::in_bytes(limits::MEDIA_BYTES);
-        Err(Trouble::TooLarge(format!("with it the pictures and models of the project take more than {all}")))
+        Err(Trouble::TooLarge(format!("with it the images and models of the project take more than {all}")))
     }
 }
 
@@ -104,5 +104,5 @@ pub(super) fn at_most(count: u64, limit: u64, what: &str) -> Result<(), Trouble>
     if count <= limit {
         return Ok(());
     }
-    Err(Trouble::TooLarge(format!("it has more than {limit} {what}, which are the most that Eddy loads of a model")))
+    Err(Trouble::TooLarge(format!("it has more than {limit} {what}, the limit for a model")))
 }

@@ -63,7 +63,7 @@ fn places_are_opened_and_addresses_are_told_the_way() {
     assert!(refused("https://example.org/a.glsl").contains("save the file"));
     assert!(refused("file:///no/such/file.glsl").contains("no file /no/such/file.glsl"));
     assert!(refused("/no/such/file.glsl").contains("no file"));
-    assert!(refused("  \n").contains("no text"));
+    assert!(refused("  \n").contains("clipboard is empty"));
     assert!(refused("Dear diary").contains("Dear diary"));
     assert!(refused("Dear diary,\ntoday").contains("mainImage"));
 }

@@ -18,21 +18,21 @@ pub enum TextArrival {
 /// A text that nothing can be made of.
 #[derive(Debug, thiserror::Error)]
 pub enum ArrivalError {
-    #[error("there is no text to open; copy a shader's JSON, GLSL code or the path of a file first")]
+    #[error("the clipboard is empty; copy the JSON of a shader, GLSL code or the path of a file first")]
     Empty,
     /// An address of the site, with the shader's id where it has one.
     #[error(
-        "{address} is an address, and Eddy fetches nothing from there. Open the page in a browser, save the shader \
-         with the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
+        "{address} is a web address, and Eddy does not download. Open the page in a browser, save the shader with \
+         the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
     )]
     Site { address: String },
-    #[error("{address} is an address, and Eddy fetches nothing; save the file, and drop it here")]
+    #[error("{address} is a web address, and Eddy does not download; save the file and drop it here")]
     Address { address: String },
     #[error("there is no file {0}")]
     NoFile(String),
     #[error(
-        "the text is neither Shadertoy JSON (which begins with {{ or [), nor GLSL with a mainImage function, nor the \
-         path of a file: it begins with \"{0}\""
+        "the text is neither Shadertoy JSON (which starts with {{ or [), nor GLSL with a mainImage function, nor \
+         the path of a file: it starts with \"{0}\""
     )]
     Unknown(String),
     #[error("{error}")]
@@ -111,7 +111,7 @@ fn of_glsl(text: &str) -> Result<TextArrival, ProjectError> {
     };
     if text.len() as u64 > limits::GLSL_TEXT.bytes {
         let message = format!("the text is larger than {}", limits::GLSL_TEXT);
-        return too_large(vec![Diagnostic::error(None, message).hint("make it smaller")], Default::default());
+        return too_large(vec![Diagnostic::error(None, message).hint("shorten it")], Default::default());
     }
     let text = text.replace("\r\n", "\n");
     let mut project = Project::of_image("Pasted shader".into(), text);

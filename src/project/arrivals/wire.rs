@@ -7,7 +7,7 @@ use crate::project::{
 use std::path::Path;
 
 const PICTURE: &str = "\
-// iChannel0 as large as fits.
+// Fit iChannel0 into the picture.
 void mainImage(out vec4 fragColor, in vec2 fragCoord)
 {
     vec2 size = max(iChannelResolution[0].xy, vec2(1.0));
@@ -19,7 +19,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord)
 ";
 
 const COPY: &str = "\
-// What the pass in iChannel0 has drawn.
+// Show the pass in iChannel0.
 void mainImage(out vec4 fragColor, in vec2 fragCoord)
 {
     fragColor = texture(iChannel0, fragCoord / iResolution.xy);
@@ -27,7 +27,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord)
 ";
 
 const VERTEX: &str = "\
-// aPosition, aNormal, aTangent, aUv and aColor are the model's. Dragging turns the camera.
+// Inputs of the model: aPosition, aNormal, aTangent, aUv and aColor. Drag to turn the camera.
 in vec3 aPosition;
 in vec3 aNormal;
 in vec2 aUv;
@@ -46,7 +46,7 @@ void main()
 ";
 
 const FRAGMENT: &str = "\
-// One light, and a little from everywhere. A picture of the model's can be read by vUv from a channel.
+// One light and some ambient light. To use a texture of the model, read a channel at vUv.
 in vec3 vNormal;
 in vec2 vUv;
 in vec4 vColor;

@@ -73,7 +73,7 @@ impl FileError {
             Reason::Backslash => {
                 format!("{file} has a \\ in it, which leads out of the project's folder on some systems")
             }
-            Reason::Characters => format!("{file} has characters in it that no file's name has"),
+            Reason::Characters => format!("{file} contains characters that are not allowed in file names"),
             Reason::Reserved => format!("{file} is the name of a device on Windows"),
             Reason::Link => format!("{file} is a link that leads out of the project's folder"),
             Reason::Missing => format!("cannot read {file}: there is no such file"),
@@ -87,14 +87,14 @@ impl FileError {
     /// Returns how to mend it.
     pub fn hint(&self) -> String {
         match &self.reason {
-            Reason::Empty => "write the file's name, relative to the project's folder".into(),
+            Reason::Empty => "write the file name, relative to the project's folder".into(),
             Reason::Absolute | Reason::Above | Reason::Link => {
-                "copy the file into the project's folder, and name it relative to that folder, with /".into()
+                "copy the file into the project's folder, and write its path relative to that folder, with /".into()
             }
             Reason::Backslash => "write / between folders and files".into(),
             Reason::Characters | Reason::Reserved => "rename the file".into(),
-            Reason::Missing => "put the file there, or name another".into(),
-            Reason::NotAFile(_) => "name a regular file".into(),
+            Reason::Missing => "put the file there, or choose another".into(),
+            Reason::NotAFile(_) => "use a regular file".into(),
             Reason::TooLarge(_) => "make the file smaller".into(),
             Reason::TooMuch(_) => "split the project in two, or make its files smaller".into(),
             Reason::Io(_) => "check the file's permissions".into(),

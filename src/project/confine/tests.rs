@@ -56,7 +56,7 @@ fn a_file_is_read_up_to_its_limit() {
     assert_eq!(read(dir.path(), "sub/ten", SMALL).unwrap(), [7; 10]);
     assert_eq!(resolve(dir.path(), "sub/ten").unwrap(), dir.path().join("sub/ten"));
     let message = said(read(dir.path(), "eleven", SMALL));
-    assert!(message.contains("eleven is larger than 10 bytes, the most that Eddy reads of a test"), "{message}");
+    assert!(message.contains("eleven is larger than 10 bytes, the limit for a test"), "{message}");
     assert_eq!(read_own(&dir.path().join("sub/ten"), SMALL).unwrap(), [7; 10]);
     assert!(said(read_own(&dir.path().join("eleven"), SMALL)).contains("larger"));
     // A file that is all holes: the length is looked at before any memory is taken.

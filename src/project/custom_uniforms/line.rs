@@ -9,6 +9,9 @@
 //! #iUniform bool wrapped = true                           // this type the extension does not have
 //! ```
 //!
+//! The comment after a declaration describes it to who turns it. A line `//@group Light` puts the declarations after it
+//! in the same text into a group of that name, until the next such line; one without a name ends the group.
+//!
 //! Without a default it is the least of the range, else zero.
 
 use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
@@ -21,8 +24,7 @@ use crate::{
 };
 use std::ops::Range;
 
-const FORM: &str =
-    "the form is #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step may be left out";
+const FORM: &str = "write #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step are optional";
 
 pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
@@ -35,8 +37,24 @@ pub(super) struct Line {
     pub default: Option<[f64; 4]>,
     pub range: Option<CustomUniformRange>,
     pub step: Option<[f64; 4]>,
+    /// The comment after it.
+    pub about: String,
+    /// The group that it stands in.
+    pub group: String,
     /// The name.
     pub span: Span,
+}
+
+/// Returns the name that a line `//@group NAME` gives to what follows; empty: it ends a group.
+pub(super) fn group(line: &str) -> Option<&str> {
+    let rest = line.trim_start().strip_prefix("//")?.trim_start().strip_prefix("@group")?;
+    (rest.is_empty() || rest.starts_with(char::is_whitespace)).then(|| rest.trim())
+}
+
+/// Returns the words of the comment at the end of a declaration; those of `//@print` and its like are not for people.
+fn about(rest: &str) -> String {
+    let comment = rest.split_once("//").map_or("", |(_, comment)| comment.trim_start_matches(['/', '!', '<']).trim());
+    if comment.starts_with('@') { String::new() } else { comment.to_owned() }
 }
 
 impl Line {
@@ -47,6 +65,8 @@ impl Line {
             default: CustomUniformValue::new(self.ty, &[0.0; 4]),
             range: None,
             step: None,
+            about: String::new(),
+            group: self.group.clone(),
             span: self.span,
             declared_in: vec![source],
         }
@@ -68,6 +88,9 @@ impl Line {
                 _ => Ok(()),
             }
         }
+        if self.about.is_empty() {
+            self.about.clone_from(&other.about);
+        }
         one(&mut self.default, other.default, "default")?;
         one(&mut self.range, other.range, "range")?;
         one(&mut self.step, other.step, "step")
@@ -76,6 +99,7 @@ impl Line {
     /// Gives a custom uniform everything, now that all lines are read.
     pub fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
         custom_uniform.step = self.step;
+        custom_uniform.about.clone_from(&self.about);
         let unit = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };
         custom_uniform.range = self.range.or((self.ty == CustomUniformType::Color3).then_some(unit));
         let default = self.default.or(self.range.map(|r| r.min)).unwrap_or_default();
@@ -84,7 +108,7 @@ impl Line {
         if custom_uniform.default != wanted {
             let shown = custom_uniform.default.glsl(self.ty);
             diagnostics.push(
-                Diagnostic::warning(self.span, format!("the default of `{}` lies outside of its range", self.name))
+                Diagnostic::warning(self.span, format!("the default of `{}` is outside its range", self.name))
                     .hint(format!("it starts at {shown}; change the default or the range")),
             );
         }
@@ -132,13 +156,14 @@ pub(in crate::project) fn value(text: &str) -> Option<CustomUniformValue> {
     }
 }
 
-/// Reads a line that [`is_declaration`].
-pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagnostic> {
+/// Reads a line that [`is_declaration`], in a group.
+pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Line, Diagnostic> {
     let skipped = "iUniform".len();
     let mut words = Words::new(&line.body[skipped..], line.body_at + skipped, source);
     let ty = words.ty()?;
     let (name, span) = words.name()?;
-    let mut out = Line { name, ty, default: None, range: None, step: None, span };
+    let (default, range, step, group) = (None, None, None, group.to_owned());
+    let mut out = Line { name, ty, default, range, step, about: String::new(), group, span };
     if words.peek() == Word::Sign('=') {
         words.next();
         out.default = Some(words.value(ty)?);
@@ -151,10 +176,11 @@ pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagn
         words.next();
         let step = words.value(ty)?;
         if step[..ty.components()].iter().any(|s| *s <= 0.0) {
-            return Err(words.error("a step is a number above 0"));
+            return Err(words.error("a step must be above 0"));
         }
         out.step = Some(step);
     }
+    out.about = about(&words.text[words.at..]);
     match words.peek() {
         // Some write it as the end of a declaration.
         Word::End | Word::Sign(';') => Ok(out),
@@ -258,9 +284,9 @@ impl<'a> Words<'a> {
         CustomUniformType::ALL.into_iter().find(|t| t.name() == word).ok_or_else(|| {
             let known = match nearest(word, names) {
                 Some(near) => format!("did you mean {near}?"),
-                None => format!("there are {}", listed(&names)),
+                None => format!("the types are {}", listed(&names)),
             };
-            self.error(format!("there is no uniform of type {word} to set by hand")).hint(known)
+            self.error(format!("unknown slider type {word}")).hint(known)
         })
     }
 
@@ -286,14 +312,14 @@ impl<'a> Words<'a> {
 
     /// Numbers in parentheses; constructors among them count as the numbers they hold.
     fn arguments(&mut self) -> Result<Vec<f64>, Diagnostic> {
-        self.expect('(', "behind the type")?;
+        self.expect('(', "after the type")?;
         let mut depth = 1;
         let mut all = Vec::new();
         loop {
             match self.peek() {
                 Word::Name(name) if CustomUniformType::ALL.iter().any(|t| t.name() == name) => {
                     self.next();
-                    self.expect('(', "behind the type")?;
+                    self.expect('(', "after the type")?;
                     depth += 1;
                     continue;
                 }
@@ -348,15 +374,15 @@ impl<'a> Words<'a> {
         if ty == CustomUniformType::Bool {
             return Err(self.error("a bool has no range"));
         }
-        self.expect('{', "before the least value")?;
+        self.expect('{', "before the smallest value")?;
         let begin = self.last.start;
         let min = self.value(ty)?;
-        self.expect(',', "between the least and the greatest value")?;
+        self.expect(',', "between the smallest and the largest value")?;
         let max = self.value(ty)?;
-        self.expect('}', "behind the greatest value")?;
+        self.expect('}', "after the largest value")?;
         if min.iter().zip(max).any(|(a, b)| *a > b) {
             self.last.start = begin;
-            return Err(self.error("the range ends below its beginning"));
+            return Err(self.error("the range ends below its start"));
         }
         Ok(CustomUniformRange { min, max })
     }

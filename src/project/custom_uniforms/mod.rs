@@ -37,8 +37,10 @@ impl CustomUniforms {
         // What the lines of each custom uniform say so far, since one may leave to another what it does not say.
         let mut said: Vec<Line> = Vec::new();
         for (source, text) in texts {
+            let groups = groups(text);
             for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
-                match line::parse(hash, source) {
+                let group = groups.iter().rfind(|(at, _)| *at < hash.range.start).map_or("", |(_, name)| name);
+                match line::parse(hash, source, group) {
                     Ok(line) => custom_uniforms.add(line, source, &mut said),
                     Err(diagnostic) => custom_uniforms.diagnostics.push(diagnostic),
                 }
@@ -66,7 +68,7 @@ impl CustomUniforms {
             Some(message) => self.diagnostics.push(
                 Diagnostic::error(line.span, message)
                     .label(known.span, "declared here too")
-                    .hint("one name is one slider: let both lines say the same, or choose another name"),
+                    .hint("a name has one slider: make both lines equal, or choose another name"),
             ),
             None if known.declared_in.contains(&source) => {}
             None => known.declared_in.push(source),
@@ -83,11 +85,34 @@ impl CustomUniforms {
         let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
         let hint = match nearest(name, names.iter().copied()) {
             Some(near) => format!("did you mean {near}?"),
-            None if names.is_empty() => "the texts declare none".to_owned(),
-            None => format!("there are {}", super::listed(&names)),
+            None if names.is_empty() => "the project declares none".to_owned(),
+            None => format!("the uniforms are {}", super::listed(&names)),
         };
         (message, hint)
     }
+}
+
+/// Returns the lines of a text that name a group, by where they begin. One inside of a `/* */` is a comment.
+fn groups(text: &str) -> Vec<(usize, &str)> {
+    let mut found = Vec::new();
+    if !text.contains("@group") {
+        return found;
+    }
+    let (mut at, mut in_comment) = (0, false);
+    for line in text.split_inclusive('\n') {
+        if let Some(name) = line::group(line).filter(|_| !in_comment) {
+            found.push((at, name));
+        }
+        let code = if in_comment { line } else { line.split("//").next().unwrap_or_default() };
+        in_comment = match (code.rfind("/*"), code.rfind("*/")) {
+            (Some(begin), Some(end)) => begin > end,
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            (None, None) => in_comment,
+        };
+        at += line.len();
+    }
+    found
 }
 
 #[cfg(test)]

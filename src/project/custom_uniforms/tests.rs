@@ -67,9 +67,32 @@ fn lines_as_the_extension_has_them() {
 }
 
 #[test]
+fn a_comment_describes_and_a_line_groups() {
+    assert_eq!(
+        one("#iUniform float a = 1.0 in { 0.0, 5.0 } step 0.25 // how dense, per metre").about,
+        "how dense, per metre"
+    );
+    assert_eq!(one("#iUniform float a; //! of the lamp // and more").about, "of the lamp // and more");
+    for without in
+        ["#iUniform float a", "#iUniform float a //", "#iUniform float a //@print a", "#iUniform float a /* b */"]
+    {
+        assert_eq!(one(without).about, "", "{without}");
+    }
+    let text = "#iUniform float a\n//@group Light and shade\n#iUniform float b // first\n/*\n//@group no\n*/\n\
+                #iUniform float c\n  // @group\n#iUniform float d\n//@groups e\n#iUniform float e\n//@group Fog\n";
+    let all = read(&[text, "#iUniform float f\n#iUniform float b // second"]);
+    assert_eq!(all.diagnostics, []);
+    let groups: Vec<_> = all.list.iter().map(|one| (one.name.as_str(), one.group.as_str())).collect();
+    let wanted = [("a", ""), ("b", "Light and shade"), ("c", "Light and shade"), ("d", ""), ("e", ""), ("f", "")];
+    assert_eq!(groups, wanted, "a group is of one text");
+    assert_eq!(all.get("b").unwrap().about, "first");
+    assert_eq!(read(&["#iUniform float a", "#iUniform float a // later"]).list[0].about, "later");
+}
+
+#[test]
 fn a_wrong_line_says_where_and_how_to_mend_it() {
     for (line, marked, message) in [
-        ("#iUniform flaot a", "flaot", "no uniform of type flaot"),
+        ("#iUniform flaot a", "flaot", "unknown slider type flaot"),
         ("#iUniform float", "t", "the uniform's name"),
         ("#iUniform float 3", "3", "the uniform's name"),
         ("#iUniform float a 1.0", "1.0", "expected `=`, `in` or the end"),
@@ -78,7 +101,7 @@ fn a_wrong_line_says_where_and_how_to_mend_it() {
         ("#iUniform float a = 1 at", "at", "expected `in`, `step` or the end"),
         ("#iUniform float a = 1 in [0, 1]", "[", "expected `{`"),
         ("#iUniform float a = 1 in { 0, 1", "1", "expected `}`"),
-        ("#iUniform float a in { 1, 0 }", "{ 1, 0 }", "ends below its beginning"),
+        ("#iUniform float a in { 1, 0 }", "{ 1, 0 }", "ends below its start"),
         ("#iUniform float a = vec2(1, 2)", "vec2(1, 2)", "a float takes one number, not 2"),
         ("#iUniform vec3 a = vec3(1, 2)", "vec3(1, 2)", "a vec3 takes 3 numbers, or one for all, not 2"),
         ("#iUniform int a = 1.5", "1.5", "whole numbers"),
@@ -149,17 +172,17 @@ fn values_are_set_as_people_write_them() {
     let before = p.custom_uniform_values.clone();
     for (set, message) in [
         ("sped=1", "did you mean speed?"),
-        ("colour=1", "there are speed, tint, on, n and at"),
+        ("colour=1", "the uniforms are speed, tint, on, n and at"),
         ("speed", "viscosity=0.3"),
         ("speed=fast", "viscosity=0.3"),
-        ("speed=7", "speed lies outside of its range, 0.0 to 5.0"),
+        ("speed=7", "speed is outside its range, 0.0 to 5.0"),
         ("speed=1,2", "is a float and takes a number"),
         ("speed=true", "takes a number"),
         ("speed=nan", "viscosity=0.3"),
         ("tint=1", "is a color3 and takes 3 numbers"),
-        ("tint=1,2,3", "outside of its range, 0.0 to 1.0"),
+        ("tint=1,2,3", "outside its range, 0.0 to 1.0"),
         ("n=1.5", "a whole number"),
-        ("n=0", "outside of its range"),
+        ("n=0", "outside its range"),
         ("on=1", "true or false"),
     ] {
         let said = p.set_custom_uniform(set).expect_err(set);

@@ -128,6 +128,10 @@ pub struct CustomUniform {
     pub range: Option<CustomUniformRange>,
     /// The step of a slider, where the author gives one.
     pub step: Option<[f64; 4]>,
+    /// The author's description: the `//` comment after the first declaration that has one, else empty.
+    pub about: String,
+    /// The group that it is shown in: that of the `//@group` line before its first declaration, else empty.
+    pub group: String,
     /// The name, where it is first declared.
     pub span: Span,
     /// The texts that declare it.
@@ -145,8 +149,8 @@ impl CustomUniform {
         let range = self.range.map_or(String::new(), |r| format!("{:?} to {:?}", r.min[0], r.max[0]));
         let same = |all: &[f64; 4]| all[..self.ty.components()].iter().all(|x| *x == all[0]);
         Err(match self.range {
-            Some(r) if same(&r.min) && same(&r.max) => format!("lies outside of its range, {range}"),
-            _ => "lies outside of its range".to_owned(),
+            Some(r) if same(&r.min) && same(&r.max) => format!("is outside its range, {range}"),
+            _ => "is outside its range".to_owned(),
         })
     }
 

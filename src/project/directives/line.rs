@@ -17,8 +17,7 @@ type Parsed<'a> = (usize, Option<&'a str>, &'a str);
 pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(Span) -> Diagnostic + use<>> {
     let error = |message: String| {
         Err(move |span: Span| {
-            Diagnostic::error(span, message)
-                .hint("the form is #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"")
+            Diagnostic::error(span, message).hint("write #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"")
         })
     };
     let rest = line.body.strip_prefix("iChannel").unwrap_or_default();
@@ -37,7 +36,7 @@ pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(S
     let quoted = trim_start(rest).strip_prefix('"').and_then(|r| r.split_once('"'));
     match quoted {
         Some((value, after)) if is_end(after) => Ok((n, setting, value.trim())),
-        _ => error("a channel directive needs one text in double quotes".into()),
+        _ => error("a channel directive needs one string in double quotes".into()),
     }
 }
 
@@ -67,8 +66,8 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     }
     if value.starts_with("http://") || value.starts_with("https://") {
         diagnostics.push(
-            Diagnostic::warning(span, "a picture from the network is not fetched; the channel reads black")
-                .hint("save the picture beside the shader and name it: \"file://pic.png\""),
+            Diagnostic::warning(span, "images from the network are not downloaded; the channel reads black")
+                .hint("save the image next to the shader and write \"file://pic.png\""),
         );
         return None;
     }
@@ -98,11 +97,11 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     match file_names::pass_of_stem(word) {
         Some(id) if is_glsl && !around.passes.iter().any(|(_, known)| *known == id) => {
             let files = around.passes.iter().map(|(file, _)| file.as_str());
-            let mut diagnostic = Diagnostic::error(span, format!("{path} is no pass of this project"));
+            let mut diagnostic = Diagnostic::error(span, format!("{path} is not a pass of this project"));
             if let Some(near) = nearest(path, files) {
                 diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
             }
-            diagnostics.push(diagnostic.hint("put the file there, and open the project anew"));
+            diagnostics.push(diagnostic.hint("put the file there and reopen the project"));
             return None;
         }
         Some(id) => return pass(&id, around, span, diagnostics),
@@ -112,7 +111,7 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
         return picture(path);
     }
     let known = ["self", "keyboard", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"];
-    let mut diagnostic = Diagnostic::error(span, format!("\"{value}\" is nothing a channel can read"));
+    let mut diagnostic = Diagnostic::error(span, format!("\"{value}\" is not an input that a channel can read"));
     if let Some(near) = nearest(word, known) {
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
@@ -138,7 +137,7 @@ fn pass(id: &PassId, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagn
         PassId::Image | PassId::Sound => {
             diagnostics.push(
                 Diagnostic::error(span, format!("a channel cannot read {}", id.title()))
-                    .hint("only buffers, the cubemap pass, pictures and the keyboard can be read"),
+                    .hint("a channel can read buffers, the cubemap pass, image files and the keyboard"),
             );
             return None;
         }
@@ -152,7 +151,7 @@ pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span,
         if let Some(near) = nearest(got, known.iter().copied()) {
             d = d.hint(format!("did you mean {near}?"));
         }
-        diagnostics.push(d.hint(format!("known are {}", listed(known))));
+        diagnostics.push(d.hint(format!("the values are {}", listed(known))));
     };
     let folded = value.to_lowercase();
     match setting.to_lowercase().as_str() {
@@ -191,10 +190,10 @@ pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span,
         },
         "type" => match folded.as_str() {
             "texture2d" => {}
-            "cubemap" => diagnostics
-                .push(Diagnostic::error(span, "a channel directive reads no cubemap of six pictures").hint(
-                    "the cubemap pass is #iChannel0 \"cube_a\"; a picture is read as it lies, without this line",
-                )),
+            "cubemap" => diagnostics.push(
+                Diagnostic::error(span, "a channel directive cannot read a cubemap of six images")
+                    .hint("for the cubemap pass write #iChannel0 \"cube_a\"; for an image remove this line"),
+            ),
             _ => unknown("type", value, &["Texture2D"]),
         },
         _ => unknown("setting", setting, &["MinFilter", "MagFilter", "WrapMode", "VFlip", "Type"]),

@@ -18,7 +18,7 @@ pub fn lines_not_obeyed(project: &Project) -> Vec<Diagnostic> {
         Origin::Json(_) => (Severity::Warning, "the JSON file"),
         Origin::Folder { has_manifest: true, .. } | Origin::Preset(_) => (Severity::Warning, "eddy.toml"),
         Origin::Unsaved => (Severity::Warning, "the project"),
-        Origin::File(_) | Origin::Folder { .. } => (Severity::Error, "the text of a pass"),
+        Origin::File(_) | Origin::Folder { .. } => (Severity::Error, "the code of a pass"),
     };
     if !counts {
         let passes = files_of_passes(project);
@@ -38,7 +38,7 @@ pub fn lines_not_obeyed(project: &Project) -> Vec<Diagnostic> {
                 if let (Some(place), Some(channel)) = (place, channel)
                     && !is_same(&channel)
                 {
-                    let message = format!("{who} says what iChannel{n} reads, so this line counts for nothing");
+                    let message = format!("{who} sets the input of iChannel{n}, so this line is ignored");
                     found.push(
                         Diagnostic::warning(*place, message).hint("remove the line, or change the channel there"),
                     );
@@ -53,9 +53,9 @@ pub fn lines_not_obeyed(project: &Project) -> Vec<Diagnostic> {
             continue;
         }
         found.extend(lines_of(&source.text, id).map(|span| {
-            let message = format!("this line counts for nothing in {}: a channel belongs to a pass", source.name);
+            let message = format!("this line is ignored in {}: a channel belongs to a pass", source.name);
             let mend = match counts {
-                true => "move the line into the text of the pass that reads the channel",
+                true => "move the line to the code of the pass that reads the channel",
                 false => "remove the line",
             };
             Diagnostic::new(severity, span, message).hint(mend)

@@ -63,8 +63,8 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
         return Ok(None);
     }
     if project.passes.len() == limits::PASSES {
-        let message = format!("with {name} the project has more than {} passes, the most it may have", limits::PASSES);
-        return refuse(message, "let fewer lines name files".into());
+        let message = format!("with {name} the project has more than {} passes, the limit", limits::PASSES);
+        return refuse(message, "use fewer lines with files".into());
     }
     let text = match files.read(&name, limits::GLSL_TEXT) {
         Read::Text(text) => text,
@@ -79,7 +79,7 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
             let near = nearest(&name, beside.iter().map(String::as_str).filter(|n| *n != from));
             let hint = match near {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => "put the file there, or name another".into(),
+                None => "put the file there, or choose another".into(),
             };
             return refuse(format!("there is no file {name}"), hint);
         }

@@ -40,8 +40,8 @@ pub(in crate::project) fn read(
                 if let Some(earlier) = found.places[n]
                     && channels[n] != read
                 {
-                    let message = format!("another line has said what iChannel{n} reads: only this one counts");
-                    let twice = Diagnostic::warning(span, message).label(earlier, "this line counts for nothing");
+                    let message = format!("another line already sets iChannel{n}: only this one is used");
+                    let twice = Diagnostic::warning(span, message).label(earlier, "this line is ignored");
                     found.diagnostics.push(twice.hint("remove one of them"));
                 }
                 (channels[n], found.places[n]) = (read, Some(span));
@@ -62,8 +62,8 @@ pub(in crate::project) fn read(
             // What it reads cannot be had, which was said.
             None if found.places[n].is_some() => {}
             None => found.diagnostics.push(
-                Diagnostic::warning(span, format!("iChannel{n} reads nothing, so this line sets nothing"))
-                    .hint(format!("name what it reads: #iChannel{n} \"buffer_a\"")),
+                Diagnostic::warning(span, format!("iChannel{n} has no input, so this line is ignored"))
+                    .hint(format!("add its input: #iChannel{n} \"buffer_a\"")),
             ),
         }
     }

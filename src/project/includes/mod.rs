@@ -85,10 +85,7 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
             }
             let content = match known.len() > limits::TEXTS {
                 true => Err(Trouble {
-                    why: format!(
-                        "with {name} the project has more than {} texts, the most that Eddy reads",
-                        limits::TEXTS
-                    ),
+                    why: format!("with {name} the project has more than {} files, the limit", limits::TEXTS),
                     is_limit: true,
                 }),
                 false => {
@@ -117,7 +114,7 @@ const HINTS: usize = 20;
 
 fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, Trouble> {
     let Some(files) = files else {
-        return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first").into());
+        return Err(format!("{name} cannot be found: the project has no folder yet; save it first").into());
     };
     match files.read(name, limits::GLSL_TEXT) {
         Read::Text(text) => Ok(text),
@@ -182,7 +179,7 @@ impl Project {
                     Some(&target) if target == Self::COMMON_ID && id != Self::COMMON_ID => found.diagnostics.push(
                         Diagnostic::warning(
                             span,
-                            format!("{name} is Common, which stands before every pass: it is not put in again"),
+                            format!("{name} is Common, which is inserted before every pass: it is not included again"),
                         )
                         .hint("remove this line"),
                     ),
@@ -234,10 +231,8 @@ impl Project {
                         Some(begin) => {
                             let chain: Vec<&str> =
                                 way[begin..].iter().map(|(id, _)| name(*id)).chain([name(target)]).collect();
-                            let message = format!("this #include goes round in a circle: {}", chain.join(" -> "));
-                            found
-                                .diagnostics
-                                .push(Diagnostic::error(span, message).hint("take one of these lines out"));
+                            let message = format!("this #include is circular: {}", chain.join(" -> "));
+                            found.diagnostics.push(Diagnostic::error(span, message).hint("remove one of these lines"));
                             cut.insert((span.source.0, span.start));
                         }
                         None => way.push((target, 0)),
@@ -260,7 +255,7 @@ impl Project {
                 false => limits::in_bytes(limits::ALL_TEXTS.bytes),
             };
             let message =
-                format!("{} has more than {most} in it, each file counted as often as it is included", name(at));
+                format!("{} includes more than {most}, counting each file as often as it is included", name(at));
             found.diagnostics.push(
                 Diagnostic::error(
                     found.lines.iter().find(|(s, _)| usize::from(s.source.0) == at).map(|l| l.0),

@@ -58,7 +58,7 @@ fn what_leads_nowhere_is_told_at_its_line() {
         ("#include \"lib\"", "cannot read"),
         ("#include \"bytes.glsl\"", "not UTF-8"),
         ("#include \"link.glsl\"", "a link that leads out"),
-        ("#include \"common.glsl\"", "stands before every pass"),
+        ("#include \"common.glsl\"", "is inserted before every pass"),
     ] {
         let dir = folder(&[
             ("image.glsl", &format!("int i;\n{line}\n")),
@@ -78,7 +78,7 @@ fn what_leads_nowhere_is_told_at_its_line() {
     let mut unsaved = open(&folder(TREE));
     unsaved.origin = Origin::Unsaved;
     unsaved.read_includes();
-    assert!(said(&unsaved).contains("save it into one first"), "{}", said(&unsaved));
+    assert!(said(&unsaved).contains("save it first"), "{}", said(&unsaved));
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn a_circle_is_an_error_with_the_way_round_it() {
     ]));
     let text = said(&project);
     assert!(text.contains("a.glsl -> b.glsl -> c.glsl -> a.glsl") && text.contains("c.glsl:3:1"), "{text}");
-    assert!(text.contains("circle: d.glsl -> d.glsl") && text.contains("d.glsl:1:1"), "{text}");
+    assert!(text.contains("circular: d.glsl -> d.glsl") && text.contains("d.glsl:1:1"), "{text}");
     assert_eq!(project.include_lines().diagnostics.len(), 2);
     assert_eq!(image(&project), "int a;\n\n\n#include \"a.glsl\"\nint c;\n\n\n\n#include \"d.glsl\"\nint d;\n");
 }

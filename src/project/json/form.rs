@@ -177,9 +177,7 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
                 let mut all = Vec::new();
                 while let Some(one) = seq.next_element()? {
                     if all.len() == MAX {
-                        return Err(A::Error::custom(format_args!(
-                            "this list has more than {MAX} entries, the most that Eddy reads"
-                        )));
+                        return Err(A::Error::custom(format_args!("this list has more than {MAX} entries, the limit")));
                     }
                     all.push(one);
                 }

@@ -55,8 +55,8 @@ pub fn holds_several(text: &str) -> bool {
     }
 }
 
-const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the \
-    same inside \"Shader\", or a list of such objects, also inside \"shaders\"";
+const EXPECTED: &str = "expected a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the same \
+                        inside \"Shader\", or a list of such objects, also inside \"shaders\"";
 const NO_SHADER: &str = "not a Shadertoy shader";
 
 fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
@@ -77,7 +77,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
         let place = at(begin_of(part) + offset_of(part, e.line(), e.column()), 0);
         let hint = if body.trim_start().starts_with('<') {
-            "this is a web page; save what the site exports, or what its API answers"
+            "this is a web page; save the export of Shadertoy or the answer of its API"
         } else {
             EXPECTED
         };
@@ -105,16 +105,12 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
             Top::Object(Object { error: Some(error), .. }) => {
                 let said = serde_json::from_str(error.get()).unwrap_or_else(|_| shown(error.get()));
                 let said = if said.trim().is_empty() || said == "null" { "no reason given".to_owned() } else { said };
-                let message = format!("this is the API's refusal, not a shader: {}", shown(&said));
-                return refuse(
-                    at_key(part, "Error"),
-                    message,
-                    "ask the API again; a shader must be public + API to be had",
-                );
+                let message = format!("this is an error of the API, not a shader: {}", shown(&said));
+                return refuse(at_key(part, "Error"), message, "request it again; the shader must be public + API");
             }
             Top::Object(Object { keys, .. }) if keys.iter().any(|k| k == "Results") => {
-                let message = "this is the API's list of ids, not a shader".to_owned();
-                return refuse(at_key(part, "Results"), message, "ask the API for one of them");
+                let message = "this is a list of ids, not a shader".to_owned();
+                return refuse(at_key(part, "Results"), message, "request one of them from the API");
             }
             Top::Object(Object { keys, .. }) => {
                 let keys: Vec<String> = keys.iter().map(|k| format!("\"{}\"", shown(k))).collect();
@@ -141,27 +137,27 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
         Some(other) => {
             return refuse(
                 at_key(part, "ver"),
-                format!("version \"{}\" of the form is not known", shown(other)),
-                &format!("expected is \"ver\": \"{VERSION}\""),
+                format!("unknown format version \"{}\"", shown(other)),
+                &format!("expected \"ver\": \"{VERSION}\""),
             );
         }
         None => warnings.push(
             Diagnostic::warning(None, format!("the shader has no \"ver\"; it is read as version {VERSION}"))
-                .hint(format!("the site itself wants \"ver\": \"{VERSION}\"")),
+                .hint(format!("Shadertoy itself requires \"ver\": \"{VERSION}\"")),
         ),
     }
     if let (Some(wanted), false) = (wanted, is_chosen)
         && !several::is_called(part, 1, wanted)
     {
-        let message = format!("the file holds one shader, and none that is called {}", shown(wanted));
-        return refuse(at(0, 0), message, &format!("name the file alone: {name}"));
+        let message = format!("the file has one shader, and it is not {}", shown(wanted));
+        return refuse(at(0, 0), message, &format!("use the file name alone: {name}"));
     }
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let info = match shader.info.map(RawValue::get) {
         None => Map::new(),
         Some(text) if text.len() as u64 > limits::JSON_INFO.bytes => {
             let message = format!("\"info\" is larger than {}", limits::JSON_INFO);
-            return refuse(at_key(part, "info"), message, "take out what is not of the shader");
+            return refuse(at_key(part, "info"), message, "remove what does not belong to the shader");
         }
         Some(text) => members(text, &mut warnings).map_err(|e| failed(text, NO_SHADER, &e))?,
     };
@@ -187,8 +183,11 @@ fn members(text: &str, warnings: &mut Vec<Diagnostic>) -> Result<Map<String, Val
         match serde_json::from_str(value.get()) {
             Ok(value) => drop(all.insert(key, value)),
             Err(_) => warnings.push(
-                Diagnostic::warning(None, format!("\"{}\" of \"info\" nests too deep and is left out", shown(&key)))
-                    .hint("nothing of the picture depends on it"),
+                Diagnostic::warning(
+                    None,
+                    format!("\"{}\" in \"info\" is nested too deeply and is left out", shown(&key)),
+                )
+                .hint("the picture does not depend on it"),
             ),
         }
     }
@@ -220,11 +219,11 @@ fn project(
         let kind = kind(&pass)?;
         let Some(code) = pass.code else {
             return Err(Diagnostic::error(None, format!("a pass of type \"{kind}\" has no \"code\""))
-                .hint("\"code\" is the GLSL text of the pass"));
+                .hint("\"code\" is the GLSL code of the pass"));
         };
         if code.len() as u64 > limits::GLSL_TEXT.bytes {
             let message = format!("the code of a pass is larger than {}", limits::GLSL_TEXT);
-            return Err(Diagnostic::error(None, message).hint("make it smaller"));
+            return Err(Diagnostic::error(None, message).hint("shorten it"));
         }
         let id = match &*kind {
             "common" => {
@@ -239,8 +238,8 @@ fn project(
             "cubemap" => PassId::Cubemap,
             "buffer" => PassId::Buffer(names.of_passes.pop_front().unwrap_or_default()),
             other => {
-                return Err(Diagnostic::error(None, format!("a pass is of the unknown type \"{}\"", shown(other)))
-                    .hint("known are common, buffer, cubemap, sound and image"));
+                return Err(Diagnostic::error(None, format!("a pass has the unknown type \"{}\"", shown(other)))
+                    .hint("the types are common, buffer, cubemap, sound and image"));
             }
         };
         if passes.iter().any(|p| p.id == id) {
@@ -260,8 +259,7 @@ fn project(
         passes.push(Pass { channels, ..Pass::new(id, source) });
     }
     if !passes.iter().any(|p| p.id == PassId::Image) {
-        return Err(Diagnostic::error(None, "the shader has no Image pass")
-            .hint("a renderpass of type \"image\" must be there"));
+        return Err(Diagnostic::error(None, "the shader has no Image pass").hint("add a renderpass of type \"image\""));
     }
     settle_wraps(&mut passes, &reads);
     passes.sort_by(|a, b| a.id.drawing_order(&b.id));
@@ -298,7 +296,7 @@ fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
         Some(PassId::Buffer(_)) if name.trim().to_lowercase().starts_with("buf") => "buffer",
         _ => {
             return Err(Diagnostic::error(None, format!("the pass \"{}\" has no \"type\"", shown(&name)))
-                .hint("known are common, buffer, cubemap, sound and image"));
+                .hint("the types are common, buffer, cubemap, sound and image"));
         }
     };
     Ok(kind.to_owned())
@@ -355,8 +353,8 @@ impl BufferNames {
                     let name = free.next().unwrap_or_default();
                     let said = match (other, outputs.first()) {
                         (Some(other), _) => format!("writes Buffer {other}, as another pass does"),
-                        (None, Some(id)) if !id.is_empty() => format!("writes the unknown id \"{}\"", shown(id)),
-                        (None, _) => "does not say which buffer it writes".into(),
+                        (None, Some(id)) if !id.is_empty() => format!("writes to the unknown id \"{}\"", shown(id)),
+                        (None, _) => "has no output buffer".into(),
                     };
                     let message = format!(
                         "the pass \"{}\" {said}; it is read as Buffer {name}",
@@ -389,7 +387,7 @@ fn channel(
     let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..4.0).contains(n)) else {
         let message = match &*number {
             "" => format!("{} has an input without a \"channel\"", id.title()),
-            _ => format!("{} has an input for iChannel{}, which there is not", id.title(), shown(&number)),
+            _ => format!("{} has an input for iChannel{}, which does not exist", id.title(), shown(&number)),
         };
         warnings
             .push(Diagnostic::warning(None, message).hint("a pass has iChannel0 to iChannel3; the input is left out"));
@@ -434,7 +432,7 @@ fn channel(
             warnings.push(
                 Diagnostic::warning(
                     None,
-                    format!("iChannel{n} of {} is of the unknown type \"{}\"", id.title(), shown(other)),
+                    format!("iChannel{n} of {} has the unknown type \"{}\"", id.title(), shown(other)),
                 )
                 .hint("the channel is left empty and reads black"),
             );

@@ -21,7 +21,7 @@ pub(super) fn choose<'t>(
     let count = list.count;
     let Some(wanted) = wanted else {
         if count > 1 {
-            let warning = Diagnostic::warning(None, format!("the file holds {count} shaders; the first one is read"));
+            let warning = Diagnostic::warning(None, format!("the file has {count} shaders; the first one is read"));
             warnings.push(warning.hint(others(list, file)));
         }
         return Ok(first);
@@ -30,7 +30,7 @@ pub(super) fn choose<'t>(
     match found {
         Some((_, one)) => Ok(one),
         None => {
-            let message = format!("none of the {count} shaders in the file is called {}", shown(wanted));
+            let message = format!("none of the {count} shaders in the file is named {}", shown(wanted));
             Err((message, others(list, file)))
         }
     }
@@ -68,7 +68,7 @@ fn others(list: &Shaders<'_>, file: &str) -> String {
         .collect();
     let more = if list.count > SHOWN { format!(" and so on to {file}#{}", list.count) } else { String::new() };
     let all = if more.is_empty() { listed(&all) } else { all.join(", ") };
-    format!("one is named by its id or number behind #: {all}{more}")
+    format!("choose one by its id or number after #: {all}{more}")
 }
 
 /// The shader in the API's wrapping, if it is one.

@@ -121,15 +121,15 @@ fn what_is_no_shader_is_refused_with_place_and_expectation() {
     let unknown = shader(&[pass("image", None, &[]), pass("vertex", None, &[])]).to_string();
     let version = shader(&[pass("image", None, &[])]).to_string().replace("0.1", "0.2");
     for (text, expected) in [
-        ("", vec!["x.json:1:1", "not JSON", "expected is a Shadertoy shader"]),
+        ("", vec!["x.json:1:1", "not JSON", "expected a Shadertoy shader"]),
         ("{\n  \"ver\": \"0.1\",\n  oops }", vec!["x.json:3:3", "not JSON"]),
         ("{\n  \"ver\": \"0.1\", \"renderpass\": [\n    { \"type\": 3 } ] }", vec!["x.json:3:", "invalid type"]),
         ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"type\": \"image\" }] }", vec!["has no \"code\"", "x.json:1:17"]),
-        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"code\": \"\" }] }", vec!["has no \"type\"", "known are common"]),
+        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"code\": \"\" }] }", vec!["has no \"type\"", "the types are common"]),
         ("{ \"ver\": \"0.1\", \"renderpass\": null }", vec!["\"renderpass\" is null"]),
         ("<!DOCTYPE html>\n<html>", vec!["not JSON", "this is a web page"]),
         ("{ \"Shaders\": 2, \"Results\": [\"a\", \"b\"] }", vec!["list of ids"]),
-        ("{ \"Error\": { \"code\": 7 } }", vec!["API's refusal", "code"]),
+        ("{ \"Error\": { \"code\": 7 } }", vec!["error of the API", "code"]),
         ("{ \"shaders\": [] }", vec!["list is empty"]),
         ("{ \"shaders\": {} }", vec!["expected a list of shaders"]),
         ("[[{}]]", vec!["a list within a list"]),
@@ -138,8 +138,8 @@ fn what_is_no_shader_is_refused_with_place_and_expectation() {
         ("[]", vec!["list is empty"]),
         ("[1]", vec!["x.json:1:2", "a bare value"]),
         ("\"text\"", vec!["a bare value"]),
-        ("{ \"Error\": \"Shader not found\" }", vec!["x.json:1:3", "API's refusal", "Shader not found"]),
-        (version.as_str(), vec!["version \"0.2\"", "\"ver\": \"0.1\""]),
+        ("{ \"Error\": \"Shader not found\" }", vec!["x.json:1:3", "error of the API", "Shader not found"]),
+        (version.as_str(), vec!["format version \"0.2\"", "\"ver\": \"0.1\""]),
         ("{ \"renderpass\": [] }", vec!["no Image pass"]),
         (no_image.as_str(), vec!["no Image pass"]),
         (two_images.as_str(), vec!["two passes named Image"]),
@@ -246,10 +246,7 @@ fn one_of_several_shaders_is_read_by_id_number_or_name() {
         assert_eq!(&*project.passes[0].source.text, "1");
         let said = format!("{warnings:?}");
         assert_eq!(warnings.len(), 1, "{said}");
-        assert!(
-            said.contains("holds 3 shaders") && said.contains("x.json#aaaaaa (first), x.json#42 (second)"),
-            "{said}"
-        );
+        assert!(said.contains("has 3 shaders") && said.contains("x.json#aaaaaa (first), x.json#42 (second)"), "{said}");
         assert!(said.contains("x.json#3 (third)"), "an id that another has is none: {said}");
         for (wanted, code) in [("aaaaaa", "1"), ("2", "2"), ("42", "2"), ("3", "3"), ("Third", "3")] {
             let (project, warnings) = import_one(&text, "x.json", Some(wanted)).unwrap();
@@ -262,7 +259,7 @@ fn one_of_several_shaders_is_read_by_id_number_or_name() {
     assert!(!holds_several(&one) && !holds_several(&exported(&list[..1]).to_string()) && !holds_several("{"));
     assert_eq!(import(&exported(&list[..1]).to_string(), "x.json").unwrap().1, []);
     assert!(import_one(&one, "x.json", Some("aaaaaa")).is_ok());
-    assert!(import_one(&one, "x.json", Some("b")).unwrap_err().to_string().contains("holds one shader"));
+    assert!(import_one(&one, "x.json", Some("b")).unwrap_err().to_string().contains("has one shader"));
 }
 
 #[test]

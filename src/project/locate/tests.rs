@@ -104,27 +104,27 @@ fn a_wrong_eddy_toml_names_line_and_mend() {
     for (toml, expected) in [
         ("[passes.image\n", vec!["eddy.toml:1:", "= help"]),
         ("\nnmae = \"x\"\n[passes.image]", vec!["eddy.toml:2:1", "no key nmae", "did you mean name?"]),
-        ("name = 3\n[passes.image]", vec!["eddy.toml:1:8", "name is an integer, not a text in quotes"]),
+        ("name = 3\n[passes.image]", vec!["eddy.toml:1:8", "name is an integer, not a string in quotes"]),
         (
             "[passes.buffer_a]\nfile = \"bufer_b.glsl\"\n[passes.image]",
             vec!["eddy.toml:2:8", "did you mean buffer_b.glsl?"],
         ),
         ("[passes.imge]\n[passes.image]", vec!["eddy.toml:1:9", "did you mean image?"]),
         ("[passes.buffer_a]\n[passes.buf_A]\n[passes.image]", vec!["eddy.toml:2:9", "a second pass named Buffer A"]),
-        ("name = \"x\"\n", vec!["names no passes", "[passes.image]"]),
+        ("name = \"x\"\n", vec!["has no passes", "[passes.image]"]),
         ("[passes.buffer_a]\n", vec!["no Image pass", "[passes.image]"]),
         ("[passes.image]\nchannels.4 = { buffer = \"A\" }", vec!["eddy.toml:2:10", "no channel 4"]),
         ("[passes.image]\nchannels.0 = { bufer = \"A\" }", vec!["no key bufer", "did you mean buffer?"]),
-        ("[passes.image]\nchannels.0 = { wrap = \"clamp\" }", vec!["does not say what it reads"]),
+        ("[passes.image]\nchannels.0 = { wrap = \"clamp\" }", vec!["has no input"]),
         ("[passes.image]\nchannels.0 = { buffer = \"A\", file = \"x\" }", vec!["reads buffer and file at once"]),
         (
             "[passes.image]\nchannels.0 = { buffer = \"A\", wrap = \"repaet\" }",
             vec!["eddy.toml:2:37", "did you mean \"repeat\"?"],
         ),
-        ("[passes.image]\nchannels.0 = { buffer = \"image\" }", vec!["\"image\" is no buffer"]),
+        ("[passes.image]\nchannels.0 = { buffer = \"image\" }", vec!["\"image\" is not a buffer"]),
         ("[passes.image]\nchannels.0 = \"A\"", vec!["channels.0 is a string, not a table"]),
         ("[passes]\nimage = 3", vec!["image is an integer, not a table"]),
-        ("eddy = 99\nfuture = true\n", vec!["eddy.toml:1:8", "version 99", "newer Eddy"]),
+        ("eddy = 99\nfuture = true\n", vec!["eddy.toml:1:8", "version 99", "newer version of Eddy"]),
         ("[shadertoy]\ninfo = '{'\n[passes.image]", vec!["eddy.toml:2:8", "not a JSON object"]),
     ] {
         let dir = folder(&[("eddy.toml", toml), ("image.glsl", ""), ("buffer_a.glsl", ""), ("buffer_b.glsl", "")]);
@@ -148,7 +148,10 @@ fn a_read_of_a_buffer_without_a_pass_is_a_warning_at_its_line() {
     let loaded = load_path(dir.path()).unwrap();
     let [warning] = loaded.warnings.as_slice() else { panic!("{:?}", loaded.warnings) };
     let said = crate::diag::render(warning, &loaded.sources);
-    assert!(said.contains("eddy.toml:2:") && said.contains("reads Buffer A, which has no pass"), "{said}");
+    assert!(
+        said.contains("eddy.toml:2:") && said.contains("reads Buffer A, but the project has no such pass"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -166,7 +169,7 @@ fn a_text_that_is_not_utf8_is_named_with_its_line() {
 #[test]
 fn what_is_no_project_says_what_would_be_one() {
     let error = load("flooid-that-is-not").unwrap_err().to_string();
-    assert!(error.starts_with("flooid-that-is-not: neither a file, a folder nor a preset"), "{error}");
+    assert!(error.starts_with("flooid-that-is-not: not a file, a folder or a preset"), "{error}");
     assert!(matches!(load(""), Err(ProjectError::NotFound { .. })));
     let dir = folder(&[("a.txt", "")]);
     assert!(matches!(load_path(&dir.path().join("a.txt")), Err(ProjectError::UnknownKind { .. })));
@@ -220,7 +223,7 @@ fn eddy_toml_says_how_passes_are_drawn() {
         ("region = [-1, 2, 3, 4]", "buffer_a", "[x, y, width, height]"),
         ("[groups.g]\npasses = [\"buffer_a\"]\nstep = 2", "buffer_a", "did you mean steps?"),
         ("[groups.g]\npasses = [\"buffer_a\"]\nsteps = 0", "buffer_a", "above 0"),
-        ("[groups.g]\nsteps = 2", "buffer_a", "names no passes"),
+        ("[groups.g]\nsteps = 2", "buffer_a", "has no passes"),
         ("[groups.g]\npasses = [\"bufer_a\"]", "buffer_a", "did you mean buffer_a?"),
         ("[groups.g]\npasses = [\"image\"]", "buffer_a", "there is no buffer"),
         ("[groups.g]\npasses = []", "buffer_a", "no passes"),

@@ -17,7 +17,7 @@ impl Reader<'_> {
             let Some(item) = table.get(key) else { continue };
             let why = match id {
                 PassId::Image if key == "initial" => {
-                    "no pass reads what Image held; give a buffer this key, and show it"
+                    "no pass can read the last frame of Image; give a buffer this key, and show it in Image"
                 }
                 PassId::Cubemap | PassId::Sound => "only buffers and Image are drawn",
                 _ if settings.meshes().is_some() => "a pass that draws meshes is cleared in every frame",
@@ -46,7 +46,7 @@ impl Reader<'_> {
             Some(value) => self.fill("value", value),
             None => {
                 let hint = "write value = \"vec4(0.0)\"";
-                self.error(item.span(), "boundary does not say what its texels hold", hint);
+                self.error(item.span(), "boundary has no value for its texels", hint);
                 None
             }
         };
@@ -67,7 +67,7 @@ impl Reader<'_> {
                 };
                 self.check_keys(key, table, &[&["file"]]);
                 if !table.contains_key("file") {
-                    self.error(item.span(), format!("{key} names no file"), format!("write {FORM}"));
+                    self.error(item.span(), format!("{key} has no file"), format!("write {FORM}"));
                 }
                 FillValue::File(PathBuf::from(self.string(table, "file")?))
             }

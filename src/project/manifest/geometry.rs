@@ -90,7 +90,7 @@ impl Reader<'_> {
             self.error(
                 region.span(),
                 "a pass that draws meshes has no region",
-                "remove it: such a pass is cleared whole",
+                "remove it: such a pass is always cleared completely",
             );
         }
         let entries = self.entries(item);
@@ -109,8 +109,8 @@ impl Reader<'_> {
         }
         let uses_own = geometry.draws.iter().any(|d| d.vertex == Stage::Own || d.fragment == Stage::Own);
         if let (Some(item), false, false) = (pass.get("file"), uses_own, geometry.draws.is_empty()) {
-            let hint = "remove file, or leave out fragment where this text shall be used";
-            self.error(item.span(), "no draw uses the pass's own file", hint);
+            let hint = "remove file, or leave out fragment to use this file";
+            self.error(item.span(), "no draw uses this pass's own file", hint);
         }
         Some(geometry)
     }
@@ -134,11 +134,7 @@ impl Reader<'_> {
             return Vec::new();
         };
         if tables.is_empty() {
-            self.error(
-                item.span(),
-                "draw names no mesh",
-                "add { mesh = \"builtin:sphere\", vertex = \"x.vert.glsl\" }",
-            );
+            self.error(item.span(), "draw has no mesh", "add { mesh = \"builtin:sphere\", vertex = \"x.vert.glsl\" }");
         }
         let mut entries = Vec::new();
         for (n, table) in tables.into_iter().enumerate() {
@@ -147,12 +143,12 @@ impl Reader<'_> {
             self.check_keys(&place, table, &[&DRAW]);
             let mut needed = |key: &str, hint: &str| {
                 if table.get(key).is_none() {
-                    self.error(at.clone(), format!("{place} names no {key}"), hint);
+                    self.error(at.clone(), format!("{place} has no {key}"), hint);
                 }
                 self.string(table, key)
             };
             let mesh = needed("mesh", "write mesh = \"builtin:sphere\", or a glTF or OBJ file");
-            let vertex = needed("vertex", "write vertex = \"x.vert.glsl\": the file of a vertex shader");
+            let vertex = needed("vertex", "write vertex = \"x.vert.glsl\", a vertex shader file");
             let fragment = self.string(table, "fragment");
             let cull = self.one_of(table, "cull", &Cull::ALL.map(Cull::name));
             let depth = self.one_of(table, "depth", &DepthTest::ALL.map(DepthTest::name));
@@ -160,7 +156,7 @@ impl Reader<'_> {
             let source = MeshSource::parse(mesh.as_deref().unwrap_or_default());
             if let (Some(_), MeshSource::Builtin(_)) = (normals, &source) {
                 let span = table.get("normals").and_then(Item::span);
-                self.error(span, "a mesh made by code has normals of its own", "remove normals");
+                self.error(span, "a builtin mesh has its own normals", "remove normals");
             }
             let draw = MeshDraw {
                 mesh: source,
@@ -189,7 +185,7 @@ impl Reader<'_> {
     fn targets(&mut self, pass: &dyn TableLike, settings: &mut PassSettings) -> Vec<PassFormat> {
         let Some(item) = pass.get("targets") else { return Vec::new() };
         if let Some(format) = pass.get("format") {
-            self.error(format.span(), "targets says the formats of this pass", "remove format");
+            self.error(format.span(), "the formats of this pass are in targets", "remove format");
         }
         match targets(item) {
             Some(formats) => {
@@ -198,7 +194,7 @@ impl Reader<'_> {
             }
             None => {
                 let known = PassFormat::ALL.map(PassFormat::name);
-                let shape = format!("a list of one to {MAX_TARGETS} formats out of {}", crate::project::listed(&known));
+                let shape = format!("a list of one to {MAX_TARGETS} of the formats {}", crate::project::listed(&known));
                 self.wrong_type("targets", item, &shape);
                 Vec::new()
             }
@@ -222,7 +218,7 @@ impl Reader<'_> {
         };
         if camera.near >= camera.far {
             let at = table.get("far").or_else(|| table.get("near")).and_then(Item::span);
-            self.error(at, "the far plane lies before the near plane", "make far greater than near");
+            self.error(at, "the far plane is in front of the near plane", "make far greater than near");
         }
         camera
     }

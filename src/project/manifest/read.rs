@@ -84,11 +84,7 @@ impl Reader<'_> {
         let document = match Document::parse(text) {
             Ok(document) => document,
             Err(e) => {
-                self.error(
-                    e.span(),
-                    e.message().trim().replace('\n', ", "),
-                    "see https://toml.io for the form of the file",
-                );
+                self.error(e.span(), e.message().trim().replace('\n', ", "), "see https://toml.io for the TOML format");
                 return None;
             }
         };
@@ -102,10 +98,10 @@ impl Reader<'_> {
                 self.error(
                     item.span(),
                     format!(
-                        "this file is of version {}; this Eddy reads up to {VERSION}",
+                        "this file has version {}; this version of Eddy reads up to {VERSION}",
                         item.as_integer().unwrap_or(0)
                     ),
-                    "open it with a newer Eddy",
+                    "open it with a newer version of Eddy",
                 );
                 return None;
             }
@@ -176,7 +172,7 @@ impl Reader<'_> {
     fn passes(&mut self, root: &dyn TableLike) -> Vec<Pass> {
         let mut passes: Vec<Pass> = Vec::new();
         let Some(item) = root.get("passes") else {
-            self.error(None, "eddy.toml names no passes", "add a table [passes.image]");
+            self.error(None, "eddy.toml has no passes", "add a table [passes.image]");
             return passes;
         };
         let Some(table) = self.table("passes", item) else { return passes };
@@ -195,8 +191,8 @@ impl Reader<'_> {
                 continue;
             };
             if passes.len() == limits::PASSES {
-                let message = format!("there are more than {} passes, the most a project has", limits::PASSES);
-                self.error(at, message, "make two projects of it");
+                let message = format!("the project has more than {} passes, the limit", limits::PASSES);
+                self.error(at, message, "split it into two projects");
                 break;
             }
             if passes.iter().any(|p| p.id == id) {
@@ -259,9 +255,9 @@ impl Reader<'_> {
             self.diagnostics.push(
                 Diagnostic::warning(
                     span,
-                    format!("iChannel{n} of {reader} reads {}, which has no pass", missing.title()),
+                    format!("iChannel{n} of {reader} reads {}, but the project has no such pass", missing.title()),
                 )
-                .hint(format!("it reads zeros; add [passes.{}] or name another", missing.key())),
+                .hint(format!("it reads zero; add [passes.{}] or choose another", missing.key())),
             );
         }
     }
@@ -289,7 +285,7 @@ impl Reader<'_> {
                         pass.id.title(),
                         id.title()
                     ),
-                    format!("name one it has, or add formats to targets of [passes.{}]", id.key()),
+                    format!("choose an existing target, or add formats to targets of [passes.{}]", id.key()),
                 );
             }
         }
@@ -316,11 +312,11 @@ impl Reader<'_> {
         let named: Vec<&str> = table.iter().map(|(k, _)| k).filter(|k| INPUTS.contains(k)).collect();
         let &[key] = named.as_slice() else {
             let message = if named.is_empty() {
-                format!("channel {n} does not say what it reads")
+                format!("channel {n} has no input")
             } else {
                 format!("channel {n} reads {} at once", listed(&named))
             };
-            self.error(item.span(), message, format!("name one of {}", listed(&INPUTS)));
+            self.error(item.span(), message, format!("use one of {}", listed(&INPUTS)));
             return None;
         };
         let kind = self.one_of(table, "kind", &KINDS);
@@ -344,7 +340,7 @@ impl Reader<'_> {
                     Some(PassId::Cubemap) => Input::CubemapPass,
                     _ => {
                         let at = table.get(key).and_then(Item::span);
-                        self.error(at, format!("\"{name}\" is no buffer"), "name a buffer pass: buffer = \"A\"");
+                        self.error(at, format!("\"{name}\" is not a buffer"), "write a buffer pass: buffer = \"A\"");
                         return None;
                     }
                 }
@@ -401,7 +397,7 @@ impl Reader<'_> {
         let tags: Option<Vec<String>> =
             item.as_array().and_then(|a| a.iter().map(|v| v.as_str().map(str::to_owned)).collect());
         tags.unwrap_or_else(|| {
-            self.wrong_type("tags", item, "a list of texts");
+            self.wrong_type("tags", item, "a list of strings");
             Vec::new()
         })
     }
@@ -420,7 +416,7 @@ impl Reader<'_> {
         }
         serde_json::from_str(&text).unwrap_or_else(|e| {
             let at = table.get("info").and_then(Item::span);
-            self.error(at, format!("info is not a JSON object: {e}"), "mend it, or remove the table [shadertoy]");
+            self.error(at, format!("info is not a JSON object: {e}"), "fix it, or remove the table [shadertoy]");
             serde_json::Map::default()
         })
     }

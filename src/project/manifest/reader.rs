@@ -44,7 +44,7 @@ impl Reader<'_> {
                     Some(near) => format!("did you mean {near}?"),
                     None => format!("create {file}, or remove the entry"),
                 };
-                self.error(at, format!("the file of {title}, {file}, is not there"), hint);
+                self.error(at, format!("{title}: {file} does not exist"), hint);
                 None
             }
             Read::Refused(error) if error.is_of_machine() => {
@@ -52,7 +52,7 @@ impl Reader<'_> {
                 None
             }
             Read::Refused(error) => {
-                self.error(at, format!("the file of {title}: {error}"), error.hint());
+                self.error(at, format!("{title}: {error}"), error.hint());
                 None
             }
             Read::NotUtf8(offset, lossy) => {
@@ -74,7 +74,7 @@ impl Reader<'_> {
         let item = table.get(key)?;
         let text = item.as_str().map(str::to_owned);
         if text.is_none() {
-            self.wrong_type(key, item, "a text in quotes");
+            self.wrong_type(key, item, "a string in quotes");
         }
         text
     }
@@ -93,7 +93,7 @@ impl Reader<'_> {
         if found.is_none() {
             let hint = match nearest(&text, known.iter().copied()) {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("known are {}", listed(known)),
+                None => format!("the values are {}", listed(known)),
             };
             self.error(table.get(key).and_then(Item::span), format!("unknown {key} \"{text}\""), hint);
         }
@@ -115,7 +115,7 @@ impl Reader<'_> {
         for (key, at) in unknown {
             let hint = match nearest(&key, known.iter().copied()) {
                 Some(near) => format!("did you mean {near}?"),
-                None => format!("known are {}", listed(&known)),
+                None => format!("the keys are {}", listed(&known)),
             };
             self.error(at, format!("{place} has no key {key}"), hint);
         }

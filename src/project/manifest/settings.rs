@@ -28,7 +28,10 @@ impl Reader<'_> {
         for key in refused {
             if let Some(item) = table.get(key) {
                 let why = match id {
-                    PassId::Image => "Image is the canvas, of 32-bit floats; give a buffer this key and show it",
+                    PassId::Image => {
+                        "Image has the picture's resolution and 32-bit floats; give a buffer this key \
+                                      and show it in Image"
+                    }
                     _ => "only buffers have it",
                 };
                 self.error(item.span(), format!("{} has no {key}", id.title()), why);
@@ -38,9 +41,11 @@ impl Reader<'_> {
         if let Some(item) = table.get("size") {
             match size(item) {
                 Some(size) => settings.size = size,
-                None => {
-                    self.wrong_type("size", item, "a factor of the canvas above 0 (0.5), or [width, height] in texels")
-                }
+                None => self.wrong_type(
+                    "size",
+                    item,
+                    "a factor of the picture's resolution above 0 (0.5), or [width, height] in texels",
+                ),
             }
         }
         if let Some(name) = self.one_of(table, "format", &PassFormat::ALL.map(PassFormat::name)) {
@@ -67,8 +72,8 @@ impl Reader<'_> {
         for (name, item) in table.into_iter().flat_map(TableLike::iter) {
             let at = table.and_then(|table| table.key(name)).and_then(toml_edit::Key::span).or_else(|| item.span());
             if !is_group_name(name) {
-                let message = format!("a group cannot be called \"{}\"", name.escape_debug());
-                let hint = format!("use letters, digits, _, - and blanks, at most {} of them", limits::NAME);
+                let message = format!("a group cannot be named \"{}\"", name.escape_debug());
+                let hint = format!("use letters, digits, _, - and spaces, at most {} of them", limits::NAME);
                 self.error(at, message, hint);
                 continue;
             }
@@ -87,7 +92,7 @@ impl Reader<'_> {
             let Some(item) = table.get("passes") else {
                 self.error(
                     table_span(item),
-                    format!("the group {name} names no passes"),
+                    format!("the group {name} has no passes"),
                     "write passes = [\"buffer_a\"]",
                 );
                 continue;
@@ -112,7 +117,7 @@ impl Reader<'_> {
             let most = groups.iter().max_by_key(|g| g.steps);
             let at = most.and_then(|g| table?.get(&g.name)?.as_table_like()?.get("steps")?.span());
             let message =
-                format!("a frame draws {all} passes and meshes with all their steps; the most is {}", limits::DRAWS);
+                format!("a frame draws {all} passes and meshes with all their steps; the limit is {}", limits::DRAWS);
             self.error(at, message, "take fewer steps, or put fewer passes into groups");
         }
     }
@@ -139,7 +144,7 @@ impl Reader<'_> {
             places.push(place);
         }
         let Some(&first) = places.first() else {
-            self.error(item.span(), "a group of no passes", "name some, or remove the group");
+            self.error(item.span(), "a group has no passes", "add some, or remove the group");
             return None;
         };
         if !places.iter().enumerate().all(|(i, place)| *place == first + i) {
@@ -149,7 +154,7 @@ impl Reader<'_> {
         }
         let passes: Vec<PassId> = places.iter().map(|p| order[*p].clone()).collect();
         if let Some(twice) = passes.iter().find(|id| others.iter().any(|g| g.passes.contains(id))) {
-            self.error(item.span(), format!("{} is in another group already", twice.title()), "name it once");
+            self.error(item.span(), format!("{} is in another group already", twice.title()), "list it once");
             return None;
         }
         Some(passes)

@@ -14,8 +14,8 @@ impl Reader<'_> {
         let Some(table) = root.get("uniforms").and_then(|item| self.table("uniforms", item)) else { return values };
         for (name, item) in table.iter() {
             if values.len() == limits::UNIFORMS {
-                let message = format!("[uniforms] has more than {} values, the most that Eddy reads", limits::UNIFORMS);
-                self.error(item.span(), message, "remove what no text declares");
+                let message = format!("[uniforms] has more than {} values, the limit", limits::UNIFORMS);
+                self.error(item.span(), message, "remove the values that no pass declares");
                 break;
             }
             match custom_uniform_value(item) {
@@ -39,7 +39,7 @@ impl Reader<'_> {
             }
             let (message, hint) = match custom_uniforms.get(name).map(|custom_uniform| custom_uniform.fit(value)) {
                 Some(Ok(_)) => continue,
-                Some(Err(why)) => (format!("{name} {why}"), "it is kept in the file, and not used as it is".to_owned()),
+                Some(Err(why)) => (format!("{name} {why}"), "it stays in the file, but is not used".to_owned()),
                 None => custom_uniforms.unknown(name),
             };
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| table.get(name).and_then(Item::span));

@@ -127,8 +127,8 @@ impl Project {
                 found.settings.region = *region;
             }
             PassEdit::Initial(pass, value) => {
-                self.buffer(pass, "initial contents")?;
-                let settings = &mut self.filled(pass, "initial contents")?.settings;
+                self.buffer(pass, "initial state")?;
+                let settings = &mut self.filled(pass, "initial state")?.settings;
                 settings.initial = fill(value.as_ref(), settings.initial.as_ref())?;
             }
             PassEdit::Boundary(pass, value) => {

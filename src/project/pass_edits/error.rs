@@ -7,31 +7,31 @@ use crate::project::{PassId, limits};
 pub enum PassEditError {
     #[error("there is no {0}")]
     NoSuchPass(String),
-    #[error("\"{0}\" cannot be a buffer's name: {rule}", rule = PassId::NAMES)]
+    #[error("\"{0}\" is not a valid buffer name: {rule}", rule = PassId::NAMES)]
     BadName(String),
     #[error("there is a {0} already; choose another name")]
     Taken(String),
-    #[error("{0} keeps its name and its place; only buffers have others")]
+    #[error("{0} cannot be renamed or moved; only buffers can")]
     NotABuffer(String),
-    #[error("Image is what a project shows; it cannot be removed")]
+    #[error("Image cannot be removed")]
     Image,
-    #[error("{0} is drawn with; take it out of eddy.toml instead")]
+    #[error("{0} is used by a draw; remove it in eddy.toml instead")]
     Stage(String),
-    #[error("{pass} has no {what}; give a buffer this and show that")]
+    #[error("{pass} has no {what}; set it on a buffer and show that buffer")]
     NotHere { pass: String, what: &'static str },
-    #[error("a size has a factor above 0, or at least one texel each way")]
+    #[error("a size needs a factor above 0, or at least one texel in each direction")]
     BadSize,
-    #[error("a region has at least one texel each way")]
+    #[error("a region needs at least one texel in each direction")]
     BadRegion,
     #[error("a boundary is at least one texel wide")]
     BadBoundary,
-    #[error("an expression is missing, as vec4(0.0)")]
+    #[error("the expression is missing; for example vec4(0.0)")]
     EmptyFill,
     #[error("\"{0}\" is not the name of a file in the project's folder")]
     BadFillFile(String),
-    #[error("a buffer is drawn at least once a frame")]
+    #[error("a buffer is drawn at least once per frame")]
     NoSteps,
-    #[error("a frame would draw {0} passes and meshes with all their steps; the most is {most}", most = limits::DRAWS)]
+    #[error("a frame would draw {0} passes and meshes with all their steps; the limit is {most}", most = limits::DRAWS)]
     TooManyDraws(u64),
     #[error("{0} is the first buffer; there is none before it")]
     First(String),

@@ -55,11 +55,11 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     // The others of several shaders are not here, and would be lost.
     let own = own && !confine::read_own(target, limits::JSON).is_ok_and(|bytes| is_of_several(&bytes));
     if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
-        let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
+        let what = format!("{}, which draws meshes: Shadertoy has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
     if let Some(path) = picked::paths(project).next() {
-        let what = format!("the picture {}, which lies elsewhere", path.display());
+        let what = format!("the image {}, which is in another folder", path.display());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
     let text = json::export(project);
@@ -96,7 +96,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     let mut saved = project.clone();
     folder::declare_channels(&mut saved);
     if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.channels != pass.channels) {
-        return cannot("channels that its text does not declare in #iChannel lines");
+        return cannot("channels that its code does not declare in #iChannel lines");
     }
     if project.passes.iter().any(|p| p.settings != Default::default()) {
         return cannot("how its pass is drawn");
@@ -106,7 +106,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     }
     let has_moved = project.origin.base_dir() != target.parent();
     if has_moved && !project.includes.is_empty() {
-        return cannot("the files that its text includes");
+        return cannot("the files that its code includes");
     }
     let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut owned: BTreeSet<String> = others.iter().map(|p| p.source.name.clone()).collect();
@@ -336,7 +336,7 @@ fn manifest_text(
     // A path that is not UTF-8 is the one thing known that TOML has no form for.
     Err(ProjectError::CannotHold {
         path: target.join(MANIFEST),
-        what: "a name in this project that is not plain text".into(),
+        what: "a file name in this project that is not Unicode".into(),
     })
 }
 

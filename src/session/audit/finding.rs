@@ -51,7 +51,7 @@ impl Kind {
     pub fn message(&self) -> &'static str {
         match self {
             Kind::Nonfinite(what) | Kind::Undefined(what) | Kind::Rounding(what) => what,
-            Kind::Decided => "rounding decides this comparison: double precision says the opposite",
+            Kind::Decided => "rounding decides this comparison: double precision gives the opposite result",
         }
     }
 }

@@ -164,7 +164,7 @@ fn derivatives_where_neighbours_part_are_listed() {
         (inputs.channels[0].levels, inputs.channels[0].filter) = (vec![level(2), level(1)], filter);
         let pixels: Vec<(u32, u32)> = (0..8).map(|x| (x, 1)).collect();
         let audit = audit(&Sources::new(&project), 0, &inputs, &pixels, STEPS).unwrap();
-        let findings = audit.findings.iter().filter(|f| f.kind.message().contains("neighbours go other ways"));
+        let findings = audit.findings.iter().filter(|f| f.kind.message().contains("neighbouring pixels do not share"));
         findings.map(|f| (code[f.span.unwrap().range()].to_owned(), f.pixels)).collect::<Vec<_>>()
     };
     let image = |condition: &str, value: &str| image(&format!("o = vec4(0.);\nif ({condition}) o += {value};"));
@@ -263,7 +263,7 @@ fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_ther
     ] {
         let code = format!("{SEED}{}", image(body));
         let audit = audited(&code);
-        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("their order is undefined"));
         let found: Vec<_> = orders.map(|f| (&code[f.span.unwrap().range()], f.pixels)).collect();
         assert_eq!(found, [(text, pixels)], "{body}");
     }
@@ -277,7 +277,7 @@ fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_ther
     ] {
         let code = format!("{SEED}{}", image(body));
         let audit = audited(&code);
-        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("their order is undefined"));
         assert_eq!(orders.count(), 0, "{body}: {:?}", named(&code, &audit));
     }
 }

@@ -23,17 +23,17 @@ pub fn reason<'t>(
         Op::Math { fun, arg, arg1, arg2, .. } if is_float(view, arg) => match fun {
             Math::Sqrt => one("the square root of a negative number is undefined (8.2)", "sqrt", arg, &|x| x < 0.0),
             Math::InverseSqrt if text().starts_with("normalize") => {
-                one("normalize of a vector without length is undefined (8.5)", "inversesqrt", arg, &|x| x <= 0.0)
+                one("normalize of a zero vector is undefined (8.5)", "inversesqrt", arg, &|x| x <= 0.0)
             }
             Math::InverseSqrt => {
                 one("inversesqrt is undefined for 0 and below (8.2)", "inversesqrt", arg, &|x| x <= 0.0)
             }
             Math::Log => one("the logarithm of 0 and below is undefined (8.2)", "log", arg, &|x| x <= 0.0),
             Math::Log2 => one("the logarithm of 0 and below is undefined (8.2)", "log2", arg, &|x| x <= 0.0),
-            Math::Asin => one("asin is undefined beyond -1 to 1 (8.1)", "asin", arg, &|x| x.abs() > 1.0),
-            Math::Acos => one("acos is undefined beyond -1 to 1 (8.1)", "acos", arg, &|x| x.abs() > 1.0),
+            Math::Asin => one("asin is undefined outside -1 to 1 (8.1)", "asin", arg, &|x| x.abs() > 1.0),
+            Math::Acos => one("acos is undefined outside -1 to 1 (8.1)", "acos", arg, &|x| x.abs() > 1.0),
             Math::Acosh => one("acosh is undefined below 1 (8.1)", "acosh", arg, &|x| x < 1.0),
-            Math::Atanh => one("atanh is undefined from -1 and 1 on (8.1)", "atanh", arg, &|x| x.abs() >= 1.0),
+            Math::Atanh => one("atanh is undefined at and beyond -1 and 1 (8.1)", "atanh", arg, &|x| x.abs() >= 1.0),
             Math::Pow => {
                 let bad = |&(x, y): &(f32, f32)| x < 0.0 || (x == 0.0 && y <= 0.0);
                 let (x, y) = pairs(&floats(arg), &floats(arg1?)).find(bad)?;
@@ -53,10 +53,7 @@ pub fn reason<'t>(
             }
             Math::Clamp => {
                 let (low, high) = pairs(&floats(arg1?), &floats(arg2?)).find(|(low, high)| low > high)?;
-                Some((
-                    "clamp is undefined where the least is above the greatest (8.3)",
-                    format!("clamp(…, {low:?}, {high:?})"),
-                ))
+                Some(("clamp is undefined where minVal is above maxVal (8.3)", format!("clamp(…, {low:?}, {high:?})")))
             }
             _ => None,
         },
@@ -96,11 +93,11 @@ pub fn reason<'t>(
         }
         Op::Convert { value, to: Scalar::Int } if is_float(view, value) => {
             let far = floats(value).into_iter().find(|&x| !((-2_147_483_648.0..2_147_483_648.0).contains(&x)))?;
-            Some(("an int of a number beyond its range is undefined (5.4.1)", format!("int({far:?})")))
+            Some(("converting a number out of range to int is undefined (5.4.1)", format!("int({far:?})")))
         }
         Op::Convert { value, to: Scalar::Uint } if is_float(view, value) => {
             let far = floats(value).into_iter().find(|&x| !(x > -1.0 && x < 4_294_967_296.0))?;
-            Some(("a uint of a number beyond its range is undefined (5.4.1)", format!("uint({far:?})")))
+            Some(("converting a number out of range to uint is undefined (5.4.1)", format!("uint({far:?})")))
         }
         Op::Element { index, .. } => {
             // `lower` clamps every index.
@@ -123,7 +120,7 @@ pub fn reason<'t>(
             let is_out = at.iter().zip(size).any(|(&at, size)| at < 0 || at >= size);
             is_out.then(|| {
                 let numbers = format!("texelFetch(iChannel{channel}, {at:?}, {level}) of {}x{}", size[0], size[1]);
-                ("a texel outside of the texture is undefined (8.8)", numbers)
+                ("a texel outside the texture is undefined (8.8)", numbers)
             })
         }
         _ => None,

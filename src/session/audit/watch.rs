@@ -124,7 +124,7 @@ impl<'w> Watch<'w> {
     /// A value is used where something undefined decides.
     fn used(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let span = self.span(view.function().loc(value));
-        let what = "a value is used that nothing was written to (4.3.1: it is undefined)";
+        let what = "this uses a variable that was never written (undefined, 4.3.1)";
         self.find(Kind::Undefined(what), span, String::new());
     }
 
@@ -212,9 +212,10 @@ impl Observer<Shadowed> for Watch<'_> {
         let what = match *view.op(value) {
             Op::Sample { channel, .. } if !self.inputs.is_of_levels(channel) => return,
             Op::Sample { .. } => {
-                "a texture's level follows from derivatives where neighbours go other ways (8.8: it is undefined)"
+                "the mip level comes from derivatives in a branch that neighbouring pixels do not share (undefined, \
+                 8.8)"
             }
-            _ => "a derivative is undefined where neighbours go other ways (8.9)",
+            _ => "a derivative is undefined in a branch that neighbouring pixels do not share (8.9)",
         };
         let span = self.span(view.function().loc(value));
         self.find(Kind::Undefined(what), span, String::new());
@@ -230,7 +231,7 @@ impl Observer<Shadowed> for Watch<'_> {
         // What is shown of a colour has no alpha, and buffers that need few components write few.
         let parts = self.undefined_components(view, value).unwrap_or_default();
         if !parts.is_empty() && parts.iter().take(3).all(|&part| part) {
-            let what = "nothing was written to what the pixel gets (4.3.1: it is undefined)";
+            let what = "the colour of the pixel was never written (undefined, 4.3.1)";
             self.find(Kind::Undefined(what), None, String::new());
         }
     }
@@ -293,7 +294,7 @@ impl Observer<Shadowed> for Watch<'_> {
         if !is_finite(value) && operands.iter().all(|&operand| is_finite(operand)) {
             let span = self.span(loc);
             let is_nan = view.value(value).iter().any(|c| matches!(c, Cell::Float(x) if x.single.is_nan()));
-            let what = if is_nan { "NaN is born here" } else { "an infinity is born here" };
+            let what = if is_nan { "first NaN here" } else { "first infinity here" };
             self.find(Kind::Nonfinite(what), span, shown(view, &operands));
         }
         if error < GROWTH * ROUNDING || error < GROWTH * before.max(ROUNDING) {
@@ -320,9 +321,9 @@ fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right
         Binary::Add | Binary::Subtract
             if f64::from(size(value)) < CANCELLED * f64::from(size(left).max(size(right))) =>
         {
-            "cancellation: of almost equal numbers little but their rounding errors is left"
+            "cancellation: subtracting nearly equal numbers leaves mostly rounding error"
         }
-        Binary::Divide => "a small divisor makes rounding errors large",
+        Binary::Divide => "a small divisor magnifies rounding errors",
         _ => "rounding errors grow here",
     }
 }
@@ -331,12 +332,12 @@ fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'stat
     let is_large = view.value(arg).iter().any(|c| matches!(c, Cell::Float(x) if x.single.abs() >= LARGE_ANGLE));
     match fun {
         Math::Sin | Math::Cos | Math::Tan if is_large => {
-            "a trigonometric function of a large number: rounding has lost where in its turn it is"
+            "a trigonometric function of a large number: rounding has lost the phase"
         }
         Math::Fract | Math::Floor | Math::Ceil | Math::Round | Math::Trunc => {
-            "a step: on its two sides rounding gives different whole numbers, or the fraction of a large number"
+            "rounding changes the result of a step, floor or fract here"
         }
-        Math::Exp | Math::Exp2 | Math::Pow => "an exponential makes rounding errors of its exponent large",
+        Math::Exp | Math::Exp2 | Math::Pow => "an exponential magnifies rounding errors of its exponent",
         _ => "rounding errors grow here",
     }
 }

@@ -11,10 +11,10 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
     match cost.role {
         PassRole::Drawn { is_cached: false } => return None,
         PassRole::Drawn { is_cached: true } => {
-            return Some("at rest: nothing that it reads has changed since it was drawn".into());
+            return Some("unchanged: none of its inputs has changed since it was drawn".into());
         }
-        PassRole::Outside => return Some("not drawn: its region lies outside of its texels".into()),
-        PassRole::Unsupported => return Some("not drawn: Eddy does not draw passes of this kind".into()),
+        PassRole::Outside => return Some("not drawn: its region is outside its texture".into()),
+        PassRole::Unsupported => return Some("not drawn: Eddy does not draw this kind of pass".into()),
         PassRole::Unread => {}
     }
     let is_drawn = |cost: &PassCost| !matches!(cost.role, PassRole::Unread | PassRole::Unsupported);
@@ -24,7 +24,9 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
     };
     if let Some((reader, read)) = readers().find(|(reader, _)| is_drawn(reader)) {
         let (name, channel) = (reader.pass.title(), read.channel);
-        return Some(format!("not drawn: iChannel{channel} of {name} names it, but the code never reads that"));
+        return Some(format!(
+            "not drawn: iChannel{channel} of {name} is set to it, but the code never reads that channel"
+        ));
     }
     let mut names: Vec<String> = readers().map(|(reader, _)| reader.pass.title()).collect();
     names.dedup();
@@ -77,8 +79,8 @@ mod tests {
         ];
         let why = |name: &str| reason(&PassId::Buffer(name.into()), &all).unwrap();
         assert_eq!(reason(&PassId::Image, &all), None);
-        assert!(why("A").starts_with("at rest"));
-        assert_eq!(why("B"), "not drawn: iChannel1 of Image names it, but the code never reads that");
+        assert!(why("A").starts_with("unchanged"));
+        assert_eq!(why("B"), "not drawn: iChannel1 of Image is set to it, but the code never reads that channel");
         assert_eq!(why("C"), "not drawn: no channel reads it");
         assert_eq!(why("D"), "not drawn: read only by Buffer C, which is not drawn either");
         assert_eq!(why("E"), "not drawn: no other pass reads it");

@@ -83,7 +83,7 @@ impl Comparing {
                 Reference::Revision(path.clone(), revision.clone())
             }
             (Against::Revision(_), _) => {
-                self.failed("only a project that is saved in a git repository has revisions");
+                self.failed("only a project saved in a git repository has revisions");
                 return;
             }
         };
@@ -108,7 +108,7 @@ impl Comparing {
             // Nobody wants it any more.
             Some(Ok(_)) => {}
             Some(Err(Panicked(why))) => {
-                self.failed(&format!("this is a bug in Eddy: the comparison gave up ({why})"));
+                self.failed(&format!("this is a bug in Eddy: the comparison failed ({why})"));
             }
         }
         if !self.is_due {

@@ -49,7 +49,7 @@ pub enum Reference {
 pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<Comparison>, String> {
     let Job { gpu, project, against, reference, revision, shown, media_dir, trial, run } = job;
     let Run { mut frames, is_whole } = run;
-    let last = frames.last().cloned().ok_or("no frame is drawn yet")?;
+    let last = frames.last().cloned().ok_or("no frame has been drawn yet")?;
     // Files of a revision are there for as long as they are read.
     let copy;
     let other = match reference {
@@ -89,7 +89,7 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
     let (a, b) = (read(&mut ours)?, read(&mut theirs)?);
     if (a.width, a.height) != (b.width, b.height) {
         return Err(format!(
-            "pictures of two sizes cannot be compared: {} is {}x{} here, and {}x{} in {}",
+            "cannot compare pictures of different sizes: {} is {}x{} here, but {}x{} in {}",
             pass.title(),
             a.width,
             a.height,
@@ -104,7 +104,7 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
 }
 
 fn load(spec: &str, name: &str) -> Result<Project, String> {
-    Ok(project::load(spec).map_err(|e| format!("{name} was not opened: {e}"))?.project)
+    Ok(project::load(spec).map_err(|e| format!("cannot open {name}: {e}"))?.project)
 }
 
 /// An engine that draws one of both.

@@ -108,6 +108,12 @@ impl Documents {
         !structure::is_same(&self.current, &self.saved)
     }
 
+    /// Returns what differs from disk, in words: tabs, then passes, channels and uniforms.
+    pub fn unsaved_parts(&self) -> Vec<String> {
+        let tabs = self.dirty_tabs().into_iter().map(|tab| tab.title());
+        tabs.chain(structure::differences(&self.current, &self.saved)).collect()
+    }
+
     /// The tab's file is known to be gone from disk.
     pub fn is_missing(&self, tab: &Tab) -> bool {
         self.missing.contains(tab)

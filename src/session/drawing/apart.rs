@@ -31,7 +31,7 @@ pub type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
 pub fn beside(window: Gpu) -> Open {
     Arc::new(move || {
         Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
-            log::warn!("frames are drawn on the window's own device, as there is no second one: {e}");
+            log::warn!("frames are drawn on the window's own GPU device, as a second one could not be opened: {e}");
             Ok(window.clone())
         })
     })
@@ -107,7 +107,7 @@ impl Apart {
 
     /// Returns the answer to the job that was handed in, if it comes within a time.
     pub fn take(&self, within: Duration) -> Option<Done> {
-        let ended = || Some(Done { gave_up: Some("the thread that draws has ended".into()), ..Done::default() });
+        let ended = || Some(Done { gave_up: Some("the drawing thread has ended".into()), ..Done::default() });
         if within.is_zero() {
             return match self.results.try_recv() {
                 Ok(done) => Some(done),

@@ -397,6 +397,6 @@ fn clock(gpu: &Gpu) -> CostClock {
 pub(super) enum Error {
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("no thread for drawing: {0}")]
+    #[error("cannot start a thread for drawing: {0}")]
     Thread(#[from] std::io::Error),
 }

@@ -183,11 +183,11 @@ impl Session {
         self.compile.state.compiling = self.is_compile_under_way();
         match done {
             Err(Panicked(reason)) => {
-                let what = format!("this is a bug in Eddy: the compiler gave up ({reason})");
+                let what = format!("this is a bug in Eddy: the compiler failed ({reason})");
                 self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
                 self.auditing.map = None;
                 self.compile.state.last = Some(self.failed());
-                let goes_on = if self.drawing.has_program() { "; the last good picture goes on" } else { "" };
+                let goes_on = if self.drawing.has_program() { "; the last working version keeps running" } else { "" };
                 self.notice(Level::Error, format!("{what}{goes_on}"));
             }
             Ok(compiled) => self.take_program(compiled),

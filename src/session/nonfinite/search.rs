@@ -137,7 +137,7 @@ impl Searching {
                 return std::mem::replace(&mut self.told, done) != done;
             }
             Some(Ok(end)) => self.end = end.or(self.end.take()),
-            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search gave up ({why})")),
+            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search failed ({why})")),
         }
         self.of = 0;
         true
@@ -179,7 +179,7 @@ fn search(job: SearchJob, progress: &Progress, tell: &dyn Fn()) -> Option<Search
         Err(e) => return failed(e.to_string()),
     };
     if !engine.restore(&snapshot) {
-        return failed("the frames that are kept are of another program: reset, and search again".into());
+        return failed("the kept frames belong to another program: reset and search again".into());
     }
     let passes = drawn(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);

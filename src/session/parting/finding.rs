@@ -93,7 +93,7 @@ impl Finding {
                     self.end = Some(end);
                 }
             }
-            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search gave up ({why})")),
+            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search failed ({why})")),
         }
         true
     }
@@ -109,7 +109,7 @@ fn found(job: PartingJob) -> Result<Parted, String> {
     let PartingJob { gpu, traced, shown, size, media_dir, snapshot, mut frames } = job;
     let (project, pass) = (&traced.project, &traced.pass);
     let Some((inputs, values)) = frames.pop().filter(|(inputs, _)| inputs.frame == traced.frame) else {
-        return Err("another frame is shown by now: trace the pixel anew".into());
+        return Err("the shown frame has changed: trace the pixel again".into());
     };
     let (media, _) = media::gather(project, media_dir.as_deref());
     let mut wanted = vec![PassId::Image];
@@ -119,7 +119,7 @@ fn found(job: PartingJob) -> Result<Parted, String> {
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;
     if !engine.restore(&snapshot) {
-        return Err("the frames that are kept are of another program: draw one, and trace the pixel anew".into());
+        return Err("the kept frames belong to another program: draw a frame and trace the pixel again".into());
     }
     for (inputs, values) in &frames {
         engine.set_custom_uniforms(values);

@@ -10,11 +10,11 @@ use crate::{
 /// A value could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ProbeError {
-    #[error("a probe was not built: {0}")]
+    #[error("cannot compile a probe: {0}")]
     Build(#[from] BuildError),
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("the buffers before the frame do not fit the program any more")]
+    #[error("the buffers before the frame no longer match the program")]
     Snapshot,
 }
 

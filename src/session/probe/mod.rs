@@ -220,9 +220,9 @@ pub(super) fn options(
     let pass = match &place.tab {
         Tab::Pass(pass) => pass.clone(),
         Tab::Common => shown.clone(),
-        Tab::Stage(..) => return Err("stages of meshes cannot be probed".into()),
+        Tab::Stage(..) => return Err("passes that draw meshes cannot be probed".into()),
     };
-    let gone = || "there is no value at this place any more: the picture is shown".to_owned();
+    let gone = || "the probed expression is gone: showing the picture".to_owned();
     if *is_gone {
         return Err(gone());
     }

@@ -72,18 +72,18 @@ struct Line {
 pub enum ReadError {
     #[error("{0}")]
     Io(#[from] io::Error),
-    #[error("this is no recording of Eddy's: its first line is not {{\"eddy_recording\":{VERSION},…}}")]
+    #[error("not an Eddy recording: its first line is not {{\"eddy_recording\":{VERSION},…}}")]
     NoRecording,
-    #[error("it was recorded by a later version of Eddy (its form is {0}, and this one reads up to {VERSION})")]
+    #[error("it was recorded by a newer version of Eddy (format {0}; this version reads up to {VERSION})")]
     Later(u32),
     #[error("line {line}: {what}")]
     Line { line: usize, what: String },
-    #[error("it holds no frame")]
+    #[error("it has no frames")]
     Empty,
     #[error("it is larger than {0}; record fewer frames")]
     TooLarge(Limit),
     #[error(
-        "line {line}: with this frame it takes more than {}, the most that Eddy holds of a recording; record fewer frames",
+        "line {line}: with this frame it takes more than {}, the limit for a recording; record fewer frames",
         in_bytes(*most)
     )]
     TooMany { line: usize, most: u64 },
@@ -213,11 +213,11 @@ impl Line {
         frame.reset = self.reset;
         frame.size = self.size.or(before.map(|before| before.size)).ok_or("the first frame has no `size`")?;
         if frame.size.0 == 0 || frame.size.1 == 0 {
-            return Err("a `size` of 0 holds no pixel".into());
+            return Err("a `size` must be at least 1".into());
         }
         if let Some(set) = self.set {
             let read = |(name, value)| {
-                let value = read_value(&value).ok_or_else(|| format!("`{name}` has a value that no uniform takes"))?;
+                let value = read_value(&value).ok_or_else(|| format!("`{name}` has a value of an unknown type"))?;
                 Ok((name, value))
             };
             frame.values = set.into_iter().map(read).collect::<Result<_, String>>()?;

@@ -83,13 +83,13 @@ fn a_file_that_is_no_recording_says_why_and_where() {
     let head = "{\"eddy_recording\":1}\n";
     let frame = "{\"time\":0.0,\"size\":[4,4]}\n";
     for (text, says) in [
-        (String::new(), "no recording"),
-        ("{\"version\":1}\n".into(), "no recording"),
-        ("{\"eddy_recording\":2}\n".into(), "later version"),
+        (String::new(), "not an Eddy recording"),
+        ("{\"version\":1}\n".into(), "not an Eddy recording"),
+        ("{\"eddy_recording\":2}\n".into(), "newer version"),
         (head.into(), "no frame"),
         (format!("{head}{{\"size\":[4,4]}}"), "line 2: the first frame has no `time`"),
         (format!("{head}{{\"time\":0.0}}"), "line 2: the first frame has no `size`"),
-        (format!("{head}{frame}{{\"size\":[0,4]}}"), "line 3: a `size` of 0"),
+        (format!("{head}{frame}{{\"size\":[0,4]}}"), "line 3: a `size` must"),
         (format!("{head}{frame}{{\"mouse\":[1]}}"), "line 3: "),
         (format!("{head}{frame}{{\"set\":{{\"a\":\"x\"}}}}"), "line 3: `a` has a value"),
     ] {
@@ -97,7 +97,7 @@ fn a_file_that_is_no_recording_says_why_and_where() {
         assert!(error.contains(says), "{text}: {error}");
     }
     let later = Recording::read(format!("{head}{{\"time\":1.5,\"size\":[4,4],\"gamepad\":[1]}}").as_bytes());
-    assert_eq!(later.unwrap().frames[0].inputs.time_secs, 1.5, "a member of a later version is passed over");
+    assert_eq!(later.unwrap().frames[0].inputs.time_secs, 1.5, "a member of a newer version is passed over");
 }
 
 /// A line that says nothing new is a frame with everything that was said before.
@@ -114,7 +114,7 @@ fn few_bytes_that_become_very_many_frames_are_refused() {
     assert!(said.contains("it takes more than 1 MiB") && said.starts_with("line "), "{said}");
     let long = format!("{head}{first}{{\"x\":\"{}\"}}\n", "y".repeat(17 << 20));
     let said = refused(&long, 1 << 20);
-    assert!(said.contains("line 3: it is larger than 16 MiB, the most that Eddy reads of a line"), "{said}");
+    assert!(said.contains("line 3: it is larger than 16 MiB, the limit for a line"), "{said}");
     // One that never ends.
     let endless = std::io::BufReader::new(std::io::repeat(b' '));
     let said = Recording::read_within(endless, limit, 1 << 20).unwrap_err().to_string();

@@ -201,8 +201,8 @@ impl Keeper {
                 Read::Unreadable(why) => {
                     let file = slot.data.display();
                     self.say(News::Trouble(format!(
-                        "unsaved work of an Eddy that ended early is in {file}, and cannot be read: {why}\nIts texts \
-                         are in that file; move it away to hear no more of it"
+                        "unsaved work from a crash is in {file}, but cannot be read: {why}\nYou can copy the texts \
+                         from that file; move it away to stop this message"
                     )));
                 }
             }
@@ -217,8 +217,8 @@ impl Keeper {
         if !std::mem::replace(&mut self.is_trouble_told, true) {
             let folder = self.folder.display();
             self.say(News::Trouble(format!(
-                "unsaved work is not safe from a crash: a recovery file could not be {what} in {folder}: {e}\nSave \
-                 often, or make room there"
+                "unsaved work is not protected against a crash: a recovery file could not be {what} in {folder}: \
+                 {e}\nSave often, or free disk space there"
             )));
         }
     }

@@ -148,7 +148,7 @@ fn a_project_that_is_gone_comes_back_without_a_place() {
     let left = found(&next);
     assert_eq!(typed_in(&left[0]), TYPED);
     assert_eq!(left[0].project.origin, project::Origin::Unsaved);
-    assert!(left[0].shown.trouble.as_ref().unwrap().contains("neither a file"), "{:?}", left[0].shown.trouble);
+    assert!(left[0].shown.trouble.as_ref().unwrap().contains("not a file"), "{:?}", left[0].shown.trouble);
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub struct Assertion {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "frame {frame}: {assertion} does not hold: it is {value}{}",
-    first.map_or(String::new(), |x| format!(", and was {x} at first"))
+    first.map_or(String::new(), |x| format!(", and was {x} in the first frame"))
 )]
 pub struct Failure {
     pub assertion: String,
@@ -95,18 +95,17 @@ fn claim(reader: &mut Reader<'_>) -> Result<(Relation, Expected), String> {
     if reader.has("within") {
         let number = reader.number("a tolerance")?;
         if number < 0.0 {
-            return Err(format!("a tolerance is not below 0, as {number} is"));
+            return Err(format!("a tolerance must be at least 0, not {number}"));
         }
         let tolerance = if reader.has("%") { Tolerance::Percent(number) } else { Tolerance::Absolute(number) };
-        reader.want("of", "behind the tolerance")?;
+        reader.want("of", "after the tolerance")?;
         return Ok((Relation::Within(tolerance), expected(reader)?));
     }
     match SIGNS.into_iter().find(|(sign, _)| reader.has(sign)) {
         Some((_, relation)) => Ok((relation, expected(reader)?)),
-        None => Err(format!(
-            "an assertion goes on with `within TOLERANCE of VALUE` or with <, <=, >, >= or == and a value, {}",
-            reader.found()
-        )),
+        None => {
+            Err(format!("expected `within TOLERANCE of VALUE`, or <, <=, >, >= or == and a value, {}", reader.found()))
+        }
     }
 }
 

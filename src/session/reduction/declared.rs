@@ -24,7 +24,7 @@ pub struct Declared {
 
 impl Unmeasured {
     pub fn diagnostic(&self, span: Span) -> Diagnostic {
-        Diagnostic::warning(span, format!("nothing is measured here: {}", self.why)).hint(self.mend.as_str())
+        Diagnostic::warning(span, format!("not measured: {}", self.why)).hint(self.mend.as_str())
     }
 }
 
@@ -56,8 +56,8 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     let Some(format) = formats.get(quantity.target) else {
         let why = format!("{key} has no target {}", quantity.target);
         let mend = match formats.len() {
-            1 => format!("it draws into one, which {key} names"),
-            count => format!("it draws into {count}, and they are numbered from 0"),
+            1 => format!("it has one target, written {key}"),
+            count => format!("it has {count} targets, numbered from 0"),
         };
         return Err(Unmeasured { why, mend });
     };

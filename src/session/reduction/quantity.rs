@@ -83,17 +83,17 @@ impl Quantity {
         let Some(reduction) = Reduction::ALL.into_iter().find(|r| r.name().eq_ignore_ascii_case(word)) else {
             let known = Reduction::ALL.map(Reduction::name);
             return Err(format!(
-                "a quantity begins with {}, as in sum(buffer_a.x); not `{word}`",
+                "a quantity starts with {}, as in sum(buffer_a.x), not `{word}`",
                 project::listed(&known)
             ));
         };
-        reader.want("(", "behind the reduction")?;
+        reader.want("(", "after the reduction")?;
         let name = reader.take(|c| !matches!(c, '.' | ':' | ')'));
-        let pass = PassId::parse(name.trim()).ok_or_else(|| format!("`{}` is no pass's name", name.trim()))?;
+        let pass = PassId::parse(name.trim()).ok_or_else(|| format!("`{}` is not the name of a pass", name.trim()))?;
         let mut target = 0;
         if reader.has(":") {
             let number = reader.take(|c| c.is_ascii_digit());
-            target = number.parse().map_err(|_| format!("a target is a number from 0, not `{number}`"))?;
+            target = number.parse().map_err(|_| format!("a target is a number from 0 on, not `{number}`"))?;
         }
         let mut component = None;
         if reader.has(".") {
@@ -106,7 +106,7 @@ impl Quantity {
                 _ => return Err(format!("a component is x, y, z or w (r, g, b or a), not `{letters}`")),
             };
         }
-        reader.want(")", "behind the pass")?;
+        reader.want(")", "after the pass")?;
         Ok(Quantity { reduction, pass, target, component })
     }
 

@@ -33,13 +33,13 @@ impl<'t> Reader<'t> {
 
     pub fn found(&self) -> String {
         match self.rest.is_empty() {
-            true => "and the text ends".into(),
+            true => "but the text ends".into(),
             false => format!("found `{}`", self.rest.chars().take(20).collect::<String>()),
         }
     }
 
     pub fn end(&self) -> Result<(), String> {
-        if self.rest.is_empty() { Ok(()) } else { Err(format!("`{}` stands behind the end", self.rest)) }
+        if self.rest.is_empty() { Ok(()) } else { Err(format!("unexpected `{}` after the end", self.rest)) }
     }
 
     pub fn number(&mut self, what: &str) -> Result<f64, String> {

@@ -21,11 +21,11 @@ fn a_quantity_names_a_reduction_a_pass_and_a_component() {
         ("", "sum, min, max, mean, rms and nonfinite"),
         ("total(image)", "not `total`"),
         ("sum image", "expected `(`"),
-        ("sum()", "is no pass's name"),
+        ("sum()", "is not the name of a pass"),
         ("sum(image.xy)", "not `xy`"),
         ("sum(image:one)", "a number from 0"),
-        ("sum(image", "and the text ends"),
-        ("sum(image) + 1", "`+ 1` stands behind"),
+        ("sum(image", "but the text ends"),
+        ("sum(image) + 1", "unexpected `+ 1`"),
     ] {
         let message = Quantity::parse(text).expect_err(text);
         assert!(message.contains(says), "{text}: {message}");
@@ -78,7 +78,7 @@ fn claims_are_held_against_values() {
     let failure = Assertion::parse("mean(image.x) within 1% of first").unwrap().check(7, 98.0, 100.0).unwrap_err();
     assert_eq!(
         failure.to_string(),
-        "frame 7: mean(image.x) within 1% of first does not hold: it is 98, and was 100 at first"
+        "frame 7: mean(image.x) within 1% of first does not hold: it is 98, and was 100 in the first frame"
     );
 }
 
@@ -87,12 +87,12 @@ fn a_claim_that_cannot_be_read_says_why() {
     for (claim, says) in [
         ("sum(image.x)", "`within TOLERANCE of VALUE`"),
         ("sum(image.x) within of 1", "expected a tolerance, found `of 1`"),
-        ("sum(image.x) within -1 of 1", "not below 0"),
+        ("sum(image.x) within -1 of 1", "at least 0"),
         ("sum(image.x) within 1 1", "expected `of`"),
         ("sum(image.x) < one", "expected a value, found `one`"),
         ("sum(image.x) < nan", "expected a value"),
-        ("sum(image.x) < 1 2", "stands behind the end"),
-        ("image < 1", "a quantity begins with"),
+        ("sum(image.x) < 1 2", "after the end"),
+        ("image < 1", "a quantity starts with"),
     ] {
         let message = Assertion::parse(claim).expect_err(claim);
         assert!(message.contains(says), "{claim}: {message}");

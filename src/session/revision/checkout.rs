@@ -113,7 +113,7 @@ pub fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checko
                 files.insert(name.clone(), id);
             }
             None => left_out
-                .push(LeftOut { name: name.clone(), why: "a link that leads to no file of the project's folder" }),
+                .push(LeftOut { name: name.clone(), why: "a link that leads to no file in the project's folder" }),
         }
     }
     writer.check_sizes(&files)?;
@@ -203,11 +203,14 @@ impl Writer<'_> {
         let shown: String = String::from_utf8_lossy(entry).chars().take(NAME).collect();
         let shown = shown.escape_debug();
         let said = format!(
-            "{} has the name \"{shown}\" in {}, which no file of a project has",
+            "{} has the name \"{shown}\" in {}, which is not a valid file name for a project",
             self.revision,
             if folder.is_empty() { "the project's folder" } else { folder }
         );
-        Err(RevisionError::refused(said, "name a revision without it; a repository that is not yours may mean harm"))
+        Err(RevisionError::refused(
+            said,
+            "choose a revision without it; a repository from somebody else may be malicious",
+        ))
     }
 
     /// Checks what files announce, before the first is read.
@@ -220,7 +223,7 @@ impl Writer<'_> {
             }
             if size > limits::MEDIA_FILE.bytes {
                 let said = format!("{name} in {} is larger than {}", self.revision, limits::MEDIA_FILE);
-                return Err(RevisionError::refused(said, "name a revision in which it is smaller or elsewhere"));
+                return Err(RevisionError::refused(said, "choose a revision in which it is smaller or elsewhere"));
             }
             let limit = limits::REVISION_BYTES;
             left =
@@ -268,11 +271,11 @@ impl Writer<'_> {
 
     fn twice(&self, name: &str) -> RevisionError {
         let said = format!("{} has two files that are both {name} on this disk", self.revision);
-        RevisionError::refused(said, "name a revision in which one of them has another name")
+        RevisionError::refused(said, "choose a revision in which one of them has another name")
     }
 
     fn too_much(&self, what: &str) -> RevisionError {
-        let said = format!("the project's folder in {} has {what}, the most that Eddy reads", self.revision);
+        let said = format!("the project's folder in {} has {what}, the limit", self.revision);
         RevisionError::refused(said, format!("compare a folder of the project alone; {WITH_GIT}"))
     }
 }

@@ -6,22 +6,22 @@ use std::{io, path::Path};
 /// There is no such revision of a project, or it is not read. The text is complete: what, why and the mend.
 #[derive(Debug, thiserror::Error)]
 pub enum RevisionError {
-    #[error("{0} is no file or folder: only these have revisions")]
+    #[error("{0} is not a file or folder: only these have revisions")]
     NotOnDisk(String),
-    #[error("{revision} has no {what}; name a revision that has it")]
+    #[error("{revision} has no {what}; choose a revision that has it")]
     Missing { revision: String, what: String },
     #[error("git has no such revision: {said}; {hint}")]
     NoSuch { said: String, hint: String },
     /// The repository is damaged, asks for too much, or is not read for another reason.
     #[error("{said}; {hint}")]
     Refused { said: String, hint: String },
-    #[error("cannot write the revision into a temporary folder: {0}; make room there")]
+    #[error("cannot write the revision to a temporary folder: {0}; free disk space there")]
     Write(#[from] io::Error),
 }
 
 /// A mend for a revision that Eddy does not read and git does.
-pub const WITH_GIT: &str = "if you trust the repository, `git worktree add FOLDER REVISION` writes the revision into a \
-                            folder, and that one can be compared with";
+pub const WITH_GIT: &str = "if you trust the repository, write the revision to a folder with `git worktree add \
+                            FOLDER REVISION` and compare with that folder";
 
 impl RevisionError {
     pub(super) fn no_such(said: impl Into<String>, hint: impl Into<String>) -> Self {
@@ -34,7 +34,7 @@ impl RevisionError {
 
     /// A file of the repository that is not as git writes it.
     pub(super) fn damaged(what: impl std::fmt::Display, why: impl std::fmt::Display) -> Self {
-        Self::refused(format!("{what} is damaged: {why}"), "clone the repository anew")
+        Self::refused(format!("{what} is damaged: {why}"), "clone the repository again")
     }
 
     /// A file of the repository in `folder` that is not read.
@@ -42,9 +42,9 @@ impl RevisionError {
         let hint = match &error.reason {
             Reason::Link => {
                 let said = format!("{} in {} is a link that leads out of it", error.file, folder.display());
-                return Self::refused(said, "Eddy reads a repository's own folder alone: put the file there");
+                return Self::refused(said, "Eddy reads only the repository's own folder: put the file there");
             }
-            Reason::NotAFile(_) => "git makes regular files: clone the repository anew",
+            Reason::NotAFile(_) => "git creates regular files: clone the repository again",
             Reason::TooLarge(_) | Reason::TooMuch(_) => WITH_GIT,
             _ => return Self::refused(error.to_string(), error.hint()),
         };

@@ -92,7 +92,7 @@ impl Objects {
             return Ok(());
         }
         let hint = repository::why_missing(&self.folder);
-        let hint = hint.unwrap_or_else(|| "`git fetch` may get it; or name another".into());
+        let hint = hint.unwrap_or_else(|| "`git fetch` may get it; or choose another".into());
         Err(RevisionError::no_such(format!("nothing in {} has the hash {id}", self.folder.display()), hint))
     }
 
@@ -198,14 +198,14 @@ impl Objects {
             let base = match at.header {
                 Header::OfsDelta { base_distance } => {
                     let base = at.checked_base_pack_offset(base_distance);
-                    let base = base.ok_or_else(|| damaged("a delta is of something before the pack"))?;
+                    let base = base.ok_or_else(|| damaged("a delta refers to data before the pack"))?;
                     file.entry(base).map_err(|e| damaged(&cause(&e)))?
                 }
                 Header::RefDelta { base_id } => entry_of(pack, file, &base_id)
                     .map_err(|e| damaged(&cause(&e)))?
-                    .ok_or_else(|| damaged("what a delta is of is not in its pack"))?,
+                    .ok_or_else(|| damaged("the base of a delta is not in its pack"))?,
                 header => {
-                    let kind = header.as_kind().ok_or_else(|| damaged("it is of no kind"))?;
+                    let kind = header.as_kind().ok_or_else(|| damaged("it has no object type"))?;
                     if size.is_some() && at.decompressed_size > limits::MEDIA_FILE.bytes {
                         return Err(self.too_large(id, limits::MEDIA_FILE));
                     }
@@ -213,7 +213,7 @@ impl Objects {
                 }
             };
             self.spend(LOOK)?;
-            let made = made_by(file, &at).ok_or_else(|| damaged("a delta does not say what it makes"))?;
+            let made = made_by(file, &at).ok_or_else(|| damaged("a delta has no result size"))?;
             if made > limits::MEDIA_FILE.bytes {
                 return Err(self.too_large(id, limits::MEDIA_FILE));
             }
@@ -222,8 +222,8 @@ impl Objects {
             at = base;
         }
         let said =
-            format!("object {id} in {} is made of more than {} deltas", self.folder.display(), limits::GIT_DELTAS);
-        Err(RevisionError::refused(said, "git makes no such packs: clone the repository anew"))
+            format!("object {id} in {} is built from more than {} deltas", self.folder.display(), limits::GIT_DELTAS);
+        Err(RevisionError::refused(said, "git does not create such packs: clone the repository again"))
     }
 
     fn spend(&self, bytes: u64) -> Result<(), RevisionError> {
@@ -232,14 +232,14 @@ impl Objects {
             return Ok(());
         }
         let most = in_bytes(limits::GIT_REBUILT_BYTES);
-        let said = format!("{} asks for more than {most} to be rebuilt from deltas", self.folder.display());
-        Err(RevisionError::refused(said, "if you trust the repository, `git repack -a -d -f` packs it anew"))
+        let said = format!("{} needs more than {most} to be rebuilt from deltas", self.folder.display());
+        Err(RevisionError::refused(said, "if you trust the repository, `git repack -a -d -f` repacks it"))
     }
 
     pub fn missing(&self, id: &oid) -> RevisionError {
         let said = format!("object {id} is not in {}", self.folder.display());
         let hint = repository::why_missing(&self.folder);
-        RevisionError::refused(said, hint.unwrap_or_else(|| "clone the repository anew".into()))
+        RevisionError::refused(said, hint.unwrap_or_else(|| "clone the repository again".into()))
     }
 
     pub fn damaged(&self, id: &oid, why: impl std::fmt::Display) -> RevisionError {
@@ -248,7 +248,7 @@ impl Objects {
 
     fn too_large(&self, id: &oid, limit: Limit) -> RevisionError {
         let said = format!("object {id} in {} is larger than {limit}", self.folder.display());
-        RevisionError::refused(said, "name a revision in which it is smaller")
+        RevisionError::refused(said, "choose a revision in which it is smaller")
     }
 }
 

@@ -109,7 +109,7 @@ impl<'a> Refs<'a> {
                 Some(Target::Symbolic(next)) => at = next.as_bstr().to_string(),
             }
         }
-        Err(self.damaged(name, "it leads from ref to ref without end"))
+        Err(self.damaged(name, "it is a circular reference"))
     }
 
     fn target(&self, name: &str) -> Result<Option<Target>, RevisionError> {
@@ -118,10 +118,10 @@ impl<'a> Refs<'a> {
         if let Some(text) = self.read(name, REF)? {
             let text = text.trim_ascii();
             if text == b"ref: refs/heads/.invalid" {
-                return Err(self.unsupported("keeps its refs in a table"));
+                return Err(self.unsupported("stores its refs in a reftable"));
             }
             if text.len() == 64 && text.iter().all(u8::is_ascii_hexdigit) {
-                return Err(self.unsupported("has hashes of SHA-256"));
+                return Err(self.unsupported("uses SHA-256 hashes"));
             }
             return Ok(Some(loose::Reference::try_from_path(whole, text, HASH).map_err(damaged)?.target));
         }
@@ -142,7 +142,7 @@ impl<'a> Refs<'a> {
         let Some(text) = self.read(name, limits::GIT_REFS)? else { return Ok(None) };
         let hash = text.split(|&b| b == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
         if hash.iter().take_while(|b| b.is_ascii_hexdigit()).count() == 64 {
-            return Err(self.unsupported("has hashes of SHA-256"));
+            return Err(self.unsupported("uses SHA-256 hashes"));
         }
         packed::Buffer::from_bytes(&text, HASH).map(Some).map_err(|e| self.damaged(name, cause(&e)))
     }

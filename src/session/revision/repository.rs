@@ -38,12 +38,12 @@ impl Repository {
                 return Ok(Self { root: root.to_owned(), own, common });
             }
             if is_led {
-                let said = format!("{} leads to {}, which is no git repository", dot_git.display(), own.display());
-                return Err(RevisionError::refused(said, "`git worktree repair` or a new clone mends it"));
+                let said = format!("{} leads to {}, which is not a git repository", dot_git.display(), own.display());
+                return Err(RevisionError::refused(said, "fix it with `git worktree repair` or a new clone"));
             }
         }
-        let said = format!("no folder from {} up is a git repository", folder.display());
-        Err(RevisionError::no_such(said, "`git init` makes one, and `git commit` a revision"))
+        let said = format!("neither {} nor a folder above it is a git repository", folder.display());
+        Err(RevisionError::no_such(said, "create one with `git init`, and a revision with `git commit`"))
     }
 }
 
@@ -61,7 +61,7 @@ fn led(root: &Path, dot_git: &Path) -> Result<PathBuf, RevisionError> {
     };
     let Ok(target) = target.canonicalize() else {
         let said = format!("{name} leads to {}, which is not there", target.display());
-        return Err(RevisionError::refused(said, "`git worktree repair` or a new clone mends it"));
+        return Err(RevisionError::refused(said, "fix it with `git worktree repair` or a new clone"));
     };
     let is_around = || {
         let outer = root.ancestors().skip(1).map(|outer| outer.join(".git"));
@@ -75,7 +75,7 @@ fn led(root: &Path, dot_git: &Path) -> Result<PathBuf, RevisionError> {
         return Ok(target);
     }
     let said = format!("{name} leads to {}, which does not name this working tree", target.display());
-    Err(RevisionError::refused(said, "`git worktree repair` mends a working tree that was moved; otherwise clone anew"))
+    Err(RevisionError::refused(said, "if the working tree was moved, run `git worktree repair`; otherwise clone again"))
 }
 
 /// Returns the folder with the objects and refs of one that may be a working tree's entry.
@@ -87,7 +87,7 @@ fn common(own: &Path) -> Result<PathBuf, RevisionError> {
     let common = joined(own, named.trim(), &own.join("commondir"))?.canonicalize().ok();
     common.filter(|common| own.parent() == Some(&common.join("worktrees"))).ok_or_else(|| {
         let said = format!("{} leads to another repository", own.join("commondir").display());
-        RevisionError::refused(said, "clone the repository anew")
+        RevisionError::refused(said, "clone the repository again")
     })
 }
 
@@ -111,12 +111,12 @@ pub fn why_missing(common: &Path) -> Option<String> {
     let is_there = |name: &str| common.join(name).symlink_metadata().is_ok();
     let has_alternates = ["objects/info/alternates", "objects/info/http-alternates"].into_iter().any(is_there);
     if has_alternates {
-        let hint = "objects/info/alternates names another folder for it, and Eddy reads a repository's own folder \
-                    alone; if you trust the repository, `git repack -a -d` copies such objects into it";
+        let hint = "objects/info/alternates points to another folder, but Eddy reads only the repository's own \
+                    folder; if you trust the repository, copy such objects into it with `git repack -a -d`";
         return Some(hint.into());
     }
     if is_there("shallow") {
-        let hint = "the clone is shallow; if you trust the repository, `git fetch --unshallow` gets the rest";
+        let hint = "the clone is shallow; if you trust the repository, get the rest with `git fetch --unshallow`";
         return Some(hint.into());
     }
     let is_partial = fs::read_dir(common.join("objects/pack"))
@@ -125,5 +125,5 @@ pub fn why_missing(common: &Path) -> Option<String> {
     let config = confine::read(common, "config", Limit { bytes: 1 << 20, of: "git's configuration" });
     let config = String::from_utf8_lossy(&config.unwrap_or_default()).to_lowercase();
     let is_partial = is_partial || config.contains("partialclone") || config.contains("promisor");
-    is_partial.then(|| format!("the clone is partial, and Eddy fetches nothing; {WITH_GIT}"))
+    is_partial.then(|| format!("the clone is partial, and Eddy does not fetch; {WITH_GIT}"))
 }

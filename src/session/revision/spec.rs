@@ -21,7 +21,7 @@ use gix_revision::spec::{
     },
 };
 
-const EXAMPLES: &str = "name a branch, a tag, a hash, or one of these with ~1 behind it";
+const EXAMPLES: &str = "use a branch, a tag, a hash, or one of these followed by ~1";
 
 /// Returns the tree of a revision.
 pub fn tree(repository: &Repository, objects: &Objects, revision: &str) -> Result<ObjectId, RevisionError> {
@@ -32,7 +32,7 @@ pub fn tree(repository: &Repository, objects: &Objects, revision: &str) -> Resul
     }
     Err(walk.wrong.unwrap_or_else(|| {
         let why = parsed.err().map_or_else(|| "it is empty".into(), |e| cause(&e));
-        RevisionError::no_such(format!("{revision} is not how revisions are written: {why}"), EXAMPLES)
+        RevisionError::no_such(format!("{revision} is not a valid revision: {why}"), EXAMPLES)
     }))
 }
 
@@ -68,7 +68,7 @@ impl Walk<'_> {
     }
 
     fn unread(&mut self, what: &str, hint: &str) -> gix_error::Result {
-        self.step(Err(RevisionError::no_such(format!("{what} is not a way to name one that Eddy reads"), hint)))
+        self.step(Err(RevisionError::no_such(format!("Eddy does not support {what} in a revision"), hint)))
     }
 
     fn here(&self) -> Result<ObjectId, RevisionError> {
@@ -108,13 +108,13 @@ impl Walk<'_> {
         let parent = CommitRefIter::from_bytes(&bytes, HASH).parent_ids().nth(number - 1);
         parent.ok_or_else(|| {
             let which = if number == 1 { String::new() } else { format!(" number {number}") };
-            RevisionError::no_such(format!("commit {commit} has no parent{which}"), "name a later revision")
+            RevisionError::no_such(format!("commit {commit} has no parent{which}"), "choose a later revision")
         })
     }
 }
 
 fn no_name(name: &str) -> RevisionError {
-    RevisionError::no_such(format!("{name} is no branch, tag or hash here"), EXAMPLES)
+    RevisionError::no_such(format!("{name} is not a branch, tag or hash here"), EXAMPLES)
 }
 
 impl delegate::Revision for Walk<'_> {
@@ -151,8 +151,8 @@ impl delegate::Revision for Walk<'_> {
                     [one] => Ok(one),
                     [] => Err(no_name(&begun)),
                     _ => {
-                        let said = format!("{} objects begin with {begun}", found.len());
-                        Err(RevisionError::no_such(said, "write more of the hash"))
+                        let said = format!("{} objects start with {begun}", found.len());
+                        Err(RevisionError::no_such(said, "write more digits of the hash"))
                     }
                 },
                 Err(e) => Err(e),
@@ -163,12 +163,12 @@ impl delegate::Revision for Walk<'_> {
 
     fn reflog(&mut self, query: ReflogLookup) -> gix_error::Result {
         let ReflogLookup::Entry(changes) = query else {
-            return self.unread("a date", "write how many changes ago it was, as in HEAD@{1}");
+            return self.unread("a date", "write the number of changes, as in HEAD@{1}");
         };
         let found = (|| {
             let name = self.name.clone().map_or_else(|| self.refs.current(), Ok)?;
             self.refs.before(&name, changes)?.ok_or_else(|| {
-                let said = format!("no log of {name} goes back {changes} changes");
+                let said = format!("the log of {name} does not go back {changes} changes");
                 RevisionError::no_such(said, "write a smaller number, or a hash")
             })
         })();
@@ -178,7 +178,7 @@ impl delegate::Revision for Walk<'_> {
     fn nth_checked_out_branch(&mut self, branch_no: usize) -> gix_error::Result {
         let found = self.refs.left(branch_no).and_then(|left| {
             left.ok_or_else(|| {
-                let said = format!("nothing was checked out {branch_no} times before");
+                let said = format!("there is no checkout {branch_no} branches ago");
                 RevisionError::no_such(said, "write a smaller number, or a branch")
             })
         });
@@ -192,7 +192,7 @@ impl delegate::Revision for Walk<'_> {
     }
 
     fn sibling_branch(&mut self, _: SiblingBranch) -> gix_error::Result {
-        self.unread("@{upstream}", "name the branch, as in origin/main")
+        self.unread("@{upstream}", "write the branch, as in origin/main")
     }
 }
 
@@ -222,15 +222,15 @@ impl delegate::Navigate for Walk<'_> {
                 Ok(id)
             }
             PeelTo::Path(_) => {
-                let said = "a path behind : is not a way to name one that Eddy reads";
-                Err(RevisionError::no_such(said, "name the revision alone, and the project's folder before it"))
+                let said = "Eddy does not support a path after : in a revision";
+                Err(RevisionError::no_such(said, "write only the revision, and the project's folder before it"))
             }
         });
         self.step(found)
     }
 
     fn find(&mut self, _: &BStr, _: bool) -> gix_error::Result {
-        self.unread("a commit's message", "name its hash, which `git log` shows")
+        self.unread("a commit message", "use its hash, which `git log` shows")
     }
 
     fn index_lookup(&mut self, _: &BStr, _: u8) -> gix_error::Result {
@@ -240,7 +240,7 @@ impl delegate::Navigate for Walk<'_> {
 
 impl delegate::Kind for Walk<'_> {
     fn kind(&mut self, _: spec::Kind) -> gix_error::Result {
-        self.unread("a range", "name one revision")
+        self.unread("a range", "use one revision")
     }
 }
 

@@ -88,7 +88,7 @@ fn parse<A>(
         if r.take(';') {
             continue;
         }
-        let frame = r.number::<u32>("a frame number from 0").and_then(|(start, n)| {
+        let frame = r.number::<u32>("a frame number from 0 on").and_then(|(start, n)| {
             i32::try_from(n).map_err(|_| r.error_at(start, "a frame number below 2147483648"))
         })?;
         r.want(':')?;
@@ -148,9 +148,9 @@ impl<'a> Reader<'a> {
     }
 
     fn point(&mut self) -> Result<(f32, f32), ScriptError> {
-        let (_, x) = self.number("x in canvas pixels")?;
+        let (_, x) = self.number("x in pixels of the picture")?;
         self.want(',')?;
-        let (_, y) = self.number("y in canvas pixels, from the bottom")?;
+        let (_, y) = self.number("y in pixels of the picture, from the bottom")?;
         Ok((x, y))
     }
 

@@ -40,9 +40,9 @@ fn an_error_says_where_and_what_was_expected() {
         "at character 17: expected `down X,Y`, `move X,Y` or `up`, found `mvoe`"
     );
     assert_eq!(message("0:down 40"), "at character 10: expected `,`, found the end");
-    assert_eq!(message("0:down x,4"), "at character 8: expected x in canvas pixels, found `x,4`");
-    assert_eq!(message("-1:up"), "at character 1: expected a frame number from 0, found `-1:up`");
-    assert_eq!(message("ä:up"), "at character 1: expected a frame number from 0, found `ä:up`");
+    assert_eq!(message("0:down x,4"), "at character 8: expected x in pixels of the picture, found `x,4`");
+    assert_eq!(message("-1:up"), "at character 1: expected a frame number from 0 on, found `-1:up`");
+    assert_eq!(message("ä:up"), "at character 1: expected a frame number from 0 on, found `ä:up`");
     assert_eq!(message("0:up 3"), "at character 6: expected `;` or the end, found `3`");
     assert_eq!(
         message("3000000000:up"),

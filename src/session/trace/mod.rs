@@ -55,26 +55,26 @@ pub struct Trace {
 pub enum TraceError {
     #[error("the pass has errors")]
     Diagnostics(Vec<Diagnostic>),
-    #[error("the pass has gone")]
+    #[error("the pass was removed")]
     Gone,
     #[error(
-        "no triangle of the meshes is drawn at pixel {},{} of the pass: it holds the zeros that the pass begins with",
+        "no triangle is drawn at pixel {},{} of the pass: it keeps the zeros from the start of the pass",
         .0.0, .0.1
     )]
     Clear((u32, u32)),
     #[error(
-        "pixel {},{} lies outside of the region of the pass, {} x {} texels from {},{} on: it is not drawn, and holds \
-             what it held before",
+        "pixel {},{} is outside the region of the pass, {} x {} texels from {},{}: it is not drawn and keeps its \
+         value",
         pixel.0, pixel.1, region.width, region.height, region.x, region.y
     )]
     Kept { pixel: (u32, u32), region: Region },
-    #[error("pixel {},{} lies in the boundary of the pass, which {written} overwrites after each draw", pixel.0, pixel.1)]
+    #[error("pixel {},{} is in the boundary of the pass, which {written} overwrites after each draw", pixel.0, pixel.1)]
     Boundary { pixel: (u32, u32), written: String },
-    #[error("pixel {},{} is outside of the pass, which has {} x {} texels", pixel.0, pixel.1, size.0, size.1)]
+    #[error("pixel {},{} is outside the pass, which has {} x {} texels", pixel.0, pixel.1, size.0, size.1)]
     Outside { pixel: (u32, u32), size: (u32, u32) },
     #[error(
-        "the pass has not ended within {0} statements: let it do more by --max-statements, or look for a loop that \
-             does not end"
+        "the pass did not end within {0} statements: raise the limit with --max-statements, or look for an endless \
+         loop"
     )]
     Endless(u64),
 }

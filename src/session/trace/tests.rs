@@ -249,14 +249,14 @@ fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
             .map(|_| ())
             .map_err(|e| e.to_string())
     };
-    let kept = "pixel 0,1 lies outside of the region of the pass, 2 x 3 texels from 1,1 on: it is not drawn, and holds \
-                what it held before";
+    let kept = "pixel 0,1 is outside the region of the pass, 2 x 3 texels from 1,1: it is not drawn and keeps its \
+                value";
     assert_eq!(refused(&project, [0.1, 0.3]), Err(kept.into()));
     assert_eq!(refused(&project, [0.3, 0.3]), Ok(()));
     let value = Fill::expression("vec4(fragCoord, 0, 1)");
     project.passes[0].settings.boundary = Some(Boundary { width: 1, value });
-    let edge = "pixel 0,1 lies in the boundary of the pass, which eddy.toml:1, vec4(fragCoord, 0, 1), overwrites after \
-                each draw";
+    let edge = "pixel 0,1 is in the boundary of the pass, which eddy.toml:1, vec4(fragCoord, 0, 1), overwrites \
+                after each draw";
     assert_eq!(refused(&project, [0.1, 0.3]), Err(edge.into()));
     assert_eq!(refused(&project, [0.3, 0.3]), Ok(()));
 }

@@ -58,7 +58,7 @@ impl Watches {
     ) -> Watched {
         let expression = expression.trim();
         if expression.is_empty() {
-            return Err("nothing is asked for".into());
+            return Err("the expression is empty".into());
         }
         // A variable alone is shown whatever its type.
         if let Some(value) = history.value(at, expression) {
@@ -85,7 +85,7 @@ impl Watches {
         }
         let mut result = Taken { compiled, value: None };
         machine.run(Machine::<f32>::lane_of(pixel), &mut result).map_err(|stop| stop.to_string())?;
-        result.value.ok_or_else(|| "it has no value: the pixel was discarded".into())
+        result.value.ok_or_else(|| "no value: the pixel was discarded".into())
     }
 }
 

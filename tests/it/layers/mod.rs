@@ -9,6 +9,7 @@ mod circles;
 mod docs;
 mod paths;
 mod picture;
+mod texts;
 
 use circles::Modules;
 use paths::Named;

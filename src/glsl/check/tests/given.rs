@@ -41,30 +41,30 @@ fn a_uniform_of_the_site_that_is_declared_again_is_taken_with_a_warning() {
     ] {
         let (failed, count, messages) = declared(declarations);
         assert!(!failed && count == 1, "{declarations}: {messages}");
-        assert!(messages.contains("is there already: the site refuses"), "{declarations}: {messages}");
+        assert!(messages.contains("is already declared: Shadertoy rejects"), "{declarations}: {messages}");
     }
     let (failed, count, messages) = declared("uniform float iTime, iTimeDelta;");
     assert!(!failed && count == 2, "{messages}");
     let (failed, count, messages) = declared("uniform Globals { vec3 iResolution; float other; };");
-    assert!(!failed && count == 2 && messages.contains("nobody sets the uniform block"), "{messages}");
+    assert!(!failed && count == 2 && messages.contains("has no values"), "{messages}");
 }
 
 #[test]
 fn with_another_type_it_is_one_error_that_says_its_own() {
     for (declarations, own) in [
-        ("uniform vec2 iResolution;", "`iResolution` is a `vec3`, and this declares a `vec2`"),
+        ("uniform vec2 iResolution;", "`iResolution` is a `vec3`, but this declares a `vec2`"),
         ("uniform vec2 iMouse;", "`iMouse` is a `vec4`"),
         ("uniform int iTime;", "`iTime` is a `float`"),
         ("uniform float iFrame;", "`iFrame` is an `int`"),
         ("uniform float iChannelTime;", "`iChannelTime` is a `float[4]`"),
         ("uniform vec3 iChannelResolution[2];", "`iChannelResolution` is a `vec3[4]`"),
-        ("uniform samplerCube iChannel0;", "`iChannel0` is a `sampler2D`, by what the channel reads"),
+        ("uniform samplerCube iChannel0;", "`iChannel0` is a `sampler2D`, because of the input of the channel"),
         ("uniform sampler2D iChannel1;", "`iChannel1` is a `samplerCube`"),
         ("uniform Globals { vec2 iResolution; };", "`iResolution` is a `vec3`"),
         ("uniform float iTime = 1.0;", "cannot have an initialiser"),
-        ("vec3 iResolution;", "already declared: Shadertoy's header gives it"),
-        ("in vec3 iResolution;", "already declared: Shadertoy's header gives it"),
-        ("const float iTime = 1.0;", "already declared: Shadertoy's header gives it"),
+        ("vec3 iResolution;", "already declared by Shadertoy's header"),
+        ("in vec3 iResolution;", "already declared by Shadertoy's header"),
+        ("const float iTime = 1.0;", "already declared by Shadertoy's header"),
     ] {
         let (failed, count, messages) = declared(declarations);
         assert!(failed && count == 1, "{declarations}: {messages}");

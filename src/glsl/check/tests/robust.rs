@@ -32,7 +32,7 @@ fn long_programs() {
         let _ = writeln!(structs, "struct S{i} {{ S{} a[1000]; }};", i - 1);
     }
     let (failed, messages) = image(&structs);
-    assert!(failed && messages.contains("16 MiB") && messages.contains("nesting"));
+    assert!(failed && messages.contains("16 MiB") && messages.contains("nested"));
 }
 
 /// Numbers that look random and are the same each time.

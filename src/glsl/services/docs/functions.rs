@@ -11,10 +11,10 @@ pub(super) fn of(builtin: Builtin) -> Function {
         // 8.1 Angle and trigonometry.
         B::Radians => ("degrees", "Degrees to radians: π / 180 · degrees."),
         B::Degrees => ("radians", "Radians to degrees: 180 / π · radians."),
-        B::Sin => ("angle", "Sine of an angle in radians, -1 to 1. Loses precision as the angle grows: keep it small \
-                             by `mod`."),
-        B::Cos => ("angle", "Cosine of an angle in radians, -1 to 1. Loses precision as the angle grows: keep it small \
-                             by `mod`."),
+        B::Sin => ("angle", "Sine of an angle in radians, -1 to 1. Loses precision as the angle grows: keep it \
+                             small with `mod`."),
+        B::Cos => ("angle", "Cosine of an angle in radians, -1 to 1. Loses precision as the angle grows: keep it \
+                             small with `mod`."),
         B::Tan => ("angle", "Tangent of an angle in radians. Grows without bound near odd multiples of π/2."),
         B::Asin => ("x", "Angle in radians whose sine is x, -π/2 to π/2. Undefined where |x| > 1."),
         B::Acos => ("x", "Angle in radians whose cosine is x, 0 to π. Undefined where |x| > 1: clamp what rounding may \
@@ -30,7 +30,7 @@ pub(super) fn of(builtin: Builtin) -> Function {
         B::Atanh => ("x", "Inverse of `tanh`. Undefined where |x| ≥ 1."),
         // 8.2 Exponential.
         B::Pow => ("x, y", "x to the power of y. Undefined where x < 0, and where x = 0 and y ≤ 0. For small whole \
-                            powers multiply."),
+                            powers, multiply."),
         B::Exp => ("x", "e to the power of x."),
         B::Log => ("x", "Natural logarithm. Undefined where x ≤ 0."),
         B::Exp2 => ("x", "2 to the power of x."),
@@ -41,20 +41,19 @@ pub(super) fn of(builtin: Builtin) -> Function {
         B::Abs => ("x", "x without its sign. The most negative int stays as it is."),
         B::Sign => ("x", "-1, 0 or 1, as x is negative, zero or positive."),
         B::Floor => ("x", "The largest whole number that is not above x, as a float."),
-        B::Trunc => ("x", "x without its fraction: the nearest whole number towards zero."),
-        B::Round => ("x", "The nearest whole number. Halves go whichever way the device finds quicker: use `roundEven` \
-                           or `floor(x + 0.5)` where it matters."),
-        B::RoundEven => ("x", "The nearest whole number; halves go to the even one: 2.5 and 1.5 both give 2."),
+        B::Trunc => ("x", "x rounded towards zero."),
+        B::Round => ("x", "The nearest whole number. Halves are rounded up or down, as the GPU prefers: use \
+                           `roundEven` or `floor(x + 0.5)` where it matters."),
+        B::RoundEven => ("x", "The nearest whole number; halves are rounded to even: 2.5 and 1.5 both give 2."),
         B::Ceil => ("x", "The smallest whole number that is not below x, as a float."),
         B::Fract => ("x", "x - floor(x): 0 to below 1, also for negative x. May round up to 1 just below a whole \
                            number."),
-        B::Mod => ("x, y", "x - y · floor(x / y): has the sign of y, so that patterns go on evenly through zero. \
+        B::Mod => ("x, y", "x - y · floor(x / y): has the sign of y, so patterns repeat evenly through zero. \
                             Undefined where y = 0."),
         B::Modf => ("x, i", "The fraction of x, with x's sign; the whole part is written to i, as a float."),
         B::Min => ("x, y", "The smaller of the two, component by component. Either may come back where one is NaN."),
         B::Max => ("x, y", "The larger of the two, component by component. Either may come back where one is NaN."),
-        B::Clamp => ("x, minVal, maxVal", "min(max(x, minVal), maxVal): x, kept between the two. Undefined where \
-                                           minVal > maxVal."),
+        B::Clamp => ("x, minVal, maxVal", "min(max(x, minVal), maxVal): x clamped to the range. Undefined where minVal > maxVal."),
         B::Mix => ("x, y, a", "Linear blend x · (1 - a) + y · a; a is not clamped. With a bool: y where a is true, \
                                else x, with nothing computed."),
         B::Step => ("edge, x", "0 where x < edge, else 1."),
@@ -82,8 +81,8 @@ pub(super) fn of(builtin: Builtin) -> Function {
         B::Length => ("x", "Length of a vector, sqrt(dot(x, x)); for a float its absolute value."),
         B::Distance => ("p0, p1", "Distance of two points, length(p0 - p1)."),
         B::Dot => ("x, y", "Sum of the products of components: |x| · |y| · cos of the angle between them."),
-        B::Cross => ("x, y", "A vector at right angles to both, by the right-hand rule; as long as the parallelogram \
-                              they span is large."),
+        B::Cross => ("x, y", "A vector perpendicular to both (right-hand rule); its length is the area of the \
+                              parallelogram they span."),
         B::Normalize => ("x", "The vector of length 1 in the direction of x. Undefined for a vector of length 0."),
         B::FaceForward => ("N, I, Nref", "N where dot(Nref, I) < 0, else -N: a normal turned against the ray I."),
         B::Reflect => ("I, N", "The ray I reflected by a surface of normal N: I - 2 · dot(N, I) · N. N must have \
@@ -106,18 +105,18 @@ pub(super) fn of(builtin: Builtin) -> Function {
                               for all."),
         B::NotEqual => ("x, y", "x != y, component by component, as a vector of bools. The operator `!=` gives one \
                                  bool for all."),
-        B::Any => ("x", "Whether any component is true."),
-        B::All => ("x", "Whether all components are true."),
+        B::Any => ("x", "True if any component is true."),
+        B::All => ("x", "True if all components are true."),
         B::Not => ("x", "Each component negated. For a single bool write `!x`."),
         // 8.9 Derivatives.
-        B::DFdx => ("p", "How much p changes from this pixel to its neighbour on the right, by differences within 2x2 \
-                          pixels. Undefined in branches and loops that not all four take alike."),
-        B::DFdy => ("p", "How much p changes from this pixel to its neighbour above, by differences within 2x2 pixels. \
-                          Undefined in branches and loops that not all four take alike."),
+        B::DFdx => ("p", "How much p changes from this pixel to its neighbour on the right, by differences within \
+                          2x2 pixels. Undefined in branches and loops that not all four pixels share."),
+        B::DFdy => ("p", "How much p changes from this pixel to its neighbour above, by differences within 2x2 \
+                          pixels. Undefined in branches and loops that not all four pixels share."),
         B::Fwidth => ("p", "abs(dFdx(p)) + abs(dFdy(p)): about how much p changes over one pixel; the width of a \
                             smooth edge."),
-        B::StAssert => ("condition, value", "Shadertoy's own, in Image: paints the picture where the condition is \
-                                             false: red, or by value 0 to 3 red, green, blue, yellow."),
+        B::StAssert => ("condition, value", "Shadertoy only, in Image: paints the picture if the condition is \
+                                             false: red, or red, green, blue or yellow for value 0 to 3."),
         _ => return super::textures::of(builtin),
     };
     Function { params, text }

@@ -8,8 +8,8 @@ use crate::glsl::hir::Builtin;
 pub(super) fn of(builtin: Builtin) -> Function {
     use Builtin as B;
     let (params, text) = match builtin {
-        B::TextureSize => ("sampler, lod", "Width and height (and depth, or number of layers) in texels of level lod; \
-                                            0 is the full size. Undefined for a level that is not there."),
+        B::TextureSize => ("sampler, lod", "Width and height (and depth, or number of layers) in texels of level \
+                                            lod; 0 is full size. Undefined for a level that does not exist."),
         B::Texture => ("sampler, P, bias", "Filtered read at P, 0 to 1 across the texture (a direction for a cube). \
                                             The level follows from how fast P changes between pixels, so it is \
                                             undefined in branches that neighbours do not share; bias is added to it."),

@@ -49,7 +49,8 @@ fn hover_shows_what_a_name_is() {
             "void f() { iChannelResolution@[0]; }",
             "uniform",
             "uniform vec3 iChannelResolution[4]",
-            "For each channel, its size in texels: width, height, depth (1 for pictures). (0, 0, 0) while nothing is loaded.",
+            "For each channel, its size in texels: width, height, depth (1 for 2D textures). (0, 0, 0) while \
+             nothing is loaded.",
         ),
         ("void f() { texture(iChannel1@, vec3(1)); }", "channel", "uniform samplerCube iChannel1", ""),
         ("void f() { gl_FragCoord@; }", "built-in variable", "in vec4 gl_FragCoord", ""),
@@ -58,7 +59,7 @@ fn hover_shows_what_a_name_is() {
             "void f() { discard@; }",
             "keyword",
             "",
-            "Leaves the pixel as it is and ends. In a buffer that is what it held two frames ago.",
+            "Ends without writing the pixel. In a buffer, the pixel keeps its value from two frames ago.",
         ),
         ("#ifdef@ X\n#endif", "directive", "", "Compiles the lines up to `#endif` only if a macro is defined."),
         ("void mainImage@(out vec4 o, vec2 p) { }", "function", "void mainImage(out vec4 o, vec2 p)", ""),

@@ -1,6 +1,6 @@
 //! The page of the graph: its nodes and edges, and what they mean.
 
-use super::layout::Layout;
+use super::layout::{LEGIBLE, Layout};
 use crate::{
     engine::{PassRead, PassRole, When},
     gui::{
@@ -19,8 +19,6 @@ use egui::{
 
 /// The foot with the legend.
 const LEGEND: f32 = 20.0;
-/// Figures can be read down to this.
-const LEGIBLE: f32 = 0.6;
 const BEGIN: f32 = 0.75;
 
 /// A read, from the pass that is read to its reader.
@@ -45,9 +43,9 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
     let (forth, back): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
         arrows.iter().partition(|arrow| arrow.read.when == When::ThisFrame && arrow.from != arrow.to);
     let ends = |arrows: &[&Arrow<'_>]| arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect::<Vec<_>>();
-    let layout = Layout::new(passes.len(), &ends(&forth), &ends(&back));
     let room = ui.available_rect_before_wrap();
     let area = room.with_max_y(room.bottom() - LEGEND);
+    let layout = Layout::new(passes.len(), &ends(&forth), &ends(&back), area.size());
     let shown = state.target(session.project()).map(|(pass, _)| pass);
     let middle =
         passes.iter().position(|p| shown.as_ref() == Some(&p.cost.pass)).map(|node| layout.nodes[node].center());
@@ -171,7 +169,7 @@ impl Words {
         let targets = if cost.formats.len() > 1 { format!(" ×{}", cost.formats.len()) } else { String::new() };
         let time = match cost.role {
             PassRole::Drawn { is_cached: false } => pass.millis.map_or_else(|| "– ms".to_owned(), millis_text),
-            PassRole::Drawn { is_cached: true } => "at rest".to_owned(),
+            PassRole::Drawn { is_cached: true } => "unchanged".to_owned(),
             PassRole::Outside | PassRole::Unread | PassRole::Unsupported => "not drawn".to_owned(),
         };
         Self {
@@ -238,10 +236,14 @@ fn tip(ui: &mut Ui, pass: &TimedPass, words: &Words) {
     }
     let formats: Vec<&str> = pass.cost.formats.iter().map(|format| format.name()).collect();
     ui.label(format!("{}×{} texels, {}", pass.cost.size.0, pass.cost.size.1, formats.join(" ")));
-    ui.label(format!("{} held, {} moved a frame", bytes(pass.cost.held_bytes), bytes(pass.cost.moved_bytes)));
+    ui.label(format!(
+        "{} of memory, {} of traffic per frame",
+        bytes(pass.cost.held_bytes),
+        bytes(pass.cost.moved_bytes)
+    ));
     for read in &pass.cost.reads {
         let when = if read.when == When::ThisFrame { "this frame's" } else { "last frame's" };
-        let unused = if read.is_used { "" } else { ", not read by the code that is drawn" };
+        let unused = if read.is_used { "" } else { ", not read by the code" };
         ui.label(format!("iChannel{}: {when} {}{unused}", read.channel, read.pass.title()));
     }
     ui.colored_label(p.weak, "Click to see its texels");
@@ -310,9 +312,9 @@ fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut Outbox) {
     let y = place.center().y;
     let unread = p.weak.gamma_multiply(0.5);
     for (words, color, is_dashed) in [
-        ("read in this frame", p.text, false),
-        ("of the frame before", p.accent, true),
-        ("named, not read", unread, false),
+        ("reads this frame", p.text, false),
+        ("reads the previous frame", p.accent, true),
+        ("set, but not read", unread, false),
     ] {
         let line = [pos2(x, y), pos2(x + 24.0, y)];
         let stroke = Stroke::new(1.3, color);
@@ -324,7 +326,7 @@ fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut Outbox) {
         x = text.right() + 18.0;
     }
     if !is_playing {
-        let words = "times: before the pause";
+        let words = "times from before the pause";
         let text = painter.text(pos2(x, y), Align2::LEFT_CENTER, words, FontId::proportional(11.0), p.warning);
         out.place("buffers:graph:paused", text);
     }

@@ -27,51 +27,128 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// `forth`: edges that go round in no circle; `back`: all others.
-    pub fn new(nodes: usize, forth: &[Edge], back: &[Edge]) -> Self {
+    /// `forth`: edges that go round in no circle; `back`: all others. A long chain is broken into rows, like text, where
+    /// it could not be read otherwise once it fits into `area`.
+    pub fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
         let layers = Layers::new(nodes, forth);
         let middles = middles(&layers, nodes);
-        let at = |node: usize| pos2(left_of(layers.layer_of[node]) + NODE.x / 2.0, middles[node]);
+        let rows = Rows::new(&layers, &middles, (nodes, forth, back), area);
+        let at = |node: usize| rows.place(layers.layer_of[node], middles[node]);
+        let row_of = |node: usize| rows.row(layers.layer_of[node]);
+        // Ways between rows, and ways back, have lanes of their own below the row that they come from.
+        let mut lanes = vec![0; rows.tops.len()];
+        let mut lane = |row: usize| {
+            lanes[row] += 1;
+            rows.bottom(row) + 16.0 + LANE * lanes[row] as f32
+        };
         let rects: Vec<Rect> = (0..nodes).map(|node| Rect::from_center_size(at(node), NODE)).collect();
         let ports = ports(nodes, forth, back, &middles);
-        let forth_ways = forth.iter().zip(&layers.ways).enumerate().map(|(n, (edge, way))| {
-            let mut points = vec![rects[edge.0].right_center()];
+        let round = |n: usize, start: Pos2, end: Pos2, low: f32| {
+            let aside = 10.0 + 4.0 * (n % 6) as f32;
+            let (right, left) = (start.x + aside, end.x - aside);
+            vec![start, pos2(right, start.y), pos2(right, low), pos2(left, low), pos2(left, end.y), end]
+        };
+        let mut forth_ways = Vec::new();
+        for (n, (edge, way)) in forth.iter().zip(&layers.ways).enumerate() {
+            let end = pos2(rects[edge.1].left(), rects[edge.1].top() + ports[n]);
+            let start = rects[edge.0].right_center();
+            if row_of(edge.0) != row_of(edge.1) {
+                forth_ways.push(round(n, start, end, lane(row_of(edge.0))));
+                continue;
+            }
+            let mut points = vec![start];
             for node in &way[1..way.len() - 1] {
                 let half = vec2(NODE.x / 2.0, 0.0);
                 points.extend([at(*node) - half, at(*node) + half]);
             }
-            points.push(pos2(rects[edge.1].left(), rects[edge.1].top() + ports[n]));
-            points
-        });
-        let forth_ways = forth_ways.collect();
-        let lowest = rects.iter().map(|rect| rect.bottom()).fold(0.0, f32::max);
-        let mut lanes = 0;
+            points.push(end);
+            forth_ways.push(points);
+        }
         let mut back_ways = Vec::new();
         for (n, &(from, to)) in back.iter().enumerate() {
             let (source, reader) = (rects[from], rects[to]);
             let start = pos2(source.right(), source.bottom() - 11.0);
             let end = pos2(reader.left(), reader.top() + ports[forth.len() + n]);
-            let (beside, before) = (10.0 + 4.0 * (n % 6) as f32, 10.0 + 4.0 * (n % 6) as f32);
-            // One that reads itself goes round its own node, the others below all.
-            let low = if from == to {
-                source.bottom() + 9.0
-            } else {
-                lanes += 1;
-                lowest + 16.0 + LANE * lanes as f32
-            };
-            let (right, left) = (start.x + beside, end.x - before);
-            back_ways.push(vec![
-                start,
-                pos2(right, start.y),
-                pos2(right, low),
-                pos2(left, low),
-                pos2(left, end.y),
-                end,
-            ]);
+            // One that reads itself goes round its own node, the others below all of its row.
+            let low = if from == to { source.bottom() + 9.0 } else { lane(row_of(from)) };
+            back_ways.push(round(n, start, end, low));
         }
-        let width = left_of(layers.layers.len()) - BETWEEN_LAYERS + 34.0 + MARGIN;
-        let size = vec2(width, lowest + 24.0 + LANE * lanes as f32 + MARGIN);
+        let width = left_of(rows.length) - BETWEEN_LAYERS + 34.0 + MARGIN;
+        let last = rows.tops.len().saturating_sub(1);
+        let most = lanes.get(last).copied().unwrap_or_default();
+        let size = vec2(width, rows.bottom(last) + 24.0 + LANE * most as f32 + MARGIN);
         Self { nodes: rects, forth: forth_ways, back: back_ways, size }
+    }
+}
+
+/// Below this scale a node's words cannot be read.
+pub const LEGIBLE: f32 = 0.6;
+/// Below a row, beside its lanes.
+const BELOW: f32 = 28.0;
+
+/// Nodes, and edges forth and back.
+type Graph<'a> = (usize, &'a [Edge], &'a [Edge]);
+
+/// The rows that layers are broken into: each has as many, and lies below the one before.
+struct Rows {
+    /// Layers of a row.
+    length: usize,
+    /// The upper edge of each on the sheet.
+    tops: Vec<f32>,
+    /// The upper and lower edge of each, if all were one row.
+    spans: Vec<(f32, f32)>,
+    /// The lower edge of all, with the lanes.
+    end: f32,
+}
+
+impl Rows {
+    fn new(layers: &Layers, middles: &[f32], graph: Graph<'_>, area: Vec2) -> Rows {
+        let count = layers.layers.len().max(1);
+        let one = Rows::of_length(layers, middles, graph, count);
+        if one.scale(area) >= LEGIBLE {
+            return one;
+        }
+        let broken = (2..=count).map(|rows| Rows::of_length(layers, middles, graph, count.div_ceil(rows)));
+        // The fewest rows of equals.
+        broken.fold(one, |best, rows| if rows.scale(area) > best.scale(area) * 1.001 { rows } else { best })
+    }
+
+    fn of_length(layers: &Layers, middles: &[f32], (nodes, forth, back): Graph<'_>, length: usize) -> Rows {
+        let length = length.max(1);
+        let row_of = |node: usize| layers.layer_of[node] / length;
+        let lanes = |row: usize| {
+            let forth = forth.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
+            forth.count() + back.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
+        };
+        let (mut tops, mut spans, mut top) = (Vec::new(), Vec::new(), MARGIN);
+        for (n, row) in layers.layers.chunks(length).enumerate() {
+            let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
+            let all = || row.iter().flatten().map(|&node| (middles[node], height(node) / 2.0));
+            let first = all().map(|(middle, half)| middle - half).fold(f32::INFINITY, f32::min).min(f32::MAX);
+            let last = all().map(|(middle, half)| middle + half).fold(first, f32::max);
+            tops.push(top);
+            spans.push((first, last));
+            top += last - first + BELOW + LANE * lanes(n) as f32;
+        }
+        Rows { length, tops, spans, end: top }
+    }
+
+    fn row(&self, layer: usize) -> usize {
+        layer / self.length
+    }
+
+    fn place(&self, layer: usize, middle: f32) -> Pos2 {
+        let row = self.row(layer);
+        pos2(left_of(layer % self.length) + NODE.x / 2.0, middle - self.spans[row].0 + self.tops[row])
+    }
+
+    fn bottom(&self, row: usize) -> f32 {
+        self.spans.get(row).map_or(MARGIN, |(first, last)| last - first + self.tops[row])
+    }
+
+    /// Returns how large the whole is where it fits into an area.
+    fn scale(&self, area: Vec2) -> f32 {
+        (area.x / left_of(self.length)).min(area.y / self.end)
     }
 }
 
@@ -166,7 +243,7 @@ mod tests {
     #[test]
     fn nodes_lie_apart_on_the_sheet_and_edges_lead_from_left_to_right() {
         let (nodes, forth, back) = fluid();
-        let layout = Layout::new(nodes, &forth, &back);
+        let layout = Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0));
         let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
         for (i, a) in layout.nodes.iter().enumerate() {
             assert!(sheet.contains_rect(*a), "{a:?} of {sheet:?}");
@@ -179,9 +256,29 @@ mod tests {
     }
 
     #[test]
+    fn twenty_passes_fit_and_can_be_read() {
+        let area = vec2(640.0, 340.0);
+        let forth: Vec<Edge> = (1..20).map(|n| (n - 1, n)).chain([(2, 19)]).collect();
+        let back = [(19, 0), (5, 5)];
+        let layout = Layout::new(20, &forth, &back, area);
+        let scale = (area.x / layout.size.x).min(area.y / layout.size.y);
+        assert!(scale >= LEGIBLE, "{scale} of {:?}", layout.size);
+        crosses_no_node(&layout);
+        let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
+        assert!(layout.nodes.iter().all(|node| sheet.contains_rect(*node)));
+        let chain = Layout::new(4, &forth[..3], &[], area);
+        assert!(chain.nodes.windows(2).all(|pair| pair[0].top() == pair[1].top()), "what can be read is one row");
+    }
+
+    #[test]
     fn a_way_back_crosses_no_node() {
         let (nodes, forth, back) = fluid();
-        let layout = Layout::new(nodes, &forth, &back);
+        crosses_no_node(&Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0)));
+        // In rows, too.
+        crosses_no_node(&Layout::new(nodes, &forth, &back, vec2(500.0, 600.0)));
+    }
+
+    fn crosses_no_node(layout: &Layout) {
         for way in layout.back.iter().chain(&layout.forth) {
             for step in way.windows(2) {
                 let segment = Rect::from_two_pos(step[0], step[1]).expand(-0.5).expand(0.4);

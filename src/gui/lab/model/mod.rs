@@ -151,7 +151,7 @@ pub fn told(progress: &Progress) -> (f32, String) {
         Progress::Cost { points } => (0.8, format!("costs of {points} points")),
         Progress::Turn { done, all } => {
             let part = *done as f32 / (*all).max(1) as f32;
-            (0.8 + 0.2 * part, format!("costs, turn {} of {all}", done + 1))
+            (0.8 + 0.2 * part, format!("costs, run {} of {all}", done + 1))
         }
     }
 }

@@ -159,7 +159,7 @@ impl<'a> Source<'a> {
                 false => "",
             };
             return Err(Trouble::broken(format!(
-                "accessor {index} holds {dimensions:?} of {component:?}, which {what} cannot be{without}"
+                "accessor {index} has {dimensions:?} of {component:?}, which {what} cannot have{without}"
             )));
         }
         if accessor.count == 0 {

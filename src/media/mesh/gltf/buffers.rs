@@ -52,10 +52,12 @@ impl<'a> Buffers<'a> {
                     Err(why) => return Err(Trouble::broken(format!("the data: address of buffer {n} {why}"))),
                 },
                 Some(uri) if uri.len() > LONGEST_NAME => {
-                    return Err(Trouble::broken(format!("the file of buffer {n} has a name of {} bytes", uri.len())));
+                    return Err(Trouble::broken(format!("buffer {n} has a file name of {} bytes", uri.len())));
                 }
                 Some(uri) if uri.contains(':') => {
-                    return Err(Trouble::broken(format!("buffer {n} names {uri}, which is neither a file nor data")));
+                    return Err(Trouble::broken(format!(
+                        "buffer {n} refers to {uri}, which is neither a file nor data"
+                    )));
                 }
                 Some(uri) => {
                     let limit = Limit { bytes: left, ..limits::MODEL_FILES };
@@ -93,7 +95,7 @@ impl<'a> Buffers<'a> {
             return Err(match (&described.extensions.ext_meshopt, &described.extensions.khr_meshopt) {
                 (Some(_), _) => extensions::meshopt("EXT_meshopt_compression"),
                 (_, Some(_)) => extensions::meshopt("KHR_meshopt_compression"),
-                _ => Trouble::broken(format!("buffer {buffer} names no file, and there is no binary chunk for it")),
+                _ => Trouble::broken(format!("buffer {buffer} has no file, and there is no binary chunk for it")),
             });
         };
         let range = || {

@@ -256,7 +256,7 @@ impl<'de> Deserialize<'de> for Attributes {
                         }
                     };
                     if place.replace(map.next_value::<Whole<Index>>()?.0).is_some() {
-                        return Err(A::Error::custom(format_args!("{name} stands there twice")));
+                        return Err(A::Error::custom(format_args!("{name} is there twice")));
                     }
                 }
                 found.joints.sort_unstable();

@@ -74,7 +74,7 @@ pub(super) fn check(root: &Root<'_>) -> Result<(), Trouble> {
     Err(Trouble::Needs {
         what: listed(&shown),
         because: String::new(),
-        mend: format!("export the model anew without {which}"),
+        mend: format!("re-export the model without {which}"),
     })
 }
 
@@ -94,7 +94,7 @@ pub(super) fn draco() -> Trouble {
     Trouble::Needs {
         what: "KHR_draco_mesh_compression".into(),
         because: "its mesh is Draco compressed".into(),
-        mend: "export the model anew without compression, or unpack it: gltf-transform copy IN.glb OUT.glb".into(),
+        mend: "re-export the model without compression, or unpack it: gltf-transform copy IN.glb OUT.glb".into(),
     }
 }
 
@@ -103,7 +103,7 @@ pub(super) fn meshopt(extension: &str) -> Trouble {
     Trouble::Needs {
         what: extension.into(),
         because: "its mesh is meshopt compressed".into(),
-        mend: "export the model anew without compression (gltfpack without -c), or unpack it: gltf-transform copy \
+        mend: "re-export the model without compression (gltfpack without -c), or unpack it: gltf-transform copy \
                IN.glb OUT.glb"
             .into(),
     }

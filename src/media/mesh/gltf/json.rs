@@ -50,7 +50,7 @@ fn measure(text: &[u8]) -> Result<(), Trouble> {
     }
     for (count, limit, what) in [(objects, limits::GLTF_OBJECTS, "objects"), (values, limits::GLTF_VALUES, "values")] {
         if count > limit {
-            let excess = format!("its JSON holds {count} {what}, and {limit} are the most that Eddy reads");
+            let excess = format!("its JSON has {count} {what}, but the limit is {limit}");
             return Err(Trouble::TooLarge(excess));
         }
     }
@@ -65,7 +65,7 @@ fn check_version(head: &Head<'_>) -> Result<(), Trouble> {
         return Err(match head.nodes {
             // glTF 1.0 had objects for lists, and its asset might be left out.
             Some(nodes) if nodes.get().starts_with('{') => Trouble::Version("1.0".into()),
-            _ => Trouble::broken("it says no asset.version, which every glTF file has"),
+            _ => Trouble::broken("it has no asset.version, which glTF requires"),
         });
     };
     let numbers = |text: &str| {
@@ -95,11 +95,11 @@ fn check_indices(root: &Root<'_>) -> Result<(), String> {
         if (index as usize) < count {
             return Ok(());
         }
-        Err(format!("{} {index}, and there are {count}", what()))
+        Err(format!("{} {index}, but there are {count}", what()))
     };
     let (accessors, views, nodes) = (root.accessors.len(), root.buffer_views.len(), root.nodes.len());
     for (v, view) in root.buffer_views.iter().enumerate() {
-        within(view.buffer, root.buffers.len(), &|| format!("bufferView {v} lies in buffer"))?;
+        within(view.buffer, root.buffers.len(), &|| format!("bufferView {v} is in buffer"))?;
     }
     for (a, accessor) in root.accessors.iter().enumerate() {
         let sparse = accessor.sparse.iter().flat_map(|s| [s.indices.buffer_view, s.values.buffer_view]);
@@ -134,7 +134,7 @@ fn check_indices(root: &Root<'_>) -> Result<(), String> {
         }
     }
     for (s, scene) in root.scenes.iter().enumerate() {
-        scene.nodes.iter().try_for_each(|i| within(*i, nodes, &|| format!("scene {s} holds node")))?;
+        scene.nodes.iter().try_for_each(|i| within(*i, nodes, &|| format!("scene {s} has node")))?;
     }
     for (s, skin) in root.skins.iter().enumerate() {
         skin.joints.iter().try_for_each(|i| within(*i, nodes, &|| format!("skin {s} has for a joint node")))?;

@@ -135,7 +135,7 @@ fn twice(node: Index, earlier: Option<Index>, now: Option<Index>, reached: &[Opt
         }
         above = reached[n as usize].flatten();
     }
-    let rule = "in glTF a node has at most one parent, and stands in a scene once";
+    let rule = "in glTF a node has at most one parent, and is in a scene once";
     match (earlier, now) {
         (Some(a), Some(b)) if a == b => format!("node {node} is twice a child of node {a}; {rule}"),
         (Some(a), Some(b)) => format!("node {node} is a child of node {a} and of node {b}; {rule}"),

@@ -32,7 +32,7 @@ impl Mode {
             4 => Mode::Triangles,
             5 => Mode::Strip,
             6 => Mode::Fan,
-            other => return Err(Trouble::broken(format!("its mode is {other}, and glTF has 0 to 6"))),
+            other => return Err(Trouble::broken(format!("its mode is {other}, but glTF has 0 to 6"))),
         })
     }
 
@@ -83,7 +83,7 @@ impl<'a> Part<'a> {
         if values.count as u64 == count {
             return Ok(values);
         }
-        Err(Trouble::broken(format!("it has {count} positions and {} {what}", values.count)))
+        Err(Trouble::broken(format!("it has {count} positions but {} {what}", values.count)))
     }
 
     /// Reads it where `pose` has it.
@@ -94,7 +94,7 @@ impl<'a> Part<'a> {
             let count = raw.vertices.len();
             for (what, there) in bound.counts() {
                 if there != count {
-                    return Err(Trouble::broken(format!("it has {count} positions and {there} {what}")));
+                    return Err(Trouble::broken(format!("it has {count} positions but {there} {what}")));
                 }
             }
         }
@@ -223,7 +223,7 @@ impl<'a> Part<'a> {
         let restart = indices.restart();
         if (restart as usize) >= count && corners.contains(&restart) {
             return Err(Trouble::broken(format!(
-                "its indices begin anew at {restart} (primitive restart), which glTF 2.0 does not allow"
+                "its indices use primitive restart at {restart}, which glTF 2.0 does not allow"
             )));
         }
         Ok(triangles(self.mode, corners))

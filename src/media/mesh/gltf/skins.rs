@@ -55,7 +55,7 @@ fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine
     let mut posed = Vec::with_capacity(skin.joints.len());
     for joint in &skin.joints {
         let Some(world) = stage.worlds[*joint as usize] else {
-            return Err(Trouble::broken(format!("joint {joint} of skin {index} stands below itself")));
+            return Err(Trouble::broken(format!("joint {joint} of skin {index} is its own descendant")));
         };
         posed.push(world);
     }

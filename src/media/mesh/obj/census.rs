@@ -81,7 +81,7 @@ impl Census {
 
     pub fn warnings(&self) -> Vec<MeshWarning> {
         let zero = self.zero.filter(|_| self.first() == 0).map(|line| MeshWarning {
-            message: format!("line {line}: a face names vertex 0, so the faces are read as counting from 0"),
+            message: format!("line {line}: a face uses vertex 0, so all faces are read as counting from 0"),
             hint: "OBJ counts from 1: add 1 to every number of a face".into(),
         });
         let free_form = self.free_form.map(|line| MeshWarning {
@@ -94,15 +94,15 @@ impl Census {
     /// Returns what is to be said of a file without triangles, which is an error where it is no OBJ file at all.
     pub fn no_triangles(&self) -> Result<MeshWarning, Trouble> {
         if !self.is_obj {
-            return Err(Trouble::broken("it holds no triangles"));
+            return Err(Trouble::broken("it has no triangles"));
         }
         let (vertices, lines, points) = (self.counts.vertices, self.lines, self.points);
         Ok(MeshWarning {
             message: format!(
-                "it holds no triangles, so that nothing of it is seen (vertices: {vertices}, lines: {lines}, points: \
+                "it has no triangles, so nothing of it is drawn (vertices: {vertices}, lines: {lines}, points: \
                  {points})"
             ),
-            hint: "export the model with its faces".into(),
+            hint: "export the model with faces".into(),
         })
     }
 }

@@ -52,8 +52,8 @@ impl Elements {
         let mut read = [0.0; 6];
         let count = numbers(statement, &mut read)?;
         if count < 3 || count == 5 {
-            let reason = format!("a vertex has 3 numbers, 4 with a weight or 6 with a colour, and this has {count}");
-            return Err(statement.whole_error(reason, "export the model anew"));
+            let reason = format!("a vertex has 3 numbers, 4 with a weight or 6 with a colour, but this has {count}");
+            return Err(statement.whole_error(reason, "re-export the model"));
         }
         let [x, y, z, r, g, b] = read;
         self.note(Kind::Position, &[x, y, z], statement);
@@ -70,8 +70,8 @@ impl Elements {
     fn add_uv(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
         let mut uv = [0.0; 2];
         if numbers(statement, &mut uv)? == 0 {
-            let reason = "a texture coordinate has 1 to 3 numbers, and this has none";
-            return Err(statement.whole_error(reason, "export the model anew"));
+            let reason = "a texture coordinate has 1 to 3 numbers, but this has none";
+            return Err(statement.whole_error(reason, "re-export the model"));
         }
         self.note(Kind::Uv, &uv, statement);
         self.uvs.push(if is_finite(&uv) { uv } else { [0.0; 2] });
@@ -82,8 +82,8 @@ impl Elements {
         let mut normal = [0.0; 3];
         let count = numbers(statement, &mut normal)?;
         if count < 3 {
-            let reason = format!("a normal has 3 numbers, and this has {count}");
-            return Err(statement.whole_error(reason, "export the model anew"));
+            let reason = format!("a normal has 3 numbers, but this has {count}");
+            return Err(statement.whole_error(reason, "re-export the model"));
         }
         self.note(Kind::Normal, &normal, statement);
         self.normals.push(normal);
@@ -127,15 +127,15 @@ impl Elements {
 
     pub fn warnings(&self) -> Vec<MeshWarning> {
         let done = [
-            "faces with such a position are left out",
-            "texture coordinates like it are taken for 0",
-            "faces with such a normal get another",
-            "vertices of such a colour are white",
+            "faces with such a position are skipped",
+            "such texture coordinates are read as 0",
+            "faces with such a normal get a computed one",
+            "vertices with such a colour are white",
         ];
         let warning = |(broken, done): (&Option<(usize, String)>, &str)| {
             let (line, word) = broken.as_ref()?;
             let message = format!("line {line}: {word} is not a number; {done}");
-            Some(MeshWarning { message, hint: "mend the model, and export it anew".into() })
+            Some(MeshWarning { message, hint: "fix the model and re-export it".into() })
         };
         self.broken.iter().zip(done).filter_map(warning).collect()
     }
@@ -143,8 +143,8 @@ impl Elements {
     /// Returns the error of a file in which every face has a position that is not a number.
     pub fn no_places(&self) -> Trouble {
         let (line, word) = self.broken[Kind::Position as usize].clone().unwrap_or_default();
-        let reason = format!("the position of a vertex is not a number ({word}), and every face has one like it");
-        Trouble::Line { line, reason, mend: "mend the model, and export it anew".into() }
+        let reason = format!("the position of a vertex is not a number ({word}), and every face has such a vertex");
+        Trouble::Line { line, reason, mend: "fix the model and re-export it".into() }
     }
 }
 

@@ -153,16 +153,16 @@ impl<'f> Faces<'f> {
         if let Some(place) = place.and_then(|place| u32::try_from(place).ok()).filter(|place| (*place as usize) < all) {
             return Ok(Some(place));
         }
-        let names = format!("{} names {} {}", quoted(word), KINDS[kind], quoted(text));
+        let names = format!("{} uses {} {}", quoted(word), KINDS[kind], quoted(text));
         let (reason, mend) = match number {
             0 => (names, "OBJ counts from 1: add 1 to every number of a face"),
             ..0 => (
-                format!("{names}, and {passed} stand before it"),
-                "a negative number counts back from the face: export the model anew",
+                format!("{names}, but only {passed} come before it"),
+                "a negative number counts back from the face: re-export the model",
             ),
             _ => (
-                format!("{names}, and the file has {all}"),
-                "the file may be cut short, or put together of several: export the model anew",
+                format!("{names}, but the file has {all}"),
+                "the file may be truncated or merged from several: re-export the model",
             ),
         };
         Err(statement.error(word, reason, mend))

@@ -61,8 +61,8 @@ fn not_a_number(statement: Statement<'_>, word: &[u8]) -> Trouble {
             let mend = format!("write decimals with a point: {} for {shown}", quoted(&with_points));
             statement.error(word, format!("{reason}: it has a decimal comma"), mend)
         }
-        0 => statement.error(word, reason, "write a number such as 0.25, or export the model anew"),
-        _ => statement.error(word, reason, "put blanks between the numbers, and a point before decimals"),
+        0 => statement.error(word, reason, "write a number such as 0.25, or re-export the model"),
+        _ => statement.error(word, reason, "separate the numbers by spaces, and write decimals with a point"),
     }
 }
 

@@ -62,7 +62,7 @@ impl Cutter {
                     break;
                 }
             }
-            at_most(self.steps, limits::CONCAVE_STEPS, "steps to cut faces that are not convex")?;
+            at_most(self.steps, limits::CONCAVE_STEPS, "steps to triangulate faces that are not convex")?;
             let ear = ear.unwrap_or(next % count);
             out.extend(self.around(ear));
             self.ring.remove(ear);

@@ -106,23 +106,23 @@ fn attributes_are_those_that_all_corners_of_a_face_have() {
 fn each_error_names_the_line_the_word_and_the_mend() {
     for (line, text, reason, mend) in [
         (1, "v 0,5 0 0", "0,5 is not a number: it has a decimal comma", "with a point: 0.5 for 0,5"),
-        (2, "\nv 1,2,3", "1,2,3 is not a number", "blanks between the numbers"),
+        (2, "\nv 1,2,3", "1,2,3 is not a number", "separate the numbers"),
         (1, "v 0 zero 0", "zero is not a number", "0.25"),
-        (3, "# a\rv 0 0 0\r\nv 1 2", "3 numbers, 4 with a weight or 6 with a colour, and this has 2", "export"),
-        (1, "v 1 2 3 4 5", "and this has 5", "export"),
-        (1, "vn 0 1", "a normal has 3 numbers, and this has 2", "export"),
-        (1, "vt", "a texture coordinate has 1 to 3 numbers, and this has none", "export"),
+        (3, "# a\rv 0 0 0\r\nv 1 2", "3 numbers, 4 with a weight or 6 with a colour, but this has 2", "export"),
+        (1, "v 1 2 3 4 5", "but this has 5", "export"),
+        (1, "vn 0 1", "a normal has 3 numbers, but this has 2", "export"),
+        (1, "vt", "a texture coordinate has 1 to 3 numbers, but this has none", "export"),
         (1, "vt 0.5 1.0x", "1.0x is not a number", "0.25"),
-        (5, "f 1 2 7", "7 names vertex 7, and the file has 4", "cut short"),
-        (6, "vt 0 0\nf 1/1 2/2 3/1", "2/2 names texture coordinate 2, and the file has 1", "cut short"),
-        (6, "vn 0 0 1\nf 1//1 2//1 3//-2", "3//-2 names normal -2, and 1 stand before it", "counts back"),
-        (6, "f 1 2 \\\n9 3", "9 names vertex 9", "cut short"),
-        (5, "f 0 4 1", "0 names vertex 0", "counts from 1"),
+        (5, "f 1 2 7", "7 uses vertex 7, but the file has 4", "truncated"),
+        (6, "vt 0 0\nf 1/1 2/2 3/1", "2/2 uses texture coordinate 2, but the file has 1", "truncated"),
+        (6, "vn 0 0 1\nf 1//1 2//1 3//-2", "3//-2 uses normal -2, but only 1 come before it", "counts back"),
+        (6, "f 1 2 \\\n9 3", "9 uses vertex 9", "truncated"),
+        (5, "f 0 4 1", "0 uses vertex 0", "counts from 1"),
         (5, "f 1 2 c", "c is not a corner of a face", "v/vt/vn"),
         (5, "f 1.0 2 3", "1.0 is not a corner", "whole numbers"),
         (5, "f 1/1/1/1 2 3", "1/1/1/1 is not a corner", "v/vt/vn"),
         (5, "f 1 /2 3", "/2 is not a corner", "v/vt/vn"),
-        (5, "f 99999999999999999999 2 3", "names vertex 99999999999999999999, and the file has 4", "cut short"),
+        (5, "f 99999999999999999999 2 3", "uses vertex 99999999999999999999, but the file has 4", "truncated"),
         (5, "f 1 2 \u{1}", "\\u{1} is not a corner", "whole numbers"),
     ] {
         let text = if text.contains('f') && !text.contains("v 0 zero") { format!("{QUAD}{text}") } else { text.into() };
@@ -147,10 +147,10 @@ fn what_is_left_out_of_a_model_is_a_warning() {
         warned(format!("{QUAD}{normals}"), "line 5: -nan(ind) is not a number; faces with such a normal"),
         quad()
     );
-    assert_eq!(warned(format!("{QUAD}f 0 1 2 3\n"), "line 5: a face names vertex 0"), quad());
+    assert_eq!(warned(format!("{QUAD}f 0 1 2 3\n"), "line 5: a face uses vertex 0"), quad());
     assert_eq!(warned(format!("{QUAD}f 1 2 3 4\ncurv 0 1 1 2\n"), "line 6: its curves and surfaces"), quad());
     // A triangle without an area stands for none.
-    let nothing = "it holds no triangles, so that nothing of it is seen (vertices: 4, lines: 1, points: 1)";
+    let nothing = "it has no triangles, so nothing of it is drawn (vertices: 4, lines: 1, points: 1)";
     assert_eq!(warned(format!("{QUAD}l 1 2 3 4\np 1\n"), nothing), [[-1.0, -1.0, 0.0]; 3]);
     let all = error(format!("{QUAD}v 0 inf 0\nf 1 2 5\n"));
     assert!(all.0 == 5 && all.1.contains("the position of a vertex is not a number (inf)"), "{all:?}");

@@ -53,7 +53,7 @@ fn a_model_is_counted_before_memory_is_taken() {
     let nodes = format!(r#"{{"children":[{}]}}{}"#, children.join(","), r#",{"mesh":0}"#.repeat(9));
     says(&error("m.gltf", model(&nodes, &sparse(1 << 20))), "m.gltf is too large", many);
     let objects = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}{}]}}"#, ",{}".repeat(2 << 20));
-    says(&error("m.gltf", objects), "m.gltf is too large", "its JSON holds 2097155 objects, and 1048576 are");
+    says(&error("m.gltf", objects), "m.gltf is too large", "its JSON has 2097155 objects, but the limit is 1048576");
     // Bounds are passed over unread, however many they are.
     let bounds = TRIANGLE.replace("[0,0,0]", &format!("[0{}]", ",0".repeat(1 << 20)));
     load_text(&model(NODE, &bounds)).unwrap();
@@ -84,12 +84,12 @@ fn nodes_that_are_no_tree_are_an_error() {
 #[test]
 fn accessors_that_the_crate_would_stumble_over_are_errors() {
     let gone = model(NODE, TRIANGLE).replace(r#""POSITION":0"#, r#""POSITION":77"#);
-    says(&error("m.gltf", gone), "m.gltf is broken", "in accessor 77, and there are 1");
+    says(&error("m.gltf", gone), "m.gltf is broken", "in accessor 77, but there are 1");
     let other = model(NODE, TRIANGLE).replace(r#""mesh":0"#, r#""mesh":5"#);
-    says(&error("m.gltf", other), "m.gltf is broken", "node 0 shows mesh 5, and there are 1");
+    says(&error("m.gltf", other), "m.gltf is broken", "node 0 shows mesh 5, but there are 1");
     for (from, to, what) in [
-        ("VEC3", "VEC2", "accessor 0 holds Vec2 of F32, which positions cannot be"),
-        ("5126", "5123", "accessor 0 holds Vec3 of U16, which positions cannot be"),
+        ("VEC3", "VEC2", "accessor 0 has Vec2 of F32, which positions cannot have"),
+        ("5126", "5123", "accessor 0 has Vec3 of U16, which positions cannot have"),
         (r#""count":3"#, r#""count":0"#, "accessor 0 has no elements"),
         (r#""count":3"#, r#""count":4"#, "accessor 0 reaches beyond its buffer"),
         (r#""bufferView":0"#, r#""bufferView":0,"byteOffset":18446744073709551615"#, "accessor 0 reaches beyond"),
@@ -119,13 +119,13 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
         [("/dev/zero", Reason::Absolute), ("../a.bin", Reason::Above), ("a%2fb%00.bin", Reason::Characters)]
     {
         let error = named(uri);
-        says(&error, "m.gltf names a file", "");
+        says(&error, "m.gltf refers to a file", "");
         assert!(matches!(&error, MeshError::Named { error, .. } if error.reason == reason), "{error}");
     }
     says(&named("file:///etc/passwd"), "m.gltf is broken", "neither a file nor data");
     // Percent signs that make no Unicode: the crate's own reader panics.
-    says(&named("%ff%fe"), "m.gltf names a file", "there is no such file");
-    says(&named(&"x".repeat(5000)), "m.gltf is broken", "a name of 5000 bytes");
+    says(&named("%ff%fe"), "m.gltf refers to a file", "there is no such file");
+    says(&named(&"x".repeat(5000)), "m.gltf is broken", "a file name of 5000 bytes");
     let short = "40 bytes by its byteLength, and its data: address 3";
     says(&named("data:;base64,AAAA"), "m.gltf is broken", short);
     says(&named("data:;base64,A"), "m.gltf is broken", "the data: address of buffer 0");
@@ -146,7 +146,7 @@ fn an_obj_is_counted_and_its_numbers_are_looked_at() {
         for (corner, element) in
             [(far.to_owned(), "vertex"), (format!("1/{far}"), "texture coordinate"), (format!("1//{far}"), "normal")]
         {
-            let what = format!("line 6: {corner} names {element} {far}, and ");
+            let what = format!("line 6: {corner} uses {element} {far}, but ");
             says(&error("m.obj", format!("{points}f {corner} 2 3\n")), "m.obj is broken", &what);
         }
     }
@@ -161,5 +161,5 @@ fn tangents_of_many_corners_at_one_place_are_refused() {
     // Each corner is compared with each other: 70,000 are five thousand million pairs.
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
     let fan = format!("{points}{}", "f 1/1 2/2 3/3\n".repeat(70_000));
-    says(&error("m.obj", fan), "m.obj is too large", "70000 corners of its triangles meet at one place");
+    says(&error("m.obj", fan), "m.obj is too large", "70000 corners of its triangles meet at one point");
 }

@@ -290,7 +290,7 @@ fn quantised_attributes_are_read_with_their_texture_transform() {
     let texture = json!({ "index": 0, "extensions": { "KHR_texture_transform": { "scale": [0.01, 0.02] } } });
     let mut model = model.set("/materials", json!([{ "pbrMetallicRoughness": { "baseColorTexture": texture } }]));
     model = model.set("/meshes/0/primitives/0/material", json!(0));
-    model.refused("accessor 0 holds Vec3 of I16, which positions cannot be without KHR_mesh_quantization");
+    model.refused("accessor 0 has Vec3 of I16, which positions cannot have without KHR_mesh_quantization");
     let names = json!(["KHR_mesh_quantization"]);
     let model = model.set("/extensionsUsed", names.clone()).set("/extensionsRequired", names);
     assert_eq!(model.positions(), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [-1.0, -1.0, 0.0]]);
@@ -319,7 +319,7 @@ fn extensions_that_leave_the_shape_alone_may_be_required() {
     }
     let unknown = Model::triangle().set("/extensionsRequired", json!(["KHR_materials_ior", "ACME_bend", "ACME_blow"]));
     let hint = unknown.refused("m.glb needs ACME_bend and ACME_blow, which Eddy cannot read");
-    assert_eq!(hint, "export the model anew without them");
+    assert_eq!(hint, "re-export the model without them");
 }
 
 #[test]
@@ -358,7 +358,7 @@ fn other_versions_are_named() {
         assert!(error.hint().contains("glTF 2.0"), "{}", error.hint());
     }
     let none = open("m.gltf", br#"{"nodes":[]}"#, None).unwrap_err();
-    assert!(none.to_string().contains("it says no asset.version"), "{none}");
+    assert!(none.to_string().contains("it has no asset.version"), "{none}");
     assert_eq!(Model::triangle().set("/asset/version", json!("2.1")).positions(), CORNERS);
 }
 
@@ -404,11 +404,11 @@ fn a_file_is_what_is_in_it_whatever_its_name() {
 fn what_holds_no_triangles_says_what_it_holds() {
     let mode = |mode: u32| Model::triangle().set("/meshes/0/primitives/0/mode", json!(mode));
     for (n, what) in [(0, "points"), (1, "lines"), (2, "lines"), (3, "lines")] {
-        mode(n).refused(&format!("m.glb holds no triangles, only {what}"));
+        mode(n).refused(&format!("m.glb has no triangles, only {what}"));
     }
     mode(7).refused("its mode is 7");
     let bare = Model::triangle().set("/meshes/0/primitives/0/attributes", json!({ "_HEAT": 0 }));
-    bare.refused("holds no triangles: its meshes have no positions");
+    bare.refused("has no triangles: its meshes have no positions");
     Model::triangle().set("/scenes/0", json!({})).refused("its meshes are in no node of its scene that is visible");
     // Attributes of an application's own are none of Eddy's.
     assert_eq!(Model::triangle().set("/meshes/0/primitives/0/attributes/_HEAT", json!(0)).positions(), CORNERS);
@@ -418,7 +418,7 @@ fn what_holds_no_triangles_says_what_it_holds() {
     assert_eq!(more.set("/meshes/0/primitives/0/indices", indices.into()).load().unwrap().indices.len(), 3);
     let mut restarts = Model::triangle();
     let indices = restarts.accessor(UNSIGNED_BYTE, "SCALAR", 4, &[0, 1, 2, 255]);
-    restarts.set("/meshes/0/primitives/0/indices", indices.into()).refused("begin anew at 255 (primitive restart)");
+    restarts.set("/meshes/0/primitives/0/indices", indices.into()).refused("use primitive restart at 255");
 }
 
 #[test]

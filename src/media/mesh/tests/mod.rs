@@ -127,15 +127,15 @@ fn a_broken_file_is_one_clear_error() {
         ("none.glb", b"glTF".to_vec(), "broken"),
         ("noise.glb", (0..=255).collect(), "broken"),
         ("far.gltf", triangle(9, [0, 1, 2], "").into(), "accessor 0 reaches beyond its buffer"),
-        ("index.gltf", triangle(3, [0, 1, 7], "").into(), "names vertex 7, and there are 3"),
+        ("index.gltf", triangle(3, [0, 1, 7], "").into(), "uses vertex 7, but there are 3"),
         ("loop.gltf", triangle(3, [0, 1, 2], r#","children":[0]"#).into(), "is a child of itself"),
-        ("gone.gltf", whole.replace("data:application/octet-stream;base64,", "x/").into(), "names a file: "),
+        ("gone.gltf", whole.replace("data:application/octet-stream;base64,", "x/").into(), "refers to a file: "),
         ("empty.gltf", r#"{"asset":{"version":"2.0"}}"#.into(), "no triangles"),
         ("empty.obj", Vec::new(), "no triangles"),
         ("word.obj", b"v 0 zero 0\n".to_vec(), "line 1: zero is not a number"),
-        ("face.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "line 2: 2 names vertex 2, and the file has 1"),
+        ("face.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "line 2: 2 uses vertex 2, but the file has 1"),
         ("nan.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_vec(), "line 2: the position of a vertex is"),
-        ("a.fbx", Vec::new(), "no model Eddy knows"),
+        ("a.fbx", Vec::new(), "not a supported model"),
     ];
     for (name, bytes, says) in cases {
         fs_write(&dir.path().join(name), bytes);
@@ -149,6 +149,6 @@ fn a_broken_file_is_one_clear_error() {
     let error = load(&MeshSource::Builtin("spere".into()), None, None).unwrap_err();
     assert_eq!(
         (error.to_string(), error.hint()),
-        ("there is no mesh builtin:spere".into(), "did you mean builtin:sphere?".into())
+        ("unknown mesh builtin:spere".into(), "did you mean builtin:sphere?".into())
     );
 }

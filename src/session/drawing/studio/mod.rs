@@ -206,7 +206,7 @@ impl Studio {
             return false;
         }
         // A device that is lost is told of by what is asked of it next.
-        self.engine.finish().inspect_err(|e| log::error!("a frame was not finished: {e}")).unwrap_or(false)
+        self.engine.finish().inspect_err(|e| log::error!("a frame could not be finished: {e}")).unwrap_or(false)
     }
 
     /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks at the costs.

@@ -46,13 +46,16 @@ fn no_name_in_a_tree_leads_out_of_the_copy() {
         for name in &bad {
             repo.head_with(mode, name, id);
             let said = repo.refusal("HEAD");
-            assert!(said.contains("which no file of a project has"), "{mode} {name:?}: {said}");
+            assert!(said.contains("which is not a valid file name for a project"), "{mode} {name:?}: {said}");
             assert!(!said.contains('\x1b') && !said.contains('\n'), "{said:?}");
             // One folder deeper as well.
             let inner = repo.tree(&[(mode, name, id)]);
             repo.head_with(FOLDER, "inner", inner);
             let said = repo.refusal("HEAD");
-            assert!(said.contains("in inner/, which no file of a project has"), "{mode} {name:?}: {said}");
+            assert!(
+                said.contains("in inner/, which is not a valid file name for a project"),
+                "{mode} {name:?}: {said}"
+            );
         }
     }
     assert!(!std::env::temp_dir().join(&unique).exists());
@@ -115,11 +118,11 @@ fn nothing_that_a_repository_names_is_run() {
         repo.head_with(mode, name, gone);
         let said = repo.refusal("HEAD");
         assert!(said.contains(&format!("object {gone} is not in")), "{said}");
-        assert!(said.contains("the clone is partial, and Eddy fetches nothing"), "{said}");
+        assert!(said.contains("the clone is partial, and Eddy does not fetch"), "{said}");
     }
     repo.write("refs/heads/main", repo.image("x", &[gone]).to_string());
-    assert!(repo.refusal("HEAD~1").contains("Eddy fetches nothing"));
-    assert!(repo.refusal(&gone.to_string()).contains("Eddy fetches nothing"));
+    assert!(repo.refusal("HEAD~1").contains("Eddy does not fetch"));
+    assert!(repo.refusal(&gone.to_string()).contains("Eddy does not fetch"));
     assert!(!ran.exists());
 }
 
@@ -148,7 +151,7 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
         ("gitdir: /nowhere/at/all", "which is not there"),
         ("gitdir:", "does not say"),
         ("", "does not say"),
-        ("gitdir: sub", "which is no git repository"),
+        ("gitdir: sub", "which is not a git repository"),
         (&"x".repeat(1 << 20), "larger than 16 KiB"),
     ] {
         let repo = Repo::new();
@@ -165,13 +168,13 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
         let repo = Repo::new();
         repo.write(&format!("objects/info/{name}"), format!("{there}/objects\n"));
         repo.write("refs/heads/main", one.to_string());
-        says(&repo, "Eddy reads a repository's own folder alone");
+        says(&repo, "Eddy reads only the repository's own folder");
         assert!(repo.refusal("HEAD").contains("git repack -a -d"));
     }
     // What is missing for another reason has another mend.
     let repo = Repo::new();
     repo.write("refs/heads/main", one.to_string());
-    says(&repo, "clone the repository anew");
+    says(&repo, "clone the repository again");
     repo.write("shallow", one.to_string());
     says(&repo, "git fetch --unshallow");
 }
@@ -291,7 +294,7 @@ fn objects_that_announce_too_much_are_refused_by_their_headers() {
     let repo = Repo::new();
     repo.pack("x", &[(small, entry(3, 1, &[], b"x")), (fake, entry(7, 30, small.as_slice(), &[255; 30]))]);
     repo.head_with(FILE, "x.png", fake);
-    assert!(repo.refusal("HEAD").contains("does not say what it makes"));
+    assert!(repo.refusal("HEAD").contains("has no result size"));
 }
 
 #[test]
@@ -311,7 +314,7 @@ fn chains_of_deltas_have_an_end() {
         repo.pack("x", &entries);
         repo.head_with(FILE, "x.png", fake);
         let said = repo.refusal("HEAD");
-        assert!(said.contains("is made of more than 4095 deltas"), "{said}");
+        assert!(said.contains("is built from more than 4095 deltas"), "{said}");
     }
     // Before the pack's beginning, of nothing, and behind the pack's end.
     for (kind, base) in [(6, distance(1 << 40)), (7, [9; 20].to_vec()), (6, distance(0))] {
@@ -333,7 +336,7 @@ fn chains_of_deltas_have_an_end() {
     }
     repo.pack("x", &entries);
     repo.head_with(FILE, "x.png", fake);
-    assert!(repo.refusal("HEAD").contains("asks for more than 32 GiB to be rebuilt from deltas"));
+    assert!(repo.refusal("HEAD").contains("needs more than 32 GiB to be rebuilt from deltas"));
 }
 
 #[test]
@@ -382,13 +385,13 @@ fn refs_that_lead_round_and_contents_of_another_kind_are_refused() {
     let (repo, [one, ..]) = history();
     let blob = repo.blob("x");
     for (text, says) in [
-        ("ref: refs/heads/main", "without end"),
-        ("ref: refs/heads/other", "without end"),
+        ("ref: refs/heads/main", "circular"),
+        ("ref: refs/heads/other", "circular"),
         ("ref: ../../config", "is damaged"),
         ("ref: /etc/passwd", "is damaged"),
-        ("ref: refs/heads/.invalid", "keeps its refs in a table"),
+        ("ref: refs/heads/.invalid", "stores its refs in a reftable"),
         ("not a hash", "is damaged"),
-        (&"0".repeat(64), "has hashes of SHA-256"),
+        (&"0".repeat(64), "uses SHA-256 hashes"),
         (&"x".repeat(10_000), "larger than 4 KiB"),
         (&blob.to_string(), "is a blob, not a tree"),
     ] {
@@ -399,7 +402,7 @@ fn refs_that_lead_round_and_contents_of_another_kind_are_refused() {
     }
     fs::remove_file(repo.git.join("refs/heads/main")).unwrap();
     for (text, says) in [
-        (format!("{} refs/heads/main\n", "0".repeat(64)), "has hashes of SHA-256"),
+        (format!("{} refs/heads/main\n", "0".repeat(64)), "uses SHA-256 hashes"),
         ("\0\0\0".repeat(1000), "is damaged"),
     ] {
         repo.write("packed-refs", text);

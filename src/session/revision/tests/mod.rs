@@ -94,27 +94,27 @@ fn what_is_not_there_is_named_with_a_mend() {
     let blob = repo.blob("one");
     let two = format!("{}", repo.image("two", &[one]));
     for (revision, says) in [
-        ("v9", "git has no such revision: v9 is no branch, tag or hash"),
+        ("v9", "git has no such revision: v9 is not a branch, tag or hash"),
         ("HEAD~3", "has no parent"),
         ("HEAD~9999999999", "has no parent"),
         ("HEAD^3", "has no parent number 3"),
-        ("deadbeef", "deadbeef is no branch"),
+        ("deadbeef", "deadbeef is not a branch"),
         (&"1".repeat(40), "has the hash 1111111111111111111111111111111111111111; `git fetch`"),
         (&blob.to_string(), "is a blob, not a tree"),
-        ("HEAD@{1}", "no log of HEAD goes back 1"),
-        ("HEAD@{yesterday}", "is not"),
-        ("@{-1}", "nothing was checked out"),
-        ("main@{upstream}", "@{upstream} is not a way"),
-        ("HEAD..main", "a range is not a way"),
-        ("^main", "a range is not a way"),
-        ("HEAD:image.glsl", "a path behind : is not"),
-        (":/two", "a commit's message is not"),
-        (":image.glsl", "what is staged is not"),
-        ("", "is not how revisions are written"),
-        ("HEAD^{", "is not how revisions are written"),
-        ("--upload-pack=x", "is no branch"),
-        ("config", "config is no branch"),
-        ("../HEAD", "is no"),
+        ("HEAD@{1}", "the log of HEAD does not go back 1"),
+        ("HEAD@{yesterday}", "does not support a date"),
+        ("@{-1}", "there is no checkout"),
+        ("main@{upstream}", "does not support @{upstream}"),
+        ("HEAD..main", "does not support a range"),
+        ("^main", "does not support a range"),
+        ("HEAD:image.glsl", "a path after :"),
+        (":/two", "does not support a commit message"),
+        (":image.glsl", "does not support what is staged"),
+        ("", "is not a valid revision"),
+        ("HEAD^{", "is not a valid revision"),
+        ("--upload-pack=x", "is not a branch"),
+        ("config", "config is not a branch"),
+        ("../HEAD", "does not support a range"),
         (&format!("{two}^{{tag}}"), "is a commit, not a tag"),
     ] {
         let said = repo.refusal(revision);
@@ -133,7 +133,10 @@ fn what_is_not_there_is_named_with_a_mend() {
         n += 1;
     };
     let said = repo.refusal(&start);
-    assert!(said.contains(&format!("objects begin with {start}")) && said.contains("more of the hash"), "{said}");
+    assert!(
+        said.contains(&format!("objects start with {start}")) && said.contains("more digits of the hash"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -168,7 +171,7 @@ fn a_project_is_a_folder_within_the_repository_or_a_file_of_one() {
         assert!(said.starts_with(says) && said.contains(project), "{said}");
     }
     let said = super::at("no such place", "HEAD").unwrap_err().to_string();
-    assert!(said.contains("no such place is no file or folder"), "{said}");
+    assert!(said.contains("no such place is not a file or folder"), "{said}");
     let elsewhere = tempfile::tempdir().unwrap();
     let said = super::at(elsewhere.path().to_str().unwrap(), "HEAD").unwrap_err().to_string();
     assert!(said.contains("git has no such revision") && said.contains("git init"), "{said}");
@@ -211,7 +214,7 @@ fn packs_with_deltas_and_packed_refs_are_read() {
             assert_eq!(fs::read_to_string(copy.project.join(name)).unwrap(), text, "{revision} {name}");
         }
     }
-    assert!(repo.refusal(&tree_id.to_string()[..6].replace(char::is_alphanumeric, "0")).contains("is no branch"));
+    assert!(repo.refusal(&tree_id.to_string()[..6].replace(char::is_alphanumeric, "0")).contains("is not a branch"));
     assert_eq!(repo.text(&tree_id.to_string()[..9]).as_deref(), Ok(texts[1]), "the beginning of a packed one's hash");
     // One ref of both forms is what its own file says.
     repo.write("refs/heads/main", repo.image("loose", &[]).to_string());
@@ -285,7 +288,7 @@ fn links_within_the_folder_are_files_and_others_are_left_out_with_a_reason() {
     let notes = copy.notes().join("\n");
     assert!(notes.contains("sub is left out: it is a submodule"), "{notes}");
     assert!(
-        notes.contains("out.glsl is left out: it is a link that leads to no file of the project's folder"),
+        notes.contains("out.glsl is left out: it is a link that leads to no file in the project's folder"),
         "{notes}"
     );
 }

@@ -53,7 +53,7 @@ struct A { float x; int x; };
 struct A { void x; };
 //error 4.1.8 struct holds itself | there is no type `A`
 struct A { A a; };
-//error 4.1.8 qualifier on a member | cannot stand on a struct's member
+//error 4.1.8 qualifier on a member | is not allowed on a struct's member
 struct A { const float x; };
 //ok 4.1.8 precision on a member
 struct A { highp float x; lowp vec3 y; };
@@ -69,7 +69,7 @@ float f() { struct S { float a; }; return 1.0; } S g;
 struct S { float a; }; struct S { float b; };
 //error 4.1.8 equal structs of two names | cannot initialise
 struct A { float x; }; struct B { float x; }; A a = B(1.0);
-//error 4.1.8 nested too deep | nesting
+//error 4.1.8 nested too deep | nested
 struct A { int x; }; struct B { A a; }; struct C { B b; }; struct D { C c; }; struct E { D d; };
 //ok 4.1.8 nested four deep
 struct A { int x; }; struct B { A a; }; struct C { B b; }; struct D { C c; };
@@ -164,9 +164,9 @@ void f(int n) { switch (n) { case 0: int x = 1; break; case 1: x = 2; break; } i
 void f() { bool b = true; do { bool b = false; } while (b); }
 //error 4.2.2 condition of do-while outside the body | declared in another scope
 void f() { do { bool again = false; } while (again); }
-//error 4.3 uniform in a function | cannot stand on a local variable
+//error 4.3 uniform in a function | is not allowed on a local variable
 void f() { uniform float x; }
-//error 4.3 in on a local | cannot stand on a local variable
+//error 4.3 in on a local | is not allowed on a local variable
 void f() { in float x; }
 //ok 4.3 constant initialisers of globals
 const float a = 1.0; float b = a * 2.0; vec3 c = vec3(a, a == a ? 1.0 : 2.0, 0.0).xyz;
@@ -225,7 +225,7 @@ uniform float zoom; void f() { zoom = 1.0; }
 void f() { iTime = 1.0; }
 //ok 4.3.5 the site's uniform declared again
 uniform float iTime;
-//error 4.3.5 the site's uniform declared again with another type | `iTime` is a `float`, and this declares a `vec2`
+//error 4.3.5 the site's uniform declared again with another type | `iTime` is a `float`, but this declares a `vec2`
 uniform vec2 iTime;
 //ok 4.3.5 the site's uniform hidden by a local
 float f() { float iTime = 2.0; return iTime; }
@@ -251,7 +251,7 @@ uniform Block { float a; } block; float f() { return Block.a; }
 uniform Block { float a; } block; float f() { return Block(1.0); }
 //error 4.3.7 block name given to something else | already
 uniform Block { float a; } block; float Block;
-//error 4.3.9 flat on a plain global | only stand on inputs and outputs
+//error 4.3.9 flat on a plain global | only allowed on inputs and outputs
 flat float x;
 //error 4.5 precision on a bool | only numbers and samplers
 highp bool b;
@@ -273,31 +273,31 @@ void f(sampler2DArray s) { }
 void f(highp sampler2DArray s, lowp isampler2D t) { }
 //ok 4.5.3 sampler with a default precision that was set
 precision highp usampler2D; void f(usampler2D s) { }
-//error 4.6.1 invariant global | only stand on outputs
+//error 4.6.1 invariant global | only allowed on outputs
 invariant float x;
-//error 4.6.1 invariant local | cannot stand on a local variable
+//error 4.6.1 invariant local | is not allowed on a local variable
 void f() { invariant float x; }
-//error 4.6.1 invariant of a variable | is no output
+//error 4.6.1 invariant of a variable | is not an output
 float x; invariant x;
-//error 4.7 const after in | must stand before `in`
+//error 4.7 const after in | must come before `in`
 float f(in const float x) { return x; }
-//error 4.7 precision before in | must stand before `highp`
+//error 4.7 precision before in | must come before `highp`
 float f(highp in float x) { return x; }
 //ok 4.7 const in
 float f(const in float x) { return x; }
-//error 4.7 const twice | stands here twice
+//error 4.7 const twice | is repeated
 const const float x = 1.0;
-//error 4.7 const out | exclude each other
+//error 4.7 const out | cannot be combined
 void f(const out float x) { }
-//error 4.7 in and out | exclude each other
+//error 4.7 in and out | cannot be combined
 void f(in out float x) { }
-//error 4.7 const uniform | exclude each other
+//error 4.7 const uniform | cannot be combined
 const uniform float x;
 //error 3.9 name with two underscores | two underscores in a row
 float a__b;
 //error 3.9 function with two underscores | two underscores in a row
 float a__b() { return 1.0; }
-//error 3.9 name with gl_ | kept for the language
+//error 3.9 name with gl_ | reserved
 float gl_x;
 //ok 4.3.8 layout of blocks
 layout(std140) uniform; layout(column_major) uniform A { layout(row_major) mat4 m; mat3 n; }; layout(std140, row_major) uniform B { mat2 m; } b;

@@ -54,7 +54,7 @@ mat3 f(vec3 v) { return mat3(v); }
 struct S { vec3 p; float r; }; S f() { return S(vec3(0), 1.0); }
 //error 5.4.3 wrong member type | the member `r` of `S` is a `float`, not `int`
 struct S { vec3 p; float r; }; S f() { return S(vec3(0), 1); }
-//error 5.4.3 wrong number of members | needs 2 arguments, one a member; 1 is given
+//error 5.4.3 wrong number of members | needs 2 arguments, one per member; 1 is given
 struct S { vec3 p; float r; }; S f() { return S(vec3(0)); }
 //ok 5.4.4 array constructors
 float[3] a = float[3](1.0, 2.0, 3.0); struct S { int x; }; S b[] = S[](S(1), S(2)); vec2 c = vec2[](vec2(1), vec2(2))[1];
@@ -66,7 +66,7 @@ float a[2] = float[](1, 2);
 float a[2] = float[]();
 //ok 5.5 swizzles
 vec4 f(vec4 v) { v.xy = v.zw; v.rgb = v.bgr; v.stpq = v.qpts; v.x = v.yyyy.x; return v.xxyy; }
-//error 5.5 sets mixed | mixes the names
+//error 5.5 sets mixed | mixes the component names
 vec2 f(vec4 v) { return v.xg; }
 //error 5.5 component missing | has no component `.z`
 float f(vec2 v) { return v.z; }
@@ -76,9 +76,9 @@ float f(vec2 v) { return v.m; }
 vec4 f(vec4 v) { return v.xyzwx; }
 //error 5.5 component of a scalar | has no `.x`
 float f(float x) { return x.x; }
-//error 5.5 swizzle assigned twice | names a component twice
+//error 5.5 swizzle assigned twice | has a component twice
 void f(vec4 v) { v.xx = vec2(1); }
-//error 5.5 swizzle with repetition as out argument | names a component twice
+//error 5.5 swizzle with repetition as out argument | has a component twice
 void g(out vec2 v) { v = vec2(1); } void f(vec4 v) { g(v.xx); }
 //ok 5.5 swizzle as out argument
 void g(out vec2 v) { v = vec2(1); } void f(vec4 v) { g(v.zx); }
@@ -86,9 +86,9 @@ void g(out vec2 v) { v = vec2(1); } void f(vec4 v) { g(v.zx); }
 float f(mat2 m) { return m.x; }
 //ok 5.8 assignments
 void f(int i, uint u, float x, vec3 v, mat3 m) { i += 1; i -= 1; i *= 2; i /= 2; i %= 3; i <<= 1; i >>= 1u; i &= 1; i |= 2; i ^= 3; u <<= 1; x *= 2.0; v *= 2.0; v *= m; v += v; m *= m; m *= 2.0; m += m; v = v * 2.0; }
-//error 5.8 compound that changes the type | does not fit into a `float`
+//error 5.8 compound that changes the type | cannot be stored in a `float`
 void f(float x, vec3 v) { x *= v; }
-//error 5.8 matrix product that changes the type | does not fit into a `vec2`
+//error 5.8 matrix product that changes the type | cannot be stored in a `vec2`
 void f(vec2 v, mat3x2 m) { v *= m; }
 //error 5.8 literal assigned | a constant cannot be assigned
 void f() { 1 = 2; }
@@ -174,7 +174,7 @@ bool f(int a) { return !a; }
 bvec2 f(bvec2 a) { return !a; }
 //ok 5.9 ternary
 vec3 f(bool b, vec3 v) { return b ? v : v.zyx; }
-//error 5.9 ternary of two types | must have one type
+//error 5.9 ternary of two types | must have the same type
 float f(bool b) { return b ? 1.0 : 2; }
 //error 5.9 ternary on an int | must be a `bool`
 float f(int i) { return i ? 1.0 : 2.0; }

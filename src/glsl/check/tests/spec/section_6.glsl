@@ -2,7 +2,7 @@
 float f(float); float f(vec2 x); float f(float x) { return x; } float f(vec2 x) { return x.x; } float g(float, int i) { return f(1.0) + f(vec2(1)); }
 //ok 6.1 prototype twice
 float f(); float f(); float f() { return 1.0; }
-//error 6.1 two bodies | has a body already
+//error 6.1 two bodies | already has a body
 float f() { return 1.0; } float f() { return 2.0; }
 //error 6.1 only the result differs | was declared to return
 float f() { return 1.0; } int f() { return 2; }
@@ -34,11 +34,11 @@ void f(float a, void b) { }
 void f(float a, float a) { }
 //error 6.1 struct in a parameter list | cannot be defined in a parameter list
 void f(struct S { float a; } s) { }
-//error 6.1 qualified result | cannot stand on a function's result
+//error 6.1 qualified result | is not allowed on a function's result
 const float f() { return 1.0; }
 //ok 6.1 precision of a result
 highp float f() { return 1.0; }
-//error 6.1 main | has `main` already
+//error 6.1 main | already has `main`
 void main() { }
 //error 6.1.1 int for float | argument 1 of `f` must be a `float`
 void f(float x) { } void g() { f(1); }
@@ -70,7 +70,7 @@ void f(const float x) { x = 1.0; }
 float f(float x) { x *= 2.0; return x; }
 //error 6.1 recursion | calls itself
 float f(float x) { return x > 0.0 ? f(x - 1.0) : 0.0; }
-//error 6.1 mutual recursion | in a circle
+//error 6.1 mutual recursion | recursively
 float f(float x); float g(float x) { return f(x); } float f(float x) { return g(x); }
 //ok 6.2 conditions
 void f(int i) { if (i > 0) { } else if (i < 0) ; else { } }
@@ -94,9 +94,9 @@ void f(int i) { switch (i) { case 0u: break; } }
 void f(int i) { switch (i) { case 0.0: break; } }
 //error 6.2 label not constant | must be a constant expression
 void f(int i, int j) { switch (i) { case j: break; } }
-//error 6.2 label twice | a `case 1` already
+//error 6.2 label twice | already has a `case 1`
 void f(int i) { switch (i) { case 1: break; case 2 - 1: break; } }
-//error 6.2 default twice | a `default:` already
+//error 6.2 default twice | already has a `default:`
 void f(int i) { switch (i) { default: break; default: break; } }
 //error 6.2 statement before the first label | before the first `case`
 void f(int i) { switch (i) { i++; case 0: break; } }

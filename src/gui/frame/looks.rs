@@ -1,0 +1,123 @@
+//! Places of widgets: they keep to their order and grid, and what there is no room for can still be reached.
+
+use super::harness::{Stage, choose, click, open, press};
+use crate::{
+    gui::theme::{DARK, LIGHT},
+    session::Command,
+};
+use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
+
+fn place(stage: &Stage, name: &str) -> egui::Rect {
+    stage.state().shell.place(name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn what_is_chosen_shares_no_colour_with_what_is_wanted_first() {
+    let is_blue = |c: egui::Color32| i32::from(c.b()) - i32::from(c.r()) > 40;
+    for p in [DARK, LIGHT] {
+        assert!(is_blue(p.accent_fill) && is_blue(p.accent) && !is_blue(p.chosen), "{:?}", p.chosen);
+        let differs = |a: egui::Color32, b: egui::Color32| u16::from(a.g().abs_diff(b.g())) >= 12;
+        assert!(differs(p.chosen, p.button) && differs(p.chosen, p.button_hovered));
+    }
+}
+
+#[test]
+fn the_gallery_keeps_to_one_grid() {
+    for width in [700.0, 1100.0, 1366.0, 1900.0] {
+        let Some(mut stage) = open(true) else { return };
+        stage.set_size(vec2(width, 720.0));
+        stage.run_steps(4);
+        let right = |name: &str| place(&stage, name).right();
+        let cards = stage.state().shell.places().filter(|(name, _)| name.starts_with("preset:"));
+        let edge = cards.map(|(_, rect)| rect.right()).fold(0.0, f32::max);
+        let tiles = ["gallery:new", "gallery:paste", "gallery:open-file", "gallery:open"].map(right);
+        let last = tiles.into_iter().fold(0.0, f32::max);
+        assert!((last - edge).abs() < 1.5, "{width}: {last} and {edge}");
+    }
+}
+
+#[test]
+fn the_resolution_is_reached_in_a_small_window() {
+    let Some(mut stage) = open(false) else { return };
+    stage.set_size(vec2(900.0, 600.0));
+    stage.run_steps(4);
+    assert!(stage.state().shell.place("combo:size").is_none(), "there is room for it: take a smaller window");
+    click(&mut stage, "button:options");
+    assert!(place(&stage, "options:resolution").width() > 60.0);
+    stage.set_size(vec2(1366.0, 800.0));
+    stage.run_steps(4);
+    assert!(place(&stage, "combo:size").width() > 60.0);
+}
+
+#[test]
+fn a_hand_finds_the_way_out_of_code_over_picture() {
+    let Some(mut stage) = open(false) else { return };
+    press(&mut stage, Modifiers::NONE, Key::F9);
+    stage.run_steps(2);
+    assert!(
+        stage.state().shell.place("button:view").is_none()
+            && stage.state().shell.place("button:leave-present").is_none()
+    );
+    stage.hover_at(egui::pos2(1060.0, 20.0));
+    stage.run_steps(2);
+    click(&mut stage, "button:leave-present");
+    assert!(stage.state().shell.place("button:view").is_some());
+}
+
+#[test]
+fn a_number_is_typed_in_a_field_that_holds_it() {
+    let Some(mut stage) = open(false) else { return };
+    for name in ["uniform:value:red", "uniform:value:wide.x"] {
+        click(&mut stage, name);
+        let cell = place(&stage, name);
+        let focused = stage.ctx.memory(|m| m.focused()).and_then(|id| stage.ctx.read_response(id));
+        let field = focused.unwrap_or_else(|| panic!("nothing is edited at {name}")).rect;
+        assert!(field.width() > 0.8 * cell.width() - 4.0, "{name}: {field:?} of {cell:?}");
+        press(&mut stage, Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
+fn tabs_follow_the_drawing_order_scroll_by_the_wheel_and_bring_the_current_one_in_sight() {
+    let Some(mut stage) = open(false) else { return };
+    for _ in 0..14 {
+        choose(&mut stage, "add buffer");
+    }
+    let order: Vec<String> = stage.state().session.project().passes.iter().map(|pass| pass.id.title()).collect();
+    let tabs: Vec<String> = stage.state().session.tabs().iter().map(|tab| tab.title()).collect();
+    assert_eq!(tabs, order);
+    stage.run_steps(4);
+    let left = place(&stage, "code").left() - 1.0;
+    let is_seen = |stage: &Stage, name: &str| {
+        let tab = place(stage, name);
+        tab.left() >= left && tab.right() < place(stage, "button:add-tab").left() + 1.0
+    };
+    let (front, _) = stage.state().shell.caret();
+    assert!(is_seen(&stage, &format!("tab:{}", front.title())), "{front:?} is in sight");
+    assert!(!is_seen(&stage, "tab:Buffer A"));
+    let over = place(&stage, "button:add-tab").center() - vec2(80.0, 0.0);
+    for _ in 0..30 {
+        stage.hover_at(over);
+        stage.event(egui::Event::MouseWheel {
+            unit: MouseWheelUnit::Line,
+            delta: vec2(0.0, 4.0),
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+            source: egui::MouseWheelSource::Wheel,
+        });
+        stage.run_steps(2);
+    }
+    assert!(is_seen(&stage, "tab:Buffer A"), "{:?}", place(&stage, "tab:Buffer A"));
+}
+
+#[test]
+fn a_pass_is_added_without_a_window_over_the_picture() {
+    let Some(mut stage) = open(false) else { return };
+    stage.state_mut().session.apply(Command::Pause);
+    click(&mut stage, "button:add-tab");
+    assert!(stage.state().shell.place("add:Cube A").is_none(), "it cannot be drawn");
+    click(&mut stage, "add:Buffer B");
+    stage.run_steps(3);
+    assert_eq!(stage.state().shell.caret().0.title(), "Buffer B");
+    assert!(stage.state().shell.place("passes").is_none());
+}
