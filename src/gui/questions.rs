@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{Answer, Command, DiffLine, Question, Recovered, Session, Then},
+    session::{self, Answer, Command, DiffLine, Question, Recovered, Session, Then},
 };
 use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use std::path::{Path, PathBuf};
@@ -33,19 +33,25 @@ pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
 
 /// A row of buttons: the first has the colour and Enter, the last is the safe way out and has Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
+    answers_with_usual(ui, list, 0, out);
+}
+
+/// The same, with the colour and Enter at the one of this index: what destroys something is never pressed by a key that
+/// was meant for something else.
+fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut Outbox) {
     let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         for (i, (label, answer)) in list.iter().enumerate() {
             let text = RichText::new(*label);
-            let button = if i == 0 {
+            let button = if i == usual {
                 egui::Button::new(text.color(theme::of(ui).strong)).fill(theme::of(ui).accent_fill)
             } else {
                 egui::Button::new(text)
             };
             let response = ui.add(button.min_size(vec2(84.0, 28.0)));
-            // Enter presses the first, unless another one was gone to.
-            if i == 0 && takes_keys && ui.memory(|m| m.focused().is_none()) {
+            // Enter presses the usual one, unless another one was gone to.
+            if i == usual && takes_keys && ui.memory(|m| m.focused().is_none()) {
                 response.request_focus();
             }
             if out.clicked(&format!("answer:{}", name_of(answer)), &response) {
@@ -98,22 +104,28 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut 
         Then::Recover(_) => "when the recovered work takes their place",
         Then::Close => "when the window closes",
     };
-    let list: Vec<String> = tabs.iter().map(Tab::title).collect();
-    let list = if list.is_empty() { "channels or passes".into() } else { list.join(", ") };
-    ui.label(format!("Not saved yet: {list}. The changes are lost {what}, unless you save them."));
+    let mut list: Vec<String> = tabs.iter().map(Tab::title).collect();
+    list.extend(session.unsaved_parts().into_iter().map(str::to_owned));
+    ui.label(format!("Not saved yet: {}. The changes are lost {what}, unless you save them.", list.join(", ")));
     let answers_ = [("Save", Answer::Save), ("Discard", Answer::Discard), ("Cancel", Answer::Cancel)];
     answers(ui, &answers_, out);
 }
 
 fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
-    ui.heading("Replace files?");
-    ui.label(format!("{} holds a project already. These files would be replaced:", folder.display()));
+    let count = files.len();
+    ui.heading(if count == 1 { "Replace a file?".into() } else { format!("Replace {count} files?") });
+    ui.label(format!("{} holds files that are not of this project. Saving replaces:", folder.display()));
     ScrollArea::vertical().max_height(160.0).show(ui, |ui| {
         for file in files {
-            ui.monospace(file.strip_prefix(folder).unwrap_or(file).display().to_string());
+            // A project of one file is saved to that file.
+            let name = file.strip_prefix(folder).ok().filter(|name| *name != Path::new(""));
+            let name = name.or(file.file_name().map(Path::new)).unwrap_or(file).display().to_string();
+            let row = ui.monospace(&name);
+            out.place(format!("replaces:{name}"), row.rect);
         }
     });
-    answers(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], out);
+    ui.label(format!("What is replaced is kept for {} days.", session::KEPT_DAYS));
+    answers_with_usual(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
 }
 
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {

@@ -6,6 +6,7 @@ use super::{
     command::{Answer, Command, Question, Request, Then},
     documents::Documents,
     recent::RecentProject,
+    recovery::{KEPT_DAYS, place_for_replaced},
     template,
     view::{Level, TabDiagnostic},
 };
@@ -37,7 +38,7 @@ impl Session {
             Command::Save => {
                 self.save();
             }
-            Command::SaveAs(folder) => self.save_as(&folder, Overwrite::Refuse),
+            Command::SaveAs(folder) => self.save_as(&folder, &[]),
             _ => self.dialog.after_save = None,
         }
     }
@@ -180,8 +181,8 @@ impl Session {
                 true
             }
             // A pass that was added here has the name of a file that is not this project's.
-            Err(ProjectError::WouldOverwrite { path }) => {
-                self.ask(Question::Overwrite { folder: home, files: vec![path] });
+            Err(ProjectError::WouldOverwrite { paths }) => {
+                self.ask(Question::Overwrite { folder: home, files: paths });
                 false
             }
             Err(e @ ProjectError::CannotHold { .. }) => {
@@ -206,7 +207,8 @@ impl Session {
         may
     }
 
-    fn save_as(&mut self, folder: &Path, overwrite: Overwrite) {
+    /// `replaced`: the foreign files that the user lets it replace.
+    fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
         // Typed by hand, it may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
@@ -219,18 +221,32 @@ impl Session {
         if !is_same_place(&project.origin, folder) {
             project.name = project::name_at(folder);
         }
-        match project::save(&project, folder, overwrite) {
-            Ok(saved) => {
+        match save_over(&project, folder, replaced, self.options.recovery.as_deref()) {
+            Ok((saved, kept)) => {
                 self.saved(saved);
+                if let Some(kept) = kept {
+                    self.tell_of_kept(replaced.len(), kept);
+                }
                 // Pictures are read from the new place, and the compile's texts have new names.
                 self.disk.opened += 1;
                 self.compile_soon();
                 self.finish_save();
             }
-            Err(ProjectError::WouldOverwrite { path }) => {
-                self.ask(Question::Overwrite { folder: folder.to_owned(), files: vec![path] });
+            Err(ProjectError::WouldOverwrite { paths }) => {
+                self.ask(Question::Overwrite { folder: folder.to_owned(), files: paths });
             }
             Err(e) => self.save_failed(&e),
+        }
+    }
+
+    /// Says where the files are that a save has replaced.
+    fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
+        let files =
+            if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
+        let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
+        self.notice(Level::Info, format!("{files} kept in {}{time}", kept.display()));
+        if let Some(notice) = self.notices.last_mut() {
+            notice.path = Some(kept);
         }
     }
 
@@ -272,7 +288,7 @@ impl Session {
                 }
             }
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
-            (Question::Overwrite { folder, .. }, Answer::Overwrite) => self.save_as(&folder, Overwrite::Allow),
+            (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was put.
@@ -342,6 +358,24 @@ impl Session {
         for d in diagnostics {
             self.notice(Level::Warning, crate::diag::render(d, sources).trim_end());
         }
+    }
+}
+
+/// Saves a project over the files that the user has been shown, and over no others that are not its own. What is
+/// replaced is kept in the folder that comes back.
+fn save_over(
+    project: &Project,
+    target: &Path,
+    shown: &[PathBuf],
+    recovery: Option<&Path>,
+) -> Result<(Project, Option<PathBuf>), ProjectError> {
+    match project::save(project, target, Overwrite::Refuse) {
+        Err(ProjectError::WouldOverwrite { paths }) if paths.iter().all(|path| shown.contains(path)) => {
+            let kept = place_for_replaced(recovery, target);
+            let saved = project::save(project, target, Overwrite::KeepIn(&kept))?;
+            Ok((saved, Some(kept)))
+        }
+        other => other.map(|saved| (saved, None)),
     }
 }
 

@@ -77,7 +77,7 @@ pub use costs::{PassCosts, TimedPass};
 pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;
 pub use recent::RecentProject;
-pub use recovery::folder as recovery_folder;
+pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{

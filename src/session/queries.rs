@@ -107,6 +107,11 @@ impl Session {
         self.documents.is_dirty()
     }
 
+    /// Returns what differs from what is on disk besides texts, in a person's words.
+    pub fn unsaved_parts(&self) -> Vec<&'static str> {
+        self.documents.dirty_parts()
+    }
+
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
         &self.compile.diagnostics

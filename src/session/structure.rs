@@ -17,6 +17,26 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
         && *custom_uniform_values == b.custom_uniform_values
 }
 
+/// Returns what two projects differ in besides their texts, in a person's words; nothing where [`is_same`] holds.
+pub(super) fn differing(a: &Project, b: &Project) -> Vec<&'static str> {
+    let Project { name, info, common, passes, sampler_rules, groups, custom_uniform_values, includes: _, origin: _ } =
+        a;
+    let has_passes = common.is_some() == b.common.is_some() && is_each(passes, &b.passes, |a, b| a.id == b.id);
+    let of_each = |is_same: fn(&Pass, &Pass) -> bool| {
+        passes.iter().all(|pass| b.pass(&pass.id).is_none_or(|other| is_same(pass, other)))
+    };
+    let has_settings = of_each(|a, b| is_same_setting(&a.settings, &b.settings)) && *groups == b.groups;
+    let has_channels = of_each(|a, b| a.channels == b.channels) && *sampler_rules == b.sampler_rules;
+    let parts = [
+        (*name == b.name && *info == b.info, "name and description"),
+        (has_passes, "which passes there are"),
+        (has_channels, "channels"),
+        (has_settings, "settings of passes"),
+        (*custom_uniform_values == b.custom_uniform_values, "sliders"),
+    ];
+    parts.into_iter().filter(|(is_same, _)| !is_same).map(|(_, part)| part).collect()
+}
+
 /// Returns whether two projects of one structure have the same texts.
 pub(super) fn has_same_texts(a: &Project, b: &Project) -> bool {
     a.tab_sources().map(|s| &s.text).eq(b.tab_sources().map(|s| &s.text))

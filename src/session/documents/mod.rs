@@ -108,6 +108,11 @@ impl Documents {
         !structure::is_same(&self.current, &self.saved)
     }
 
+    /// The same in a person's words; nothing where they do not differ.
+    pub fn dirty_parts(&self) -> Vec<&'static str> {
+        structure::differing(&self.current, &self.saved)
+    }
+
     /// The tab's file is known to be gone from disk.
     pub fn is_missing(&self, tab: &Tab) -> bool {
         self.missing.contains(tab)
