@@ -37,11 +37,12 @@ impl Session {
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let reads = self.due_reads(frame.is_some());
-            if frame.is_none() && reads.is_empty() && self.drawing.wanted.is_empty() {
+            let again = frame.is_none() && self.take_again();
+            let reads = self.due_reads(frame.is_some() || again);
+            if frame.is_none() && !again && reads.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, reads);
+            self.hand_in(frame, again, reads);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -66,13 +67,34 @@ impl Session {
                 return None;
             }
             self.run.clock.running_frame(self.now)
-        } else if self.run.is_frame_due {
+        } else if self.run.is_frame_due || (self.run.is_again_due && self.run.clock.next_frame_number() == 0) {
             self.run.clock.forced_frame()
         } else {
             return None;
         };
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         Some(self.inputs(time))
+    }
+
+    /// The frame that is shown is to be drawn again now, once: no other is due.
+    fn take_again(&mut self) -> bool {
+        let wanted = &self.drawing.wanted;
+        let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
+        let is_ready = self.drawing.has_program() && !is_other_coming && self.halting.halt.is_none();
+        is_ready && self.is_time_still() && std::mem::take(&mut self.run.is_again_due)
+    }
+
+    /// Nothing but what is done to the project or the window changes the picture.
+    fn is_time_still(&self) -> bool {
+        let is_running = self.run.clock.is_playing() && !self.run.is_covered;
+        !is_running && !self.run.seeking.is_seeking() && self.run.clock.next_frame_number() > 0
+    }
+
+    /// A change of the program or the canvas is followed by the frame that is shown, and by no other.
+    fn stays(&self) -> bool {
+        let wanted = &self.drawing.wanted;
+        let begins_anew = wanted.restart || wanted.reset || self.compile.reset_when_built || self.draws_all_anew();
+        self.is_time_still() && !begins_anew
     }
 
     fn inputs(&mut self, time: FrameTime) -> FrameInputs {
@@ -90,11 +112,15 @@ impl Session {
         inputs
     }
 
-    fn hand_in(&mut self, frame: Option<FrameInputs>, reads: Reads) {
-        self.note_job(frame.as_ref());
+    /// `again`: the frame that is shown is drawn again.
+    fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
+        self.note_job(frame.as_ref(), again);
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
+        } else if again {
+            self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
         }
+        let stays = self.stays();
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
@@ -102,7 +128,7 @@ impl Session {
             self.mark_new_code();
         }
         self.drawing.submit(self.now, may_wait, |job: &mut Job| {
-            (job.frame, job.reads) = (frame, reads);
+            (job.frame, job.stays, job.again, job.reads) = (frame, stays, again, reads);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
     }
@@ -133,6 +159,9 @@ impl Session {
             self.stop_drawing(&e);
             return false;
         }
+        if done.is_again_lost {
+            self.again_is_lost();
+        }
         let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
         if let Some(travelled) = done.travelled {
             self.travelled(travelled);
@@ -157,7 +186,7 @@ impl Session {
         }
         match done.resized {
             Some((_, Ok(()))) => {
-                self.run.is_frame_due |= !has_frame;
+                self.run.is_again_due |= !has_frame;
                 self.changed = true;
             }
             Some((size, Err(e))) => self.size_refused(size, &e),
@@ -185,7 +214,7 @@ impl Session {
             None if has_frame => self.tracing.drew(),
             None => {}
         }
-        self.run.is_frame_due |= done.custom_uniforms_changed && !has_frame;
+        self.run.is_again_due |= done.custom_uniforms_changed && !has_frame;
         self.changed |= self.run.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
@@ -291,6 +320,15 @@ impl Session {
         }
     }
 
+    /// The frame that is shown cannot be drawn again: the next one shows what has changed.
+    fn again_is_lost(&mut self) {
+        self.run.is_frame_due = true;
+        if self.has_state() {
+            let text = "the buffers are too large to be kept: a change while paused draws one frame more";
+            self.notice_once(Level::Info, text);
+        }
+    }
+
     fn frame_is_drawn(&mut self, frame: DrawnFrame) {
         let DrawnFrame { cpu_micros, times, took } = frame;
         self.run.cpu_micros = cpu_micros;
@@ -310,7 +348,7 @@ impl Session {
 
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.run.is_frame_due = true;
+        self.run.is_again_due = true;
         self.run.is_program_new = true;
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
@@ -336,7 +374,7 @@ impl Session {
             return;
         }
         self.run.clock.pause();
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         if !is_lost {
             self.notice(Level::Error, format!("{error}; the picture is paused"));
         } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
@@ -373,7 +411,7 @@ impl Session {
         });
         if !self.drawing.is_apart() {
             let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, Reads { captures, ..Reads::default() });
+            self.hand_in(None, false, Reads { captures, ..Reads::default() });
             self.take_drawn(false);
         }
     }

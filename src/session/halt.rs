@@ -167,7 +167,7 @@ impl Session {
         let Some(halt) = self.halting.halt.take() else { return };
         self.changed = true;
         match halt {
-            Halt::Forecast { .. } => self.run.is_frame_due = true,
+            Halt::Forecast { .. } => self.run.is_again_due = true,
             Halt::Opened { .. } => self.compile.state.compiling = self.is_compile_under_way(),
             Halt::Drawing { .. } | Halt::Drawn { .. } => {}
         }

@@ -44,10 +44,10 @@ impl Session {
     }
 
     /// Takes down a job before it is handed in.
-    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>) {
+    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
         let size = self.drawing.wanted.size.unwrap_or_else(|| self.drawing.coming_size());
         if let Some(recorder) = &mut self.run.recorder {
-            recorder.note(&self.drawing.wanted, size, frame);
+            recorder.note(&self.drawing.wanted, size, frame, again);
         }
     }
 }

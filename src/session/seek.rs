@@ -101,7 +101,7 @@ impl Session {
     /// The engine shows another frame of the run, or cannot.
     pub(super) fn travelled(&mut self, travelled: Option<Result<Travelled, EngineError>>) {
         self.changed = true;
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         let is_wanted = std::mem::take(&mut self.run.seeking.is_under_way);
         match travelled {
             Some(Ok(Travelled { inputs, goal, left, is_display_new: _ })) => {
@@ -155,7 +155,7 @@ impl Session {
     /// A new program draws: by the same inputs up to the same frame, where that is asked for.
     pub(super) fn keep_inputs(&mut self) {
         let reach = self.drawing.reach();
-        if !self.run.seeking.keeps_inputs || reach.shown == 0 || !self.has_state() {
+        if !self.keeps_inputs_of(reach) {
             return;
         }
         if !reach.is_whole {
@@ -168,12 +168,22 @@ impl Session {
         let resumes = self.is_playing();
         self.run.seeking.cancel();
         self.run.clock.pause();
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         self.run.seeking.goal = Some(Goal::Anew(reach.shown));
         self.run.seeking.resumes = resumes;
     }
 
-    fn has_state(&self) -> bool {
+    fn keeps_inputs_of(&self, reach: Reach) -> bool {
+        self.run.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
+    }
+
+    /// A program that is coming draws all frames since the reset.
+    pub(super) fn draws_all_anew(&self) -> bool {
+        let reach = self.drawing.reach();
+        self.drawing.wanted.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+    }
+
+    pub(super) fn has_state(&self) -> bool {
         // A project that was opened paused has no program yet.
         let project = self.drawing.project().unwrap_or_else(|| self.documents.current());
         !project.stateful_passes().is_empty()

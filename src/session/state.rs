@@ -161,6 +161,8 @@ pub(super) struct Run {
     pub shown: PassId,
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
+    /// The frame that is shown must be drawn again: the code, the canvas or a value is another than it was drawn with.
+    pub is_again_due: bool,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
@@ -255,6 +257,7 @@ impl Session {
                 keyboard: Keyboard::default(),
                 shown: PassId::Image,
                 is_frame_due: false,
+                is_again_due: false,
                 is_program_new: false,
                 is_picture_new: false,
                 waits_for_painting: false,
@@ -303,6 +306,13 @@ impl Session {
     /// Takes the oldest thing that the front end is asked to do.
     pub fn take_request(&mut self) -> Option<Request> {
         self.dialog.requests.pop_front()
+    }
+
+    /// Says something unless it stands there already.
+    pub(super) fn notice_once(&mut self, level: Level, text: &str) {
+        if self.notices.iter().all(|notice| notice.text != text) {
+            self.notice(level, text);
+        }
     }
 
     pub(super) fn notice(&mut self, level: Level, text: impl Into<String>) {

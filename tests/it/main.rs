@@ -50,6 +50,7 @@ mod layers;
 mod long_arrays;
 mod pass_edits;
 mod passes;
+mod paused;
 mod preset_bloom;
 mod preset_filters;
 mod preset_flows;

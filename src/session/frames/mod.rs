@@ -276,10 +276,7 @@ impl Session {
 
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
     pub fn tell_of(&mut self, error: &GpuError) {
-        let text = error.to_string();
-        if self.notices.iter().all(|n| n.text != text) {
-            self.notice(Level::Error, text);
-        }
+        self.notice_once(Level::Error, &error.to_string());
     }
 }
 

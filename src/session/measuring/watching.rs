@@ -130,6 +130,12 @@ impl Measuring {
         self.frame = Some(frame);
     }
 
+    /// The frame that is shown is drawn again: what was measured of it is measured anew.
+    pub fn draw_again(&mut self, frame: i32) {
+        self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
+        self.is_due = true;
+    }
+
     /// A frame of the run is shown again; what lies ahead may come otherwise.
     pub fn go_to(&mut self, frame: i32) {
         let is_far = self.frame.is_none_or(|before| frame > before.saturating_add(1));
