@@ -9,7 +9,7 @@ use super::{
     nonfinite::SearchJob,
     parting::PartingJob,
     tracing::{self, Taken},
-    view::Level,
+    view::{About, Level},
 };
 use crate::{
     engine::{EngineError, FrameInputs, Pixels},
@@ -186,6 +186,7 @@ impl Session {
         }
         match done.resized {
             Some((_, Ok(()))) => {
+                self.settled(About::CanvasSize);
                 self.run.is_again_due |= !has_frame;
                 self.changed = true;
             }
@@ -325,18 +326,23 @@ impl Session {
         self.run.is_frame_due = true;
         if self.has_state() {
             let text = "the buffers are too large to be kept: a change while paused draws one frame more";
-            self.notice_once(Level::Info, text);
+            self.notice_once(About::Again, Level::Info, text);
         }
     }
 
     fn frame_is_drawn(&mut self, frame: DrawnFrame) {
         let DrawnFrame { cpu_micros, times, took } = frame;
+        self.picture_is_other();
+        self.settled(About::Drawing);
         self.run.cpu_micros = cpu_micros;
         if let Some(times) = times {
             self.run.costs.add(times, self.drawing.clock());
         }
         if std::mem::take(&mut self.run.is_program_new) {
-            self.programs_drawn += u64::from(self.drawing.is_newest_program());
+            if self.drawing.is_newest_program() {
+                self.programs_drawn += 1;
+                self.settled_by_edit();
+            }
         }
         if self.run.clock.is_playing() {
             self.changed |= self.run.fps.frame(self.now);
@@ -349,6 +355,7 @@ impl Session {
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
         self.run.is_again_due = true;
+        self.run.seeking.awaits_program = false;
         self.run.is_program_new = true;
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
@@ -376,9 +383,10 @@ impl Session {
         self.run.clock.pause();
         (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         if !is_lost {
-            self.notice(Level::Error, format!("{error}; the picture is paused"));
+            self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
         } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
-            self.notice(
+            self.notice_about(
+                About::Window,
                 Level::Error,
                 format!("{error}. Your texts are all here: save them, then start Eddy again to go on drawing"),
             );
@@ -398,8 +406,9 @@ impl Session {
 
     /// Writes the shown pass to a new file, as soon as the engine has time.
     pub(super) fn capture(&mut self, format: capture::Format) {
+        self.settled(About::Capture);
         if !self.drawing.has_program() {
-            self.notice(Level::Warning, "there is no picture to save yet");
+            self.notice_about(About::Capture, Level::Warning, "there is no picture to save yet");
             return;
         }
         let project = self.documents.current();
@@ -420,18 +429,16 @@ impl Session {
         let pixels = match pixels {
             Ok(pixels) => pixels,
             Err(e) => {
-                self.notice(Level::Error, format!("no picture was saved: {e}"));
+                self.notice_about(About::Capture, Level::Error, format!("no picture was saved: {e}"));
                 return;
             }
         };
         match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
             Ok(path) => {
-                self.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.notices.last_mut() {
-                    notice.path = Some(path);
-                }
+                let text = format!("saved {}", path.display());
+                self.notice_with_path(About::Capture, Level::Info, text, path);
             }
-            Err(e) => self.notice(Level::Error, e.to_string()),
+            Err(e) => self.notice_about(About::Capture, Level::Error, e.to_string()),
         }
     }
 }

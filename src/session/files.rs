@@ -2,18 +2,15 @@
 
 use super::{
     Session, capture,
-    clock::Clock,
     command::{Answer, Command, Question, Request, Then},
     documents::Documents,
-    recent::RecentProject,
     recovery::{KEPT_DAYS, place_for_replaced},
     template,
-    view::{Level, TabDiagnostic},
+    view::{About, Level, TabDiagnostic},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    media::Keyboard,
-    project::{self, Origin, Overwrite, PassId, Project, ProjectError, Tab},
+    project::{self, Origin, Overwrite, Project, ProjectError, Tab},
 };
 use std::{
     fs,
@@ -27,7 +24,7 @@ impl Session {
             Command::Answer(answer) => self.answer(answer),
             // A front end shows nothing else while a question stands; a script may still try.
             _ if self.question().is_some() => {
-                self.notice(Level::Warning, "answer the question that stands first");
+                self.notice_about(About::Question, Level::Warning, "answer the question that stands first");
             }
             Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
             Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
@@ -62,9 +59,8 @@ impl Session {
             Then::Open(spec) => self.open(&spec),
             Then::OpenProject { project, size } => {
                 self.replace(Documents::new(*project));
-                self.canvas.refused = None;
                 if size.is_some() {
-                    (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, true);
+                    self.canvas.asked.fixed = size;
                 }
             }
             Then::New => {
@@ -83,83 +79,19 @@ impl Session {
     }
 
     fn open(&mut self, spec: &str) {
+        self.settled(About::Opening);
         match project::load(spec) {
             Ok(loaded) => {
                 self.replace(Documents::new(loaded.project));
                 self.note_reading(&loaded.warnings, &loaded.sources);
             }
-            Err(e) => self.notice(Level::Error, format!("{spec} was not opened: {e}")),
-        }
-    }
-
-    /// Another project takes the place of this one, from where its time stood when it was open last.
-    pub(super) fn replace(&mut self, documents: Documents) {
-        self.end_recording();
-        self.keep_time();
-        self.drawing.restart();
-        self.documents = documents;
-        self.safekeeping.kept = None;
-        self.compile.includes_read = self.compile.include_edits;
-        if std::mem::take(&mut self.canvas.is_fixed_by_project) {
-            self.canvas.fixed = None;
-        }
-        // Conflicts of the project that goes.
-        self.dialog.questions.retain(|q| matches!(q, Question::Recover(_)));
-        self.passes.clear();
-        self.compile.read.clear();
-        self.compile.fallback = None;
-        self.compile.diagnostics.clear();
-        self.auditing.map = None;
-        self.compile.state = super::view::CompileState::default();
-        self.disk.opened += 1;
-        self.disk.media_files.clear();
-        self.compile.reset_when_built = false;
-        self.run.steps = 0;
-        self.run.seeking.cancel();
-        self.run.seeking.range = None;
-        self.run.shown = PassId::Image;
-        self.run.mouse = super::mouse::Mouse::default();
-        self.run.keyboard = Keyboard::default();
-        self.run.clock = self.place_known().map_or_else(Clock::default, |p| Clock::at(p.time_secs, !p.paused));
-        self.run.fps.restart();
-        self.run.costs.forget();
-        self.run.miniatures.forget();
-        self.run.buffers.forget();
-        self.run.measuring.forget();
-        self.searching.want(false);
-        self.comparing.forget();
-        self.probing.want(None, self.documents.current());
-        self.tracing.want(None);
-        self.text_generation += 1;
-        self.halt_for_new_project();
-        self.disk_is_known();
-        self.compile_soon();
-    }
-
-    /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
-    fn place_known(&mut self) -> Option<RecentProject> {
-        match self.recent.opened(&self.documents.current().origin) {
-            Ok(known) => known,
-            Err(why) => {
-                self.notice(Level::Warning, why);
-                None
-            }
-        }
-    }
-
-    /// Keeps where the open project's time stands.
-    fn keep_time(&mut self) {
-        let clock = &self.run.clock;
-        // A picture that a halt has paused runs again once it is drawn fast.
-        let is_paused = !clock.is_playing() && !self.halting.resumes;
-        let kept = self.recent.left(&self.documents.current().origin, clock.time_secs(), is_paused);
-        if let Err(why) = kept {
-            log::warn!("{why}");
+            Err(e) => self.notice_about(About::Opening, Level::Error, format!("{spec} was not opened: {e}")),
         }
     }
 
     /// Writes the project where it came from. True if nothing unsaved is left.
     fn save(&mut self) -> bool {
+        self.settled(About::Saving);
         let home = match &self.project().origin {
             Origin::Folder { path, .. } | Origin::File(path) => path.clone(),
             Origin::Unsaved | Origin::Preset(_) | Origin::Json(_) => {
@@ -186,7 +118,7 @@ impl Session {
                 false
             }
             Err(e @ ProjectError::CannotHold { .. }) => {
-                self.notice(Level::Warning, e.to_string());
+                self.notice_about(About::Saving, Level::Warning, e.to_string());
                 self.request_save_as();
                 false
             }
@@ -209,6 +141,7 @@ impl Session {
 
     /// `replaced`: the foreign files that the user lets it replace.
     fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
+        self.settled(About::Saving);
         // Typed by hand, it may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
@@ -244,10 +177,8 @@ impl Session {
         let files =
             if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
         let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
-        self.notice(Level::Info, format!("{files} kept in {}{time}", kept.display()));
-        if let Some(notice) = self.notices.last_mut() {
-            notice.path = Some(kept);
-        }
+        let text = format!("{files} kept in {}{time}", kept.display());
+        self.notice_with_path(About::Saving, Level::Info, text, kept);
     }
 
     fn request_save_as(&mut self) {
@@ -257,7 +188,7 @@ impl Session {
 
     fn save_failed(&mut self, error: &ProjectError) {
         self.dialog.after_save = None;
-        self.notice(Level::Error, format!("not saved: {error}; your changes are still here"));
+        self.notice_about(About::Saving, Level::Error, format!("not saved: {error}; your changes are still here"));
     }
 
     fn saved(&mut self, project: Project) {
@@ -279,6 +210,7 @@ impl Session {
     }
 
     fn answer(&mut self, answer: Answer) {
+        self.settled(About::Question);
         let Some(question) = self.dialog.questions.pop_front() else { return };
         match (question, answer) {
             (Question::Unsaved { then, .. }, Answer::Save) => {

@@ -6,7 +6,7 @@
 use super::{
     Session, compile,
     drawing::ProgramOrigin,
-    view::{Halt, Level, TabDiagnostic},
+    view::{About, Halt, Level, TabDiagnostic},
     worker::Worker,
 };
 use std::time::{Duration, Instant};
@@ -57,7 +57,8 @@ impl Session {
             self.end_halt_of_frame();
             let what =
                 if is_good { "a fresh one draws the last good code" } else { "a fresh one waits for your next edit" };
-            self.notice(
+            self.notice_about(
+                About::Code,
                 Level::Error,
                 format!("the device did not come back from a frame within {secs} s: {what}. Your text is untouched"),
             );
@@ -109,14 +110,21 @@ impl Session {
     fn start_anew(&mut self) {
         if let Err(e) = self.drawing.start_anew(self.now) {
             self.run.is_device_lost = true;
-            self.notice(Level::Error, format!("no thread for drawing: {e}. Save your texts and start Eddy again"));
+            self.notice_about(
+                About::Window,
+                Level::Error,
+                format!("no thread for drawing: {e}. Save your texts and start Eddy again"),
+            );
             return;
         }
         let work = compile::work(self.drawing.device(), &self.options, self.compile.jobs.clone());
         match Worker::new("compile", self.wake.clone(), work) {
             // The old one may wait for the device.
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),
-            Err(e) => self.notice(Level::Error, format!("no thread for compiling: {e}. Save your texts")),
+            Err(e) => {
+                let text = format!("no thread for compiling: {e}. Save your texts");
+                self.notice_about(About::Window, Level::Error, text);
+            }
         }
         self.compile.newest_since = None;
         // Its buffers begin anew, and so must what they go by.
@@ -228,13 +236,13 @@ impl Session {
         // Half a side is a quarter of the pixels.
         let halvings = (times.max(1.0).log2() / 2.0).ceil().clamp(1.0, 6.0) as i32;
         let factor = 0.5_f64.powi(halvings);
-        match &mut self.canvas.fixed {
+        match &mut self.canvas.asked.fixed {
             Some((width, height)) => {
                 for side in [width, height] {
                     *side = ((f64::from(*side) * factor) as u32).max(1);
                 }
             }
-            None => self.canvas.scale *= factor as f32,
+            None => self.canvas.asked.scale *= factor as f32,
         }
         self.end_halt();
         if is_overdue {
@@ -323,7 +331,7 @@ impl Session {
             self.halting.marker.leave();
         }
         (self.halting.halt, self.halting.good, self.halting.allowed) = (None, None, None);
-        (self.halting.resumes, self.halting.is_new) = (false, false);
+        (self.halting.resumes, self.halting.is_new, self.halting.lost_at) = (false, false, None);
         if self.halting.marker.find(self.documents.current()) {
             self.hold_after(true);
         }

@@ -33,7 +33,9 @@ mod measures;
 pub mod measuring;
 mod miniatures;
 pub mod mouse;
+mod next_project;
 pub mod nonfinite;
+mod notices;
 pub mod npy;
 pub mod offline;
 mod options;
@@ -52,7 +54,9 @@ mod recover;
 mod recovery;
 pub mod reduction;
 mod reload;
+mod reopen;
 pub mod revision;
+mod runs;
 pub mod script;
 mod seek;
 pub mod seeking;
@@ -81,5 +85,5 @@ pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{
-    CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
+    About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
 };

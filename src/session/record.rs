@@ -1,6 +1,11 @@
 //! Records the inputs of what is drawn, and writes them to a file.
 
-use super::{Session, capture, recorder::Recorder, recording::EXTENSION, view::Level};
+use super::{
+    Session, capture,
+    recorder::Recorder,
+    recording::EXTENSION,
+    view::{About, Level},
+};
 use crate::engine::FrameInputs;
 
 impl Session {
@@ -25,7 +30,11 @@ impl Session {
         let Some(Recorder { recording, .. }) = self.run.recorder.take() else { return };
         let frames = recording.frames.len();
         if frames == 0 {
-            self.notice(Level::Warning, "no frame was drawn while the input was recorded; nothing was saved");
+            self.notice_about(
+                About::Capture,
+                Level::Warning,
+                "no frame was drawn while the input was recorded; nothing was saved",
+            );
             return;
         }
         let project = self.documents.current();
@@ -39,7 +48,7 @@ impl Session {
                     notice.path = Some(path);
                 }
             }
-            Err(error) => self.notice(Level::Error, error.to_string()),
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
         }
     }
 

@@ -8,13 +8,14 @@ use super::{
     Session,
     drawing::{Job, Travelled},
     seeking::{Goal, Reach, TimeRange},
-    view::Level,
+    view::{About, Level},
 };
 use crate::engine::EngineError;
 
 impl Session {
     /// Shows the frame that is so many before the one that is shown, and pauses.
     pub(super) fn step_back(&mut self, by: usize) {
+        self.settled(About::Seeking);
         self.override_halt();
         self.run.clock.pause();
         self.run.steps = 0;
@@ -29,6 +30,7 @@ impl Session {
 
     /// One frame further: the next one of the run, where one has gone back, else a new one.
     pub(super) fn step_forward(&mut self) {
+        self.settled(About::Seeking);
         self.override_halt();
         self.run.clock.pause();
         let before = match self.run.seeking.goal {
@@ -50,6 +52,7 @@ impl Session {
             return;
         }
         let secs = secs.max(0.0);
+        self.settled(About::Seeking);
         self.override_halt();
         // What is recorded is a run without a break.
         self.end_recording();
@@ -84,7 +87,7 @@ impl Session {
     /// Hands in the frame that is to be shown. False where there is none, or nothing to draw it.
     pub(super) fn travel(&mut self) -> bool {
         let is_ready = self.drawing.has_program() && !self.drawing.wanted.restart;
-        if self.run.seeking.goal.is_none() || self.drawing.is_program_coming() {
+        if self.run.seeking.goal.is_none() || self.drawing.is_program_coming() || self.run.seeking.awaits_program {
             return false;
         }
         let goal = self.run.seeking.goal.take();
@@ -104,7 +107,8 @@ impl Session {
         (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         let is_wanted = std::mem::take(&mut self.run.seeking.is_under_way);
         match travelled {
-            Some(Ok(Travelled { inputs, goal, left, is_display_new: _ })) => {
+            Some(Ok(Travelled { inputs, goal, left, is_display_new })) => {
+                self.picture_is_other();
                 self.run.clock.go_to(inputs.frame, inputs.time_secs);
                 if self.run.seeking.goal.is_some() || !is_wanted {
                     return;
@@ -113,6 +117,8 @@ impl Session {
                     self.run.seeking.goal = Some(Goal::Frame(goal));
                 } else {
                     self.run.measuring.go_to(inputs.frame);
+                    // On its own canvas it was another picture.
+                    self.run.is_again_due = is_display_new;
                     self.arrive();
                 }
             }
@@ -127,7 +133,7 @@ impl Session {
                         .to_owned(),
                     back => format!("that frame is out of reach: one can go back {back} frames"),
                 };
-                self.notice(Level::Warning, text);
+                self.notice_about(About::Seeking, Level::Warning, text);
             }
         }
     }

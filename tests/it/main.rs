@@ -48,6 +48,7 @@ mod lab_shapes;
 mod lab_stability;
 mod layers;
 mod long_arrays;
+mod next_project;
 mod pass_edits;
 mod passes;
 mod paused;

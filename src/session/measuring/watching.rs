@@ -96,8 +96,8 @@ impl Measuring {
     }
 
     /// Another project's comments may have the same texts.
-    pub fn forget(&mut self) {
-        (self.measures, self.read_at, self.frame) = (Vec::new(), None, None);
+    pub fn of_next_project(&self) -> Self {
+        Self { next_serial: self.next_serial, count: self.count, ..Self::default() }
     }
 
     /// Every record begins anew.

@@ -95,12 +95,17 @@ impl History {
             return Ok(true);
         }
         let Some((at, snapshot)) = self.snapshots.iter().rev().find(|(at, _)| *at <= number) else { return Ok(false) };
-        let at = *at;
-        if at < self.forgotten || !engine.restore(snapshot) {
+        let (at, snapshot) = (*at, snapshot.clone());
+        let Some(of) = self.frame(at).map(|frame| frame.size) else { return Ok(false) };
+        let canvas = engine.size();
+        engine.resize(of.0, of.1)?;
+        if !engine.restore(&snapshot) {
+            engine.resize(canvas.0, canvas.1)?;
             return Ok(false);
         }
         for frame in at..number {
             let Some(frame) = self.frame(frame).cloned() else { return Ok(false) };
+            engine.resize(frame.size.0, frame.size.1)?;
             engine.set_custom_uniforms(&frame.values);
             engine.draw(&frame.inputs)?;
         }
@@ -143,5 +148,15 @@ impl History {
     pub fn take_up(&mut self, frames: Vec<super::Frame>) {
         self.begin(true);
         self.frames = frames.into();
+    }
+
+    /// Frames are drawn on the canvas that they had, on the way to another: it gets another size once that is there.
+    /// False where that is not so.
+    pub fn resize_behind(&mut self, size: (u32, u32)) -> bool {
+        let is_on_the_way = self.canvas.is_some();
+        if is_on_the_way {
+            self.canvas = Some(size);
+        }
+        is_on_the_way
     }
 }

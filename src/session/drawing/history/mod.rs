@@ -135,9 +135,11 @@ impl History {
 
     /// The canvas has another size from the next frame on.
     pub fn resize(&mut self) {
-        // One that is to be drawn again is drawn on the new canvas.
+        // One that is to be drawn again is drawn on the new canvas. Those of a run that was taken up have their own.
         let kept = self.drawn + u64::from(self.again.rewound.is_some());
-        self.frames.truncate((kept - self.forgotten) as usize);
+        if self.drawn > 0 {
+            self.frames.truncate((kept - self.forgotten) as usize);
+        }
         self.snapshots.clear();
         (self.floor, self.canvas) = (self.drawn, None);
     }

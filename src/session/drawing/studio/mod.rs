@@ -179,16 +179,8 @@ impl Studio {
             done.restarted = Some(made.map(|studio| *self = studio));
             done.is_display_new = true;
         }
-        if let Some((width, height)) = size.filter(|size| *size != canvas) {
-            let resized = self.engine.resize(width, height);
-            if resized.is_err() && self.engine.size() != canvas {
-                // It has been rewound on another canvas.
-                let _ = self.engine.resize(canvas.0, canvas.1);
-            }
-            done.resized = Some(((width, height), resized));
-            self.history.resize();
-            self.shown = None;
-            done.is_display_new = true;
+        if let Some(size) = size {
+            self.resize(size, canvas, done);
         }
         if let Some(coming) = program {
             let tried = match tile_limit {
@@ -224,6 +216,26 @@ impl Studio {
         if let Some(frames) = run {
             self.history.take_up(frames);
         }
+    }
+
+    /// `canvas`: the size that the picture has had.
+    fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut Done) {
+        if self.history.resize_behind((width, height)) {
+            done.resized = Some(((width, height), Ok(())));
+            return;
+        }
+        if (width, height) == canvas {
+            return;
+        }
+        let resized = self.engine.resize(width, height);
+        if resized.is_err() && self.engine.size() != canvas {
+            // It has been rewound on another canvas.
+            let _ = self.engine.resize(canvas.0, canvas.1);
+        }
+        done.resized = Some(((width, height), resized));
+        self.history.resize();
+        self.shown = None;
+        done.is_display_new = true;
     }
 
     /// Draws a new program on a canvas of a few pixels, then on larger ones until the time tells something, and says
