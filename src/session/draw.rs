@@ -187,6 +187,7 @@ impl Session {
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
+                self.halting.pace.begin();
                 self.run.is_again_due |= !has_frame;
                 self.changed = true;
             }

@@ -68,7 +68,7 @@ impl Session {
     /// The next moment in which [`Session::watch_drawing`] may have something to do.
     pub(super) fn drawing_deadline(&self) -> Option<Instant> {
         let (since, limit) = (self.drawing.draws_since()?, self.halting.limit());
-        let over = since + limit;
+        let over = since + limit * self.halting.pace.patience();
         if self.halting.halt.is_none() || self.now < over {
             Some(over)
         } else if self.is_newer_wanted() {
@@ -86,7 +86,8 @@ impl Session {
     /// Returns how long the engine has been drawing, if that is too long.
     fn overdue(&self) -> Option<Duration> {
         let age = self.now.saturating_duration_since(self.drawing.draws_since()?);
-        (self.drawing.is_apart() && age >= self.halting.limit()).then_some(age)
+        let patience = self.halting.limit() * self.halting.pace.patience();
+        (self.drawing.is_apart() && age >= patience).then_some(age)
     }
 
     /// The user has something else to draw than what the engine is at.
@@ -199,6 +200,7 @@ impl Session {
 
     fn allow_more(&mut self) {
         let Some(taken) = self.frame_time() else { return };
+        self.halting.pace.begin();
         self.halting.allowed = Some((self.halting.limit() * ALLOWED_LIMITS).max(taken.saturating_mul(ALLOWED_TIMES)));
     }
 
@@ -291,6 +293,7 @@ impl Session {
             self.halting.marker.set(project);
         }
         self.halting.is_new = true;
+        self.halting.pace.begin();
     }
 
     pub(super) fn halt_for_new_program(&mut self, forecast: Option<Duration>) {
@@ -303,7 +306,7 @@ impl Session {
     /// A frame has been drawn.
     pub(super) fn frame_took(&mut self, took: Duration) {
         let limit = self.halting.limit();
-        if took > limit && self.drawing.is_apart() {
+        if self.halting.pace.is_too_slow(took, limit) && self.drawing.is_apart() {
             self.halt_with(Halt::Drawn { limit, took });
             return;
         }
@@ -332,6 +335,7 @@ impl Session {
         }
         (self.halting.halt, self.halting.good, self.halting.allowed) = (None, None, None);
         (self.halting.resumes, self.halting.is_new, self.halting.lost_at) = (false, false, None);
+        self.halting.pace.begin();
         if self.halting.marker.find(self.documents.current()) {
             self.hold_after(true);
         }

@@ -39,6 +39,7 @@ mod notices;
 pub mod npy;
 pub mod offline;
 mod options;
+mod pace;
 pub mod parting;
 mod pass_history;
 mod passes;

@@ -58,6 +58,8 @@ fn seen(session: &Session) -> String {
 /// Ticks until nothing is under way. Its time of now is no matter of the project.
 fn rest(stage: &mut Stage) {
     stage.session.apply(Command::Pause);
+    // What a panel looks at is the window's; there is none here.
+    stage.session.apply(Command::WatchTargets(Vec::new()));
     stage.until_compiled();
     stage.until("rest", |s| !s.transport().is_seeking);
     stage.session.apply(Command::Reset);
