@@ -258,10 +258,17 @@ fn the_question_of_recovered_work_stands_where_it_came() {
         window.type_text(&format!("// typed {line}"));
         window.keys(&["Return"]);
     }
+    // A second text with a short difference.
+    window.click_on("tab:Buffer A");
+    window.rect("tab:Buffer A");
+    window.click_on("editor");
+    window.keys(&["ctrl+End"]);
+    window.type_text("// typed 6");
+    window.wait_until("two unsaved texts", "dirty", |e| e["tabs"].as_array().is_some_and(|tabs| tabs.len() == 2));
     let recovery = home.path().join(".local/state/eddy/recovery");
     let is_kept = || {
         let texts = fs::read_dir(&recovery).into_iter().flatten().flatten();
-        texts.filter_map(|e| fs::read_to_string(e.path()).ok()).any(|text| text.contains("// typed 5"))
+        texts.filter_map(|e| fs::read_to_string(e.path()).ok()).any(|text| text.contains("// typed 6"))
     };
     let end = Instant::now() + Duration::from_secs(60);
     while !is_kept() {
@@ -273,6 +280,12 @@ fn the_question_of_recovered_work_stands_where_it_came() {
         let mut window = Window::open_as(&display, home.path(), Some(size), &[], &arguments);
         question(&mut window, "recover");
         window.rect("answer:recover");
+        let now = |window: &mut Window| window.rect("answer:recover");
+        let before = now(&mut window);
+        for tab in ["Buffer A", "Image", "Buffer A"] {
+            window.click_on(&format!("recovered:{tab}"));
+            assert_eq!(now(&mut window), before, "{size}: {tab}");
+        }
         let places: Vec<String> = window
             .events
             .iter()
