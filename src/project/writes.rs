@@ -157,8 +157,8 @@ fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
     copy().map_err(ProjectError::io("keep what would be replaced in", &to))
 }
 
-/// Makes a folder that its owner alone may read: files of another folder may be private.
-fn make_private(folder: &Path) -> io::Result<()> {
+/// Makes a folder that its owner alone may read, for what may be private.
+pub fn make_private(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
     #[cfg(unix)]

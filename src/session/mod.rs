@@ -63,6 +63,7 @@ mod seek;
 pub mod seeking;
 mod stamps;
 mod state;
+mod still;
 mod structure;
 mod template;
 #[cfg(test)]

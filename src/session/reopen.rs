@@ -32,15 +32,14 @@ impl Session {
 
     /// Keeps where the open project's time stands.
     pub(super) fn keep_time(&mut self) {
+        // What was left last time has not been drawn again yet: it is what is left.
+        if self.run.seeking.is_taking_up {
+            return;
+        }
         let clock = &self.run.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
         let is_paused = !self.is_playing() && !self.halting.resumes;
         let left = Left { time_secs: clock.time_secs(), frame: clock.next_frame_number() - 1, is_paused };
-        // A run that has not been drawn again yet is left as it was.
-        let waits = self.run.seeking.awaits_program;
-        if waits {
-            return;
-        }
         let origin = self.documents.current().origin.clone();
         if let Err(why) = self.recent.left(&origin, left) {
             log::warn!("{why}");
@@ -108,7 +107,7 @@ impl Session {
         let origin = &self.documents.current().origin;
         let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
         self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
-        self.run.seeking.awaits_program = true;
+        (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
     }
 }

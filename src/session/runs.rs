@@ -8,7 +8,7 @@ use super::{
     drawing::Frame,
     recording::{EXTENSION, RecordedFrame, Recording},
 };
-use crate::project::Origin;
+use crate::project::{self, Origin, limits};
 use std::{
     fs::{self, File},
     hash::{DefaultHasher, Hash, Hasher},
@@ -51,7 +51,7 @@ impl Runs {
         };
         let recording = Recording { project, frames: frames.into_iter().enumerate().map(one).collect() };
         let folder = path.parent().unwrap_or(Path::new(""));
-        fs::create_dir_all(folder)?;
+        project::make_private(folder)?;
         let new = tempfile::NamedTempFile::new_in(folder)?;
         let mut out = BufWriter::new(new);
         recording.write(&mut out)?;
@@ -74,7 +74,7 @@ impl Runs {
     pub fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
         let path = self.file(origin)?;
         let file = File::open(&path).ok()?;
-        let recording = Recording::read(BufReader::new(file))
+        let recording = Recording::read_within(BufReader::new(file), limits::RUN, limits::RUN_BYTES)
             .inspect_err(|e| log::warn!("{} is not drawn again: {e}", path.display()))
             .ok()?;
         if recording.frames.len() > LONGEST {

@@ -152,6 +152,7 @@ impl Session {
     }
 
     fn arrive(&mut self) {
+        self.run.seeking.is_taking_up = false;
         if self.run.seeking.until.is_none() && std::mem::take(&mut self.run.seeking.resumes) {
             self.run.clock.play();
             self.run.fps.restart();
