@@ -261,12 +261,12 @@ impl Session {
     }
 
     fn set_scale(&mut self, scale: f32) {
-        self.settled(About::CanvasSize);
+        self.settled(About::Scale);
         if scale.is_finite() && scale > 0.0 {
             self.ask_size(CanvasSize { scale, ..self.canvas.asked });
         } else {
             self.notice_about(
-                About::CanvasSize,
+                About::Scale,
                 Level::Error,
                 format!("a resolution scale of {scale} draws nothing; it must be above 0"),
             );
@@ -275,7 +275,6 @@ impl Session {
 
     /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
     fn ask_size(&mut self, size: CanvasSize) {
-        self.settled(About::CanvasSize);
         self.canvas.asked = size;
         if self.projects_opened == 0 {
             self.canvas.usual = size;

@@ -1,4 +1,4 @@
-//! Whether frames are too slow: one alone is no reason to stop a picture that has run well.
+//! Says whether frames are too slow: one alone is no reason to stop a picture that has run well.
 
 use std::{collections::VecDeque, time::Duration};
 

@@ -35,7 +35,7 @@ pub struct RecentProject {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
     pub time_secs: f64,
-    /// Of the frame that is shown; below 0, none is.
+    /// The number of the frame that is shown; below 0, none is.
     pub frame: i32,
     pub is_paused: bool,
 }

@@ -1,4 +1,4 @@
-//! Where the time of a project stands when it is closed and opened again.
+//! Owns where the time of a project stands when it is closed and opened again.
 //!
 //! The rule: a project without a state goes on at the time and the frame where it was. One whose passes read what the
 //! last frame left begins at frame 0, as its buffers do; where it was closed while paused, the frames that led to what

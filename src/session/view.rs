@@ -44,6 +44,8 @@ pub enum About {
     /// A frame that was not drawn.
     Drawing,
     CanvasSize,
+    /// A factor of the canvas' size that is none.
+    Scale,
     /// Files that make no whole project.
     Files,
     /// A file that is gone.

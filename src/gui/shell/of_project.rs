@@ -1,4 +1,4 @@
-//! What the window keeps of the open project, and of no other: it is made anew as a whole when another is opened.
+//! Owns what the window keeps of the open project, and of no other: it is made anew as a whole when another is opened.
 
 use crate::gui::{buffers::Buffers, compare::Compare, measures::Measurements, passes::Passes, trace::Debugger};
 use std::sync::Arc;

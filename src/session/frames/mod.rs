@@ -265,6 +265,9 @@ impl Session {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
         self.drawing.wanted.size = is_new.then_some(size);
+        if !is_new && self.canvas.refused.is_none() {
+            self.settled(About::CanvasSize);
+        }
     }
 
     /// The device does not take a size for the canvas.

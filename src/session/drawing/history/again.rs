@@ -5,38 +5,9 @@
 //! held before the frame is put back ([`History::rewind`]), the change is made, and the frame is drawn
 //! ([`History::prepare_again`]). That state is kept, for the next time.
 
-use super::{BUDGET, History};
-use crate::engine::{Engine, EngineError, FrameInputs, Snapshot};
+use super::{BUDGET, Frame, History, before::Before};
+use crate::engine::{Engine, EngineError, FrameInputs};
 use std::{sync::Arc, time::Duration};
-
-/// What the targets held before a frame, on the canvas that they had then.
-pub(super) struct Before {
-    /// The frame's number in the run.
-    number: u64,
-    size: (u32, u32),
-    snapshot: Arc<Snapshot>,
-}
-
-/// How the frame that is shown is drawn again.
-#[derive(Default)]
-pub(super) struct Again {
-    /// The targets hold what they held before this frame, which is the one that is shown.
-    pub rewound: Option<u64>,
-    before: Option<Before>,
-}
-
-impl Again {
-    /// Another program draws from now on.
-    pub fn change_program(&mut self) {
-        // Its targets may be others.
-        self.before = None;
-    }
-
-    /// A frame is drawn that was not drawn before: what follows it is another run.
-    pub fn drop_behind(&mut self, number: u64) {
-        self.before.take_if(|before| before.number > number);
-    }
-}
 
 impl History {
     /// The number of the frame that is shown.
@@ -145,7 +116,7 @@ impl History {
     }
 
     /// Takes up a run that was drawn before, by another process: its frames lie ahead of what the targets hold.
-    pub fn take_up(&mut self, frames: Vec<super::Frame>) {
+    pub fn take_up(&mut self, frames: Vec<Frame>) {
         self.begin(true);
         self.frames = frames.into();
     }

@@ -3,6 +3,7 @@
 //! before it, or from the reset that the run began with. Far back snapshots are few (`thinning`).
 
 mod again;
+mod before;
 mod thinning;
 
 use crate::{
@@ -10,7 +11,7 @@ use crate::{
     project::CustomUniformValues,
     session::seeking::{Goal, Reach},
 };
-use again::Again;
+use before::Again;
 use std::{
     collections::VecDeque,
     sync::Arc,
