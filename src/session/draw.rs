@@ -309,11 +309,9 @@ impl Session {
         if let Some(times) = times {
             self.run.costs.add(times, self.drawing.clock());
         }
-        if std::mem::take(&mut self.run.is_program_new) {
-            if self.drawing.is_newest_program() {
-                self.programs_drawn += 1;
-                self.settled_by_edit();
-            }
+        if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
+            self.programs_drawn += 1;
+            self.settled_by_edit();
         }
         if self.run.clock.is_playing() {
             self.changed |= self.run.fps.frame(self.now);
