@@ -51,7 +51,7 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
         check_directives(&project)?;
         // A JSON file may be saved over itself in an editor; nobody who exports it means that.
         if !args.force && args.out.symlink_metadata().is_ok() {
-            return Err(mend(ProjectError::WouldOverwrite { path: args.out.clone() }.into()));
+            return Err(mend(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
         save(&project, &args.out, args.force)?;
         let custom_uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|k| k.name).collect();

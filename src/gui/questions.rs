@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{Answer, Command, DiffLine, Question, Recovered, Session, Then},
+    session::{self, Answer, Command, DiffLine, Question, Recovered, Session, Then},
 };
-use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use std::path::{Path, PathBuf};
 
 /// Shows the first question there is.
@@ -33,22 +33,29 @@ pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
 
 /// A row of buttons: the first has the colour and Enter, the last is the safe way out and has Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
+    answers_with_usual(ui, list, 0, out);
+}
+
+/// The same, with the colour and Enter at the one of this index: what destroys something is never pressed by a key that
+/// was meant for something else.
+fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut Outbox) {
     let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         for (i, (label, answer)) in list.iter().enumerate() {
             let text = RichText::new(*label);
-            let button = if i == 0 {
+            let button = if i == usual {
                 egui::Button::new(text.color(theme::of(ui).strong)).fill(theme::of(ui).accent_fill)
             } else {
                 egui::Button::new(text)
             };
             let response = ui.add(button.min_size(vec2(84.0, 28.0)));
-            // Enter presses the first, unless another one was gone to.
-            if i == 0 && takes_keys && ui.memory(|m| m.focused().is_none()) {
+            // Enter presses the usual one, unless another one was gone to.
+            if i == usual && takes_keys && ui.memory(|m| m.focused().is_none()) {
                 response.request_focus();
             }
-            if out.clicked(&format!("answer:{}", name_of(answer)), &response) {
+            // A dialog that finds its place first is not seen there yet.
+            if !ui.is_sizing_pass() && out.clicked(&format!("answer:{}", name_of(answer)), &response) {
                 out.ask(Command::Answer(answer.clone()));
             }
         }
@@ -110,14 +117,22 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut 
 }
 
 fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
-    ui.heading("Replace files?");
+    let count = files.len();
+    ui.heading(if count == 1 { "Replace a file?".into() } else { format!("Replace {count} files?") });
     ui.label(format!("{} already holds a project. These files would be replaced:", folder.display()));
-    ScrollArea::vertical().max_height(160.0).show(ui, |ui| {
+    let row = ui.text_style_height(&egui::TextStyle::Monospace) + ui.spacing().item_spacing.y;
+    let place = &mut of_height(ui, (row * count as f32).min(160.0));
+    ScrollArea::vertical().auto_shrink([false, false]).show(place, |ui| {
         for file in files {
-            ui.monospace(file.strip_prefix(folder).unwrap_or(file).display().to_string());
+            // A project of one file is saved to that file.
+            let name = file.strip_prefix(folder).ok().filter(|name| *name != Path::new(""));
+            let name = name.or(file.file_name().map(Path::new)).unwrap_or(file).display().to_string();
+            let row = ui.monospace(&name);
+            out.place(format!("replaces:{name}"), row.rect);
         }
     });
-    answers(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], out);
+    ui.label(format!("What is replaced is kept for {} days.", session::KEPT_DAYS));
+    answers_with_usual(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
 }
 
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {
@@ -129,7 +144,9 @@ fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room
     );
     ui.colored_label(theme::of(ui).weak, file.display().to_string());
     ui.add_space(8.0);
-    both(ui, "Here, unsaved", "On disk", diff, room);
+    let rows = pair(diff);
+    let height = room.min(rows.len() as f32 * ROW);
+    both(ui, "Here, unsaved", "On disk", &rows, height);
     answers(ui, &[("Keep mine", Answer::KeepMine), ("Use version on disk", Answer::TakeDisk)], out);
 }
 
@@ -163,8 +180,12 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
         });
         ui.data_mut(|d| d.insert_temp(id, shown));
     }
-    if let Some(tab) = tabs.get(shown) {
-        ui.push_id((file, shown), |ui| both(ui, "Recovered", there, &tab.diff, room));
+    // As high as the longest one needs, whichever is shown: nothing moves under the pointer.
+    let all: Vec<_> = tabs.iter().map(|tab| pair(&tab.diff)).collect();
+    let longest = all.iter().map(Vec::len).max().unwrap_or(0);
+    if let Some(rows) = all.get(shown) {
+        let height = room.min(longest as f32 * ROW);
+        ui.push_id((file, shown), |ui| both(ui, "Recovered", there, rows, height));
     }
     if *is_structure_changed {
         ui.label("Passes, channels, sliders or the name were changed too.");
@@ -177,7 +198,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
 }
 
 /// Two texts side by side below what they are.
-fn both(ui: &mut Ui, left: &str, right: &str, diff: &[DiffLine], room: f32) {
+fn both(ui: &mut Ui, left: &str, right: &str, rows: &[(Row<'_>, bool)], height: f32) {
     let half = (ui.available_width() - 8.0) / 2.0;
     ui.horizontal(|ui| {
         for (text, tint) in [(left, theme::of(ui).good), (right, theme::of(ui).warning)] {
@@ -188,8 +209,11 @@ fn both(ui: &mut Ui, left: &str, right: &str, diff: &[DiffLine], room: f32) {
             });
         }
     });
-    Frame::NONE.fill(theme::of(ui).background).corner_radius(4.0).show(ui, |ui| side_by_side(ui, &pair(diff), room));
+    Frame::NONE.fill(theme::of(ui).background).corner_radius(4.0).show(ui, |ui| side_by_side(ui, rows, height));
 }
+
+/// Height of a line of the texts.
+const ROW: f32 = 17.0;
 
 /// A row of two texts side by side: mine, and the disk's. Where one has no line, the other stands alone.
 type Row<'a> = (Option<&'a str>, Option<&'a str>);
@@ -220,15 +244,15 @@ fn settle<'a>(rows: &mut Vec<(Row<'a>, bool)>, here: &mut Vec<&'a str>, disk: &m
     disk.clear();
 }
 
-/// Both texts, scrolled together, from the first difference on.
-fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], room: f32) {
-    const ROW: f32 = 17.0;
+/// Both texts, scrolled together, from the first difference on, in a place of one height.
+fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], height: f32) {
     let first = rows.iter().position(|(_, differs)| *differs).unwrap_or(0).saturating_sub(3);
     let id = ui.scope_id().with("diff");
-    let mut area = ScrollArea::vertical().id_salt(id).max_height(room).auto_shrink([false, true]);
+    let mut area = ScrollArea::vertical().id_salt(id).max_height(height).auto_shrink([false, false]);
     if ui.ctx().data_mut(|d| !std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true)) {
         area = area.vertical_scroll_offset(first as f32 * ROW);
     }
+    let ui = &mut of_height(ui, height);
     ui.spacing_mut().item_spacing.y = 0.0;
     area.show_rows(ui, ROW, rows.len(), |ui, range| {
         for ((here, disk), differs) in &rows[range] {
@@ -239,6 +263,13 @@ fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], room: f32) {
             }
         }
     });
+}
+
+/// A place of this height, whatever is in it: a list that scrolls would take what its dialog had in the frame before, and
+/// the dialog would grow from frame to frame.
+fn of_height(ui: &mut Ui, height: f32) -> Ui {
+    let (place, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    ui.new_child(UiBuilder::new().max_rect(place))
 }
 
 fn half_row(ui: &Ui, rect: Rect, text: Option<&str>, tint: Option<Color32>) {

@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     fn notice(id: u64, text: &str, level: Level) -> Notice {
-        Notice { id, level, text: text.into(), path: None, undoes: None, at: Instant::now() }
+        Notice { id, level, text: text.into(), path: None, undoes: None, at: Instant::now(), about: Default::default() }
     }
 
     #[test]

@@ -37,6 +37,10 @@ pub struct WatchedFile<T> {
     /// The text that was read last.
     text: Option<String>,
     content: T,
+    /// Says what is wrong in it, one line each.
+    mistakes: Vec<String>,
+    /// It could not be read when it was looked at last.
+    is_unreadable: bool,
 }
 
 impl<T: Content> WatchedFile<T> {
@@ -46,7 +50,7 @@ impl<T: Content> WatchedFile<T> {
     }
 
     pub(super) fn at(path: Option<PathBuf>) -> Self {
-        Self { path, text: None, content: T::default() }
+        Self { path, text: None, content: T::default(), mistakes: Vec::new(), is_unreadable: false }
     }
 
     pub fn content(&self) -> &T {
@@ -62,14 +66,25 @@ impl<T: Content> WatchedFile<T> {
         let Some(path) = &self.path else { return Vec::new() };
         let text = match read(path) {
             Ok(text) => text,
-            Err(error) => return vec![format!("{}: {error}. {}", path.display(), T::STAYS)],
+            Err(error) => {
+                self.mistakes = vec![format!("{}: {error}. {}", path.display(), T::STAYS)];
+                self.is_unreadable = true;
+                return self.mistakes.clone();
+            }
         };
-        if text == self.text {
+        if !std::mem::take(&mut self.is_unreadable) && text == self.text {
             return Vec::new();
         }
         let (content, mistakes) = text.as_deref().map(T::read).unwrap_or_default();
         (self.content, self.text) = (content, text);
-        mistakes.iter().map(|mistake| told(path, mistake)).collect()
+        self.mistakes = mistakes.iter().map(|mistake| told(path, mistake)).collect();
+        self.mistakes.clone()
+    }
+
+    /// Returns whether a text was said of the file and is true no more.
+    pub fn is_mended(&self, said: &str) -> bool {
+        let path = self.path.as_ref().map(|path| path.display().to_string());
+        path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.mistakes.iter().any(|m| m == said)
     }
 
     /// Changes the text of the file, or of the template where there is none. Err: why it stays as it was, with a

@@ -41,9 +41,9 @@ pub enum ProjectError {
     Unwritable { path: PathBuf, why: String },
     #[error("{} has more than {} files; choose a folder with only the project", path.display(), limits::FILES)]
     TooManyFiles { path: PathBuf },
-    /// Saving would replace something that is not this project's.
-    #[error("{} exists and is not part of this project; choose another place or allow overwriting", path.display())]
-    WouldOverwrite { path: PathBuf },
+    /// Saving would replace these files, all that are not this project's; at least one.
+    #[error("{}; choose another place or allow overwriting", in_the_way(paths))]
+    WouldOverwrite { paths: Vec<PathBuf> },
     /// Saving in this form would lose something.
     #[error("{} cannot store {what}; save the project to a separate folder", path.display())]
     CannotHold { path: PathBuf, what: String },
@@ -51,6 +51,13 @@ pub enum ProjectError {
 
 fn did_you_mean(near: Option<&str>) -> String {
     near.map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
+}
+
+/// Says which files are in the way, each by its name.
+fn in_the_way(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    let of_project = if names.len() == 1 { "exists and is" } else { "exist and are" };
+    format!("{} {of_project} not part of this project", super::listed(&names))
 }
 
 fn presets_listed(presets: &[String]) -> String {

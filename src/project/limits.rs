@@ -96,6 +96,9 @@ pub const RECORDING: Limit = Limit { bytes: 1 << 30, of: "a recording" };
 pub const RECORDING_LINE: Limit = Limit { bytes: 16 << 20, of: "a line of a recording" };
 /// The frames of a recording together, as Eddy holds them. A frame takes some hundred bytes, and its values.
 pub const RECORDING_BYTES: u64 = 2 << 30;
+/// The same of a project that was closed while paused, which is read when it is opened.
+pub const RUN: Limit = Limit { bytes: 64 << 20, of: "the frames that lead to where a project was left" };
+pub const RUN_BYTES: u64 = 256 << 20;
 /// The file with the results of the lab.
 pub const LAB_RESULTS: Limit = Limit { bytes: 256 << 20, of: "the lab's results" };
 

@@ -74,4 +74,4 @@ pub use save::{name_at, remove_renamed, save};
 pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
-pub use writes::{Overwrite, check_within, write_into};
+pub use writes::{Overwrite, check_within, make_private, write_into};

@@ -18,12 +18,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The rule for a file in the way that is not this project's.
+/// The rule for files in the way that are not this project's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overwrite {
+pub enum Overwrite<'a> {
     /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
     Refuse,
     Allow,
+    /// Replace them, each copied into this folder before anything is written. The folder is made where there is
+    /// something to keep, and holds nothing else.
+    KeepIn(&'a Path),
 }
 
 /// Endings of texts besides those of passes.
@@ -118,21 +121,49 @@ impl Writes {
     }
 
     /// Checks that nothing foreign is in the way and that every file stays within the folder, then writes everything.
-    pub fn write(self, overwrite: Overwrite) -> Result<(), ProjectError> {
-        let mut changed = Vec::new();
+    pub fn write(self, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
+        let (mut changed, mut foreign) = (Vec::new(), Vec::new());
         for (name, content) in self.files {
             let path = self.folder.join(&name);
             stays_within(&self.folder, &path)?;
             match atomic::compare(&path, &content)? {
                 atomic::OnDisk::Same => continue,
-                atomic::OnDisk::Different if overwrite == Overwrite::Refuse && !self.own.contains(&name) => {
-                    return Err(ProjectError::WouldOverwrite { path });
-                }
-                atomic::OnDisk::Different | atomic::OnDisk::Absent => changed.push((path, content)),
+                atomic::OnDisk::Different if !self.own.contains(&name) => foreign.push(name),
+                atomic::OnDisk::Different | atomic::OnDisk::Absent => {}
             }
+            changed.push((path, content));
+        }
+        match overwrite {
+            Overwrite::Refuse if !foreign.is_empty() => {
+                let paths = foreign.iter().map(|name| self.folder.join(name)).collect();
+                return Err(ProjectError::WouldOverwrite { paths });
+            }
+            Overwrite::KeepIn(kept) => foreign.iter().try_for_each(|name| keep(&self.folder, name, kept))?,
+            Overwrite::Refuse | Overwrite::Allow => {}
         }
         atomic::write_all(changed)
     }
+}
+
+/// Copies a file of `folder` into `kept`, under the same name. What is there already stays.
+fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
+    let (from, to) = (folder.join(name), kept.join(name));
+    let copy = || {
+        make_private(to.parent().unwrap_or(kept))?;
+        let mut new = fs::File::create_new(&to)?;
+        io::copy(&mut fs::File::open(&from)?, &mut new)?;
+        new.sync_all()
+    };
+    copy().map_err(ProjectError::io("keep what would be replaced in", &to))
+}
+
+/// Makes a folder that its owner alone may read, for what may be private.
+pub fn make_private(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)
 }
 
 /// Writes one file into a folder that the person at the machine named, whole or not at all. What lies in the folder

@@ -1,7 +1,13 @@
 //! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
 //! `files`.
 
-use super::{Session, capture, command::Command, tracing::Place, view::Level};
+use super::{
+    Session, capture,
+    command::Command,
+    state::CanvasSize,
+    tracing::Place,
+    view::{About, Level},
+};
 use crate::{
     media::Keyboard,
     project::{self, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names},
@@ -11,6 +17,7 @@ impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
         self.changed |= !is_input(&command);
+        self.command_began = self.next_notice;
         self.obey(command);
         // Not in a tick, which a slow frame may put off.
         self.keep_unsaved();
@@ -68,18 +75,16 @@ impl Session {
                 }
             }
             Command::SetScale(scale) => self.set_scale(scale),
-            Command::SetFixedSize(size) => {
-                (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, false);
-                self.canvas.refused = None;
-            }
+            Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.canvas.asked }),
             Command::SetChannel { pass, index, channel } => {
                 self.set_channel(&pass, index, channel);
             }
             Command::SetCustomUniform { name, value } => self.set_custom_uniform(&name, value),
             Command::AssignCustomUniform(assignment) => {
+                self.settled(About::CustomUniform);
                 match self.documents.current_mut().set_custom_uniform(&assignment) {
                     Ok(()) => self.custom_uniforms_turned(),
-                    Err(why) => self.notice(Level::Error, format!("not set: {why}")),
+                    Err(why) => self.notice_about(About::CustomUniform, Level::Error, format!("not set: {why}")),
                 }
             }
             Command::ResetCustomUniforms => {
@@ -108,7 +113,7 @@ impl Session {
             Command::Screenshot => self.capture(super::capture::Format::Png),
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::Record => self.record(),
-            Command::Audit => self.auditing.is_due = true,
+            Command::Audit => self.ask_audit(),
             Command::HideAudit => self.auditing.map = None,
             Command::FindParting => self.tracing.find_parting(),
             Command::ShowPass(pass) => self.show_pass(pass),
@@ -148,7 +153,7 @@ impl Session {
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
             Command::Notify { level, text, path } => {
-                self.notice(level, text);
+                self.notice_about(About::Window, level, text);
                 if let Some(notice) = self.notices.last_mut() {
                     notice.path = path;
                 }
@@ -240,19 +245,21 @@ impl Session {
     }
 
     pub(super) fn play(&mut self) {
+        self.settled(About::Seeking);
         self.override_halt();
         self.run.seeking.cancel();
         self.run.clock.play();
         self.run.fps.restart();
     }
 
-    fn pause(&mut self) {
+    pub(super) fn pause(&mut self) {
         self.halting.resumes = false;
         self.run.seeking.cancel();
         self.run.clock.pause();
     }
 
     pub(super) fn reset(&mut self) {
+        self.settled(About::Seeking);
         self.drawing.wanted.reset = true;
         self.run.seeking.cancel();
         self.run.clock.reset();
@@ -262,12 +269,21 @@ impl Session {
     }
 
     fn set_scale(&mut self, scale: f32) {
+        self.settled(About::Scale);
         if scale.is_finite() && scale > 0.0 {
-            self.canvas.scale = scale;
-            self.canvas.refused = None;
+            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
         } else {
-            self.notice(Level::Error, format!("the resolution scale must be above 0, not {scale}"));
+            self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
+    }
+
+    /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
+    fn ask_size(&mut self, size: CanvasSize) {
+        self.canvas.asked = size;
+        if self.projects_opened == 0 {
+            self.canvas.usual = size;
+        }
+        self.canvas.refused = None;
     }
 
     /// Input forces a frame while paused.

@@ -6,7 +6,7 @@
 use super::{
     Session,
     command::{Command, Then},
-    view::Level,
+    view::{About, Level},
 };
 use crate::{
     media::mesh,
@@ -20,6 +20,7 @@ const MEASURED: u64 = 48 << 20;
 impl Session {
     /// Takes a text that was pasted.
     pub(super) fn paste(&mut self, text: &str) {
+        self.settled(About::Opening);
         match project::arrival_of_text(text) {
             Ok(TextArrival::Project(loaded)) => {
                 self.tell_diagnostics(&loaded.warnings, &loaded.sources);
@@ -33,13 +34,14 @@ impl Session {
                     self.apply_to_files(Command::Open(place));
                 }
             }
-            Err(e) => self.notice(Level::Warning, format!("nothing was pasted: {e}")),
+            Err(e) => self.notice_about(About::Opening, Level::Warning, format!("nothing was pasted: {e}")),
         }
     }
 
     /// Takes files. `to`: the pass in front and the channel they were dropped on, or none where no project is shown:
     /// then a picture or a model makes a new one.
     pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassId, Option<usize>)>) {
+        self.settled(About::Opening);
         let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
         self.tell_unfit(&paths);
         let projects: Vec<&Path> = of(FileKind::Project).map(PathBuf::as_path).collect();
@@ -130,7 +132,8 @@ impl Session {
             let name = name(path);
             match project::kind_of_file(path) {
                 FileKind::SoundOrVideo => {
-                    self.notice(
+                    self.notice_about(
+                        About::Opening,
                         Level::Warning,
                         format!("{name}: Eddy does not support sound and video in channels yet"),
                     );
@@ -139,7 +142,11 @@ impl Session {
                     let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
                                  image file (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, \
                                  obj)";
-                    self.notice(Level::Warning, format!("{name} is not a file Eddy can open: {known}"));
+                    self.notice_about(
+                        About::Opening,
+                        Level::Warning,
+                        format!("{name} is not a file Eddy can open: {known}"),
+                    );
                 }
                 FileKind::Project | FileKind::Picture | FileKind::Model => {}
             }

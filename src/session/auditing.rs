@@ -72,13 +72,15 @@ pub(super) struct Auditing {
     pub is_due: bool,
     /// The pass of which it is being taken.
     taking: Option<PassId>,
-    /// Holds what is shown of the newest one.
+    /// Holds what is shown of the newest one, as long as that frame is.
     pub map: Option<AuditMap>,
+    /// The count of frames when it was taken.
+    of_frame: u64,
 }
 
 impl Auditing {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        Ok(Self { worker: Worker::new("audit", wake, told)?, is_due: false, taking: None, map: None })
+        Ok(Self { worker: Worker::new("audit", wake, told)?, is_due: false, taking: None, map: None, of_frame: 0 })
     }
 
     /// The pass whose inputs are to be taken now, if any are.
@@ -94,7 +96,20 @@ impl Auditing {
         self.taking.take()
     }
 
-    pub fn submit(&mut self, project: Project, pass: PassId, taken: Taken) {
+    /// Another project is open.
+    pub fn forget(&mut self) {
+        self.worker.forget();
+        (self.is_due, self.taking, self.map) = (false, None, None);
+    }
+
+    /// The frame that it was taken of, by the count of frames, is shown still.
+    pub fn is_of(&self, frames_drawn: u64) -> bool {
+        self.of_frame == frames_drawn
+    }
+
+    /// `frames_drawn`: the count of frames, of which this is the newest.
+    pub fn submit(&mut self, project: Project, pass: PassId, taken: Taken, frames_drawn: u64) {
+        self.of_frame = frames_drawn;
         self.worker.submit(Job { project, pass, taken });
     }
 

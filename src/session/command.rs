@@ -215,7 +215,8 @@ pub enum Question {
         /// Every line from `disk` to `mine`.
         diff: Vec<DiffLine>,
     },
-    /// The folder of a Save As already holds these files, which would be replaced. Answers: Overwrite, Cancel.
+    /// The folder of a Save As already holds these files, which would be replaced: all of them. Answers: Overwrite,
+    /// which keeps a copy of each for [`KEPT_DAYS`](super::KEPT_DAYS) days, and Cancel.
     Overwrite { folder: PathBuf, files: Vec<PathBuf> },
     /// An Eddy that ended early left unsaved work behind. Answers: Recover, Discard, Cancel, which leaves it for later.
     Recover(Box<Recovered>),

@@ -36,6 +36,11 @@ impl Costs {
         &self.newest
     }
 
+    /// Nothing is measured yet.
+    pub fn watched(is_watched: bool) -> Self {
+        Self { is_watched, ..Self::default() }
+    }
+
     /// Another program, or another project: what was measured is no longer of it.
     pub fn forget(&mut self) {
         self.newest.clear();

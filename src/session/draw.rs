@@ -9,7 +9,7 @@ use super::{
     nonfinite::SearchJob,
     parting::PartingJob,
     tracing::{self, Taken},
-    view::Level,
+    view::{About, Level},
 };
 use crate::{
     engine::{EngineError, FrameInputs, Pixels},
@@ -38,11 +38,12 @@ impl Session {
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let reads = self.due_reads(frame.is_some());
-            if frame.is_none() && reads.is_empty() && self.drawing.wanted.is_empty() {
+            let again = frame.is_none() && self.take_again();
+            let reads = self.due_reads(frame.is_some() || again);
+            if frame.is_none() && !again && reads.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, reads);
+            self.hand_in(frame, again, reads);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -67,12 +68,12 @@ impl Session {
                 return None;
             }
             self.run.clock.running_frame(self.now)
-        } else if self.run.is_frame_due {
+        } else if self.run.is_frame_due || (self.run.is_again_due && self.run.clock.next_frame_number() == 0) {
             self.run.clock.forced_frame()
         } else {
             return None;
         };
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         Some(self.inputs(time))
     }
 
@@ -91,11 +92,15 @@ impl Session {
         inputs
     }
 
-    fn hand_in(&mut self, frame: Option<FrameInputs>, reads: Reads) {
-        self.note_job(frame.as_ref());
+    /// `again`: the frame that is shown is drawn again.
+    fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
+        self.note_job(frame.as_ref(), again);
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
+        } else if again {
+            self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
         }
+        let stays = self.stays();
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
@@ -103,7 +108,7 @@ impl Session {
             self.mark_new_code();
         }
         self.drawing.submit(self.now, may_wait, |job: &mut Job| {
-            (job.frame, job.reads) = (frame, reads);
+            (job.frame, job.stays, job.again, job.reads) = (frame, stays, again, reads);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
     }
@@ -134,6 +139,9 @@ impl Session {
             self.stop_drawing(&e);
             return false;
         }
+        if done.is_again_lost {
+            self.again_is_lost();
+        }
         let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
         if let Some(travelled) = done.travelled {
             self.travelled(travelled);
@@ -158,7 +166,9 @@ impl Session {
         }
         match done.resized {
             Some((_, Ok(()))) => {
-                self.run.is_frame_due |= !has_frame;
+                self.settled(About::CanvasSize);
+                self.halting.pace.begin();
+                self.run.is_again_due |= !has_frame;
                 self.changed = true;
             }
             Some((size, Err(e))) => self.size_refused(size, &e),
@@ -186,7 +196,7 @@ impl Session {
             None if has_frame => self.tracing.drew(),
             None => {}
         }
-        self.run.is_frame_due |= done.custom_uniforms_changed && !has_frame;
+        self.run.is_again_due |= done.custom_uniforms_changed && !has_frame;
         self.changed |= self.run.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
@@ -300,12 +310,15 @@ impl Session {
 
     fn frame_is_drawn(&mut self, frame: DrawnFrame) {
         let DrawnFrame { cpu_micros, times, took } = frame;
+        self.picture_is_other();
+        self.settled(About::Drawing);
         self.run.cpu_micros = cpu_micros;
         if let Some(times) = times {
             self.run.costs.add(times, self.drawing.clock());
         }
-        if std::mem::take(&mut self.run.is_program_new) {
-            self.programs_drawn += u64::from(self.drawing.is_newest_program());
+        if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
+            self.programs_drawn += 1;
+            self.settled_by_edit();
         }
         if self.run.clock.is_playing() {
             self.changed |= self.run.fps.frame(self.now);
@@ -317,7 +330,8 @@ impl Session {
 
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.run.is_frame_due = true;
+        self.run.is_again_due = true;
+        self.run.seeking.awaits_program = false;
         self.run.is_program_new = true;
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
@@ -343,11 +357,12 @@ impl Session {
             return;
         }
         self.run.clock.pause();
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         if !is_lost {
-            self.notice(Level::Error, format!("{error}; the picture is paused"));
+            self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
         } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
-            self.notice(
+            self.notice_about(
+                About::Window,
                 Level::Error,
                 format!("{error}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
             );
@@ -367,8 +382,9 @@ impl Session {
 
     /// Writes the shown pass to a new file, as soon as the engine has time.
     pub(super) fn capture(&mut self, format: capture::Format) {
+        self.settled(About::Capture);
         if !self.drawing.has_program() {
-            self.notice(Level::Warning, "there is no picture to save yet");
+            self.notice_about(About::Capture, Level::Warning, "there is no picture to save yet");
             return;
         }
         let project = self.documents.current();
@@ -380,7 +396,7 @@ impl Session {
         });
         if !self.drawing.is_apart() {
             let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, Reads { captures, ..Reads::default() });
+            self.hand_in(None, false, Reads { captures, ..Reads::default() });
             self.take_drawn(false);
         }
     }
@@ -389,18 +405,16 @@ impl Session {
         let pixels = match pixels {
             Ok(pixels) => pixels,
             Err(e) => {
-                self.notice(Level::Error, format!("cannot save the screenshot: {e}"));
+                self.notice_about(About::Capture, Level::Error, format!("cannot save the screenshot: {e}"));
                 return;
             }
         };
         match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
             Ok(path) => {
-                self.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.notices.last_mut() {
-                    notice.path = Some(path);
-                }
+                let text = format!("saved {}", path.display());
+                self.notice_with_path(About::Capture, Level::Info, text, path);
             }
-            Err(e) => self.notice(Level::Error, e.to_string()),
+            Err(e) => self.notice_about(About::Capture, Level::Error, e.to_string()),
         }
     }
 }

@@ -2,17 +2,15 @@
 
 use super::{
     Session, capture,
-    clock::Clock,
     command::{Answer, Command, Question, Request, Then},
     documents::Documents,
-    recent::RecentProject,
+    recovery::{KEPT_DAYS, place_for_replaced},
     template,
-    view::{Level, TabDiagnostic},
+    view::{About, Level, TabDiagnostic},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    media::Keyboard,
-    project::{self, Origin, Overwrite, PassId, Project, ProjectError, Tab},
+    project::{self, Origin, Overwrite, Project, ProjectError, Tab},
 };
 use std::{
     fs,
@@ -26,7 +24,7 @@ impl Session {
             Command::Answer(answer) => self.answer(answer),
             // A front end shows nothing else while a question stands; a script may still try.
             _ if self.question().is_some() => {
-                self.notice(Level::Warning, "answer the open question first");
+                self.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
             Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
             Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
@@ -37,7 +35,7 @@ impl Session {
             Command::Save => {
                 self.save();
             }
-            Command::SaveAs(folder) => self.save_as(&folder, Overwrite::Refuse),
+            Command::SaveAs(folder) => self.save_as(&folder, &[]),
             _ => self.dialog.after_save = None,
         }
     }
@@ -61,9 +59,8 @@ impl Session {
             Then::Open(spec) => self.open(&spec),
             Then::OpenProject { project, size } => {
                 self.replace(Documents::new(*project));
-                self.canvas.refused = None;
                 if size.is_some() {
-                    (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, true);
+                    self.canvas.asked.fixed = size;
                 }
             }
             Then::New => {
@@ -82,83 +79,19 @@ impl Session {
     }
 
     fn open(&mut self, spec: &str) {
+        self.settled(About::Opening);
         match project::load(spec) {
             Ok(loaded) => {
                 self.replace(Documents::new(loaded.project));
                 self.note_reading(&loaded.warnings, &loaded.sources);
             }
-            Err(e) => self.notice(Level::Error, format!("cannot open {spec}: {e}")),
-        }
-    }
-
-    /// Another project takes the place of this one, from where its time stood when it was open last.
-    pub(super) fn replace(&mut self, documents: Documents) {
-        self.end_recording();
-        self.keep_time();
-        self.drawing.restart();
-        self.documents = documents;
-        self.safekeeping.kept = None;
-        self.compile.includes_read = self.compile.include_edits;
-        if std::mem::take(&mut self.canvas.is_fixed_by_project) {
-            self.canvas.fixed = None;
-        }
-        // Conflicts of the project that goes.
-        self.dialog.questions.retain(|q| matches!(q, Question::Recover(_)));
-        self.passes.clear();
-        self.compile.read.clear();
-        self.compile.fallback = None;
-        self.compile.diagnostics.clear();
-        self.auditing.map = None;
-        self.compile.state = super::view::CompileState::default();
-        self.disk.opened += 1;
-        self.disk.media_files.clear();
-        self.compile.reset_when_built = false;
-        self.run.steps = 0;
-        self.run.seeking.cancel();
-        self.run.seeking.range = None;
-        self.run.shown = PassId::Image;
-        self.run.mouse = super::mouse::Mouse::default();
-        self.run.keyboard = Keyboard::default();
-        self.run.clock = self.place_known().map_or_else(Clock::default, |p| Clock::at(p.time_secs, !p.paused));
-        self.run.fps.restart();
-        self.run.costs.forget();
-        self.run.miniatures.forget();
-        self.run.buffers.forget();
-        self.run.measuring.forget();
-        self.searching.want(false);
-        self.comparing.forget();
-        self.probing.want(None, self.documents.current());
-        self.tracing.want(None);
-        self.text_generation += 1;
-        self.halt_for_new_project();
-        self.disk_is_known();
-        self.compile_soon();
-    }
-
-    /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
-    fn place_known(&mut self) -> Option<RecentProject> {
-        match self.recent.opened(&self.documents.current().origin) {
-            Ok(known) => known,
-            Err(why) => {
-                self.notice(Level::Warning, why);
-                None
-            }
-        }
-    }
-
-    /// Keeps where the open project's time stands.
-    fn keep_time(&mut self) {
-        let clock = &self.run.clock;
-        // A picture that a halt has paused runs again once it is drawn fast.
-        let is_paused = !clock.is_playing() && !self.halting.resumes;
-        let kept = self.recent.left(&self.documents.current().origin, clock.time_secs(), is_paused);
-        if let Err(why) = kept {
-            log::warn!("{why}");
+            Err(e) => self.notice_about(About::Opening, Level::Error, format!("cannot open {spec}: {e}")),
         }
     }
 
     /// Writes the project where it came from. True if nothing unsaved is left.
     fn save(&mut self) -> bool {
+        self.settled(About::Saving);
         let home = match &self.project().origin {
             Origin::Folder { path, .. } | Origin::File(path) => path.clone(),
             Origin::Unsaved | Origin::Preset(_) | Origin::Json(_) => {
@@ -180,12 +113,12 @@ impl Session {
                 true
             }
             // A pass that was added here has the name of a file that is not this project's.
-            Err(ProjectError::WouldOverwrite { path }) => {
-                self.ask(Question::Overwrite { folder: home, files: vec![path] });
+            Err(ProjectError::WouldOverwrite { paths }) => {
+                self.ask(Question::Overwrite { folder: home, files: paths });
                 false
             }
             Err(e @ ProjectError::CannotHold { .. }) => {
-                self.notice(Level::Warning, e.to_string());
+                self.notice_about(About::Saving, Level::Warning, e.to_string());
                 self.request_save_as();
                 false
             }
@@ -206,7 +139,9 @@ impl Session {
         may
     }
 
-    fn save_as(&mut self, folder: &Path, overwrite: Overwrite) {
+    /// `replaced`: the foreign files that the user lets it replace.
+    fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
+        self.settled(About::Saving);
         // Typed by hand, it may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
@@ -219,19 +154,31 @@ impl Session {
         if !is_same_place(&project.origin, folder) {
             project.name = project::name_at(folder);
         }
-        match project::save(&project, folder, overwrite) {
-            Ok(saved) => {
+        match save_over(&project, folder, replaced, self.options.recovery.as_deref()) {
+            Ok((saved, kept)) => {
                 self.saved(saved);
+                if let Some(kept) = kept {
+                    self.tell_of_kept(replaced.len(), kept);
+                }
                 // Pictures are read from the new place, and the compile's texts have new names.
                 self.disk.opened += 1;
                 self.compile_soon();
                 self.finish_save();
             }
-            Err(ProjectError::WouldOverwrite { path }) => {
-                self.ask(Question::Overwrite { folder: folder.to_owned(), files: vec![path] });
+            Err(ProjectError::WouldOverwrite { paths }) => {
+                self.ask(Question::Overwrite { folder: folder.to_owned(), files: paths });
             }
             Err(e) => self.save_failed(&e),
         }
+    }
+
+    /// Says where the files are that a save has replaced.
+    fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
+        let files =
+            if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
+        let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
+        let text = format!("{files} kept in {}{time}", kept.display());
+        self.notice_with_path(About::Saving, Level::Info, text, kept);
     }
 
     fn request_save_as(&mut self) {
@@ -241,7 +188,7 @@ impl Session {
 
     fn save_failed(&mut self, error: &ProjectError) {
         self.dialog.after_save = None;
-        self.notice(Level::Error, format!("not saved: {error}; your changes are still open here"));
+        self.notice_about(About::Saving, Level::Error, format!("not saved: {error}; your changes are still open here"));
     }
 
     fn saved(&mut self, project: Project) {
@@ -263,6 +210,7 @@ impl Session {
     }
 
     fn answer(&mut self, answer: Answer) {
+        self.settled(About::Question);
         let Some(question) = self.dialog.questions.pop_front() else { return };
         match (question, answer) {
             (Question::Unsaved { then, .. }, Answer::Save) => {
@@ -272,7 +220,7 @@ impl Session {
                 }
             }
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
-            (Question::Overwrite { folder, .. }, Answer::Overwrite) => self.save_as(&folder, Overwrite::Allow),
+            (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was put.
@@ -342,6 +290,24 @@ impl Session {
         for d in diagnostics {
             self.notice(Level::Warning, crate::diag::render(d, sources).trim_end());
         }
+    }
+}
+
+/// Saves a project over the files that the user has been shown, and over no others that are not its own. What is
+/// replaced is kept in the folder that comes back.
+fn save_over(
+    project: &Project,
+    target: &Path,
+    shown: &[PathBuf],
+    recovery: Option<&Path>,
+) -> Result<(Project, Option<PathBuf>), ProjectError> {
+    match project::save(project, target, Overwrite::Refuse) {
+        Err(ProjectError::WouldOverwrite { paths }) if paths.iter().all(|path| shown.contains(path)) => {
+            let kept = place_for_replaced(recovery, target);
+            let saved = project::save(project, target, Overwrite::KeepIn(&kept))?;
+            Ok((saved, Some(kept)))
+        }
+        other => other.map(|saved| (saved, None)),
     }
 }
 

@@ -6,7 +6,7 @@
 use super::{
     Session, compile,
     drawing::ProgramOrigin,
-    view::{Halt, Level, TabDiagnostic},
+    view::{About, Halt, Level, TabDiagnostic},
     worker::Worker,
 };
 use std::time::{Duration, Instant};
@@ -57,7 +57,8 @@ impl Session {
             self.end_halt_of_frame();
             let what =
                 if is_good { "a new device draws the last good code" } else { "a new device waits for your next edit" };
-            self.notice(
+            self.notice_about(
+                About::Code,
                 Level::Error,
                 format!("the GPU did not finish a frame within {secs} s: {what}. Your text is unchanged"),
             );
@@ -67,7 +68,7 @@ impl Session {
     /// The next moment in which [`Session::watch_drawing`] may have something to do.
     pub(super) fn drawing_deadline(&self) -> Option<Instant> {
         let (since, limit) = (self.drawing.draws_since()?, self.halting.limit());
-        let over = since + limit;
+        let over = since + limit * self.halting.pace.patience();
         if self.halting.halt.is_none() || self.now < over {
             Some(over)
         } else if self.is_newer_wanted() {
@@ -85,7 +86,8 @@ impl Session {
     /// Returns how long the engine has been drawing, if that is too long.
     fn overdue(&self) -> Option<Duration> {
         let age = self.now.saturating_duration_since(self.drawing.draws_since()?);
-        (self.drawing.is_apart() && age >= self.halting.limit()).then_some(age)
+        let patience = self.halting.limit() * self.halting.pace.patience();
+        (self.drawing.is_apart() && age >= patience).then_some(age)
     }
 
     /// The user has something else to draw than what the engine is at.
@@ -109,7 +111,8 @@ impl Session {
     fn start_anew(&mut self) {
         if let Err(e) = self.drawing.start_anew(self.now) {
             self.run.is_device_lost = true;
-            self.notice(
+            self.notice_about(
+                About::Window,
                 Level::Error,
                 format!("cannot start a thread for drawing: {e}. Save your texts and restart Eddy"),
             );
@@ -119,10 +122,10 @@ impl Session {
         match Worker::new("compile", self.wake.clone(), work) {
             // The old one may wait for the device.
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),
-            Err(e) => self.notice(
-                Level::Error,
-                format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy"),
-            ),
+            Err(e) => {
+                let text = format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy");
+                self.notice_about(About::Window, Level::Error, text);
+            }
         }
         self.compile.newest_since = None;
         // Its buffers begin anew, and so must what they go by.
@@ -173,7 +176,7 @@ impl Session {
         let Some(halt) = self.halting.halt.take() else { return };
         self.changed = true;
         match halt {
-            Halt::Forecast { .. } => self.run.is_frame_due = true,
+            Halt::Forecast { .. } => self.run.is_again_due = true,
             Halt::Opened { .. } => self.compile.state.compiling = self.is_compile_under_way(),
             Halt::Drawing { .. } | Halt::Drawn { .. } => {}
         }
@@ -197,6 +200,7 @@ impl Session {
 
     fn allow_more(&mut self) {
         let Some(taken) = self.frame_time() else { return };
+        self.halting.pace.begin();
         self.halting.allowed = Some((self.halting.limit() * ALLOWED_LIMITS).max(taken.saturating_mul(ALLOWED_TIMES)));
     }
 
@@ -234,13 +238,13 @@ impl Session {
         // Half a side is a quarter of the pixels.
         let halvings = (times.max(1.0).log2() / 2.0).ceil().clamp(1.0, 6.0) as i32;
         let factor = 0.5_f64.powi(halvings);
-        match &mut self.canvas.fixed {
+        match &mut self.canvas.asked.fixed {
             Some((width, height)) => {
                 for side in [width, height] {
                     *side = ((f64::from(*side) * factor) as u32).max(1);
                 }
             }
-            None => self.canvas.scale *= factor as f32,
+            None => self.canvas.asked.scale *= factor as f32,
         }
         self.end_halt();
         if is_overdue {
@@ -289,6 +293,7 @@ impl Session {
             self.halting.marker.set(project);
         }
         self.halting.is_new = true;
+        self.halting.pace.begin();
     }
 
     pub(super) fn halt_for_new_program(&mut self, forecast: Option<Duration>) {
@@ -301,7 +306,7 @@ impl Session {
     /// A frame has been drawn.
     pub(super) fn frame_took(&mut self, took: Duration) {
         let limit = self.halting.limit();
-        if took > limit && self.drawing.is_apart() {
+        if self.halting.pace.is_too_slow(took, limit) && self.drawing.is_apart() {
             self.halt_with(Halt::Drawn { limit, took });
             return;
         }
@@ -329,7 +334,8 @@ impl Session {
             self.halting.marker.leave();
         }
         (self.halting.halt, self.halting.good, self.halting.allowed) = (None, None, None);
-        (self.halting.resumes, self.halting.is_new) = (false, false);
+        (self.halting.resumes, self.halting.is_new, self.halting.lost_at) = (false, false, None);
+        self.halting.pace.begin();
         if self.halting.marker.find(self.documents.current()) {
             self.hold_after(true);
         }

@@ -1,6 +1,6 @@
 //! A halt of the picture is known by why it stands, and by what it goes on with. What is done about it is in `halt`.
 
-use super::{marker::Marker, view::Halt};
+use super::{marker::Marker, pace::Pace, view::Halt};
 use crate::project::Project;
 use std::{
     path::PathBuf,
@@ -14,6 +14,7 @@ pub(super) struct Halting {
     /// The newest code that drew a frame within the limit.
     pub good: Option<Project>,
     pub limit: Duration,
+    pub pace: Pace,
     /// The time that the user has let a frame take.
     pub allowed: Option<Duration>,
     /// No frame of the newest program that was handed in has been drawn yet.
@@ -29,6 +30,7 @@ impl Halting {
             resumes: false,
             good: None,
             limit,
+            pace: Pace::default(),
             allowed: None,
             is_new: false,
             marker: Marker::new(state_dir.as_deref()),

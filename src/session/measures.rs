@@ -6,7 +6,7 @@ use super::{
     capture,
     measuring::{self, Measure},
     reduction::Unmeasured,
-    view::Level,
+    view::{About, Level},
 };
 use std::borrow::Cow;
 
@@ -47,7 +47,7 @@ impl Session {
     pub(super) fn save_measures(&mut self) {
         let measures = self.run.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
-            self.notice(Level::Warning, "nothing to save: nothing has been measured yet");
+            self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
             return;
         }
         let project = self.documents.current();
@@ -61,7 +61,7 @@ impl Session {
                     notice.path = Some(path);
                 }
             }
-            Err(error) => self.notice(Level::Error, error.to_string()),
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
         }
     }
 }

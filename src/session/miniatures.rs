@@ -37,10 +37,9 @@ impl Miniatures {
         self.known.get(&(pass.clone(), index)).map(|(picture, generation)| (picture, *generation))
     }
 
-    /// Another project's have these names.
-    pub fn forget(&mut self) {
-        self.known.clear();
-        self.is_due = true;
+    /// Another project's targets may have these names.
+    pub fn of_next_project(&self) -> Self {
+        Self { watched: self.watched.clone(), generation: self.generation, is_due: true, ..Self::default() }
     }
 
     /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.

@@ -33,10 +33,13 @@ mod measures;
 pub mod measuring;
 mod miniatures;
 pub mod mouse;
+mod next_project;
 pub mod nonfinite;
+mod notices;
 pub mod npy;
 pub mod offline;
 mod options;
+mod pace;
 pub mod parting;
 mod pass_history;
 mod passes;
@@ -52,12 +55,15 @@ mod recover;
 mod recovery;
 pub mod reduction;
 mod reload;
+mod reopen;
 pub mod revision;
+mod runs;
 pub mod script;
 mod seek;
 pub mod seeking;
 mod stamps;
 mod state;
+mod still;
 mod structure;
 mod template;
 #[cfg(test)]
@@ -77,9 +83,9 @@ pub use costs::{PassCosts, TimedPass};
 pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;
 pub use recent::RecentProject;
-pub use recovery::folder as recovery_folder;
+pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{
-    CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
+    About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
 };

@@ -9,7 +9,7 @@ use super::{
     documents::Documents,
     pass_history::{PassStep, Side, Step},
     template,
-    view::Level,
+    view::{About, Level},
 };
 use crate::project::{PassEdit, PassId, Project, Tab};
 use std::time::Instant;
@@ -31,6 +31,7 @@ impl Session {
     }
 
     pub(super) fn edit_passes(&mut self, edit: PassEdit) {
+        self.settled(About::PassEdit);
         let before = self.project().clone();
         let is_untouched = match &edit {
             PassEdit::Remove(tab) => before.source(tab).is_none_or(|s| is_untouched(&s.text, tab)),
@@ -38,7 +39,7 @@ impl Session {
         };
         let done = match self.documents.current_mut().edit_passes(&edit) {
             Ok(done) => done,
-            Err(e) => return self.notice(Level::Warning, e.to_string()),
+            Err(e) => return self.notice_about(About::PassEdit, Level::Warning, e.to_string()),
         };
         if !done.is_changed {
             return;

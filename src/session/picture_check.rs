@@ -5,7 +5,7 @@ use super::{
     auditing::{AuditMap, Told},
     parting::PartingView,
     tracing::Taken,
-    view::Level,
+    view::{About, Level},
 };
 
 impl Session {
@@ -25,7 +25,7 @@ impl Session {
     pub(super) fn audit(&mut self, taken: Taken) -> Option<Taken> {
         let Some(pass) = self.auditing.taken() else { return Some(taken) };
         if let Some(project) = self.drawing.project().cloned() {
-            self.auditing.submit(project, pass, taken);
+            self.auditing.submit(project, pass, taken, self.frames_drawn);
         }
         None
     }
@@ -36,7 +36,7 @@ impl Session {
         self.changed = true;
         let Told { pass, pixels, error, findings, map } = match told {
             Ok(told) => told,
-            Err(why) => return self.notice(Level::Warning, format!("cannot check the picture: {why}")),
+            Err(why) => return self.not_checked(&why),
         };
         let count = match findings.len() {
             0 => "no undefined behaviour and no operation with large errors".to_owned(),
@@ -50,14 +50,33 @@ impl Session {
         );
         self.notice(Level::Info, text);
         self.compile.diagnostics.extend(findings);
-        self.auditing.map = Some(map);
+        self.auditing.map = Some(map).filter(|_| self.auditing.is_of(self.frames_drawn));
+    }
+
+    /// Looks at the picture that is shown. It stands still, as the map that is laid over it does.
+    pub(super) fn ask_audit(&mut self) {
+        self.settled(About::Audit);
+        if self.is_playing() {
+            self.pause();
+        }
+        self.auditing.is_due = true;
+    }
+
+    /// Another picture is shown than the one that the map is of.
+    pub(super) fn picture_is_other(&mut self) {
+        self.frames_drawn += 1;
+        self.auditing.map = None;
+    }
+
+    fn not_checked(&mut self, why: &str) {
+        self.notice_about(About::Audit, Level::Warning, format!("cannot check the picture: {why}"));
     }
 
     /// Tells that what was asked of the device for an audit could not be had. Returns whether anything was asked.
     pub(super) fn audit_failed(&mut self, why: &str) -> bool {
         let is_ours = self.auditing.taken().is_some();
         if is_ours {
-            self.notice(Level::Warning, format!("cannot check the picture: {why}"));
+            self.not_checked(why);
         }
         is_ours
     }

@@ -87,6 +87,11 @@ impl Session {
         self.disk.opened
     }
 
+    /// Counts the projects that have taken the place of another: what a front end keeps of one is to be forgotten.
+    pub fn projects_opened(&self) -> u64 {
+        self.projects_opened
+    }
+
     /// The author's own uniforms, as the running program declares them.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         self.drawing.custom_uniforms()
@@ -125,16 +130,18 @@ impl Session {
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
         let playing = self.run.clock.is_playing() || self.run.seeking.resumes;
+        // Nothing is measured of what is not drawn.
+        let is_drawn = playing && self.drawing.has_program() && self.run.clock.next_frame_number() > 0;
         Transport {
             playing,
             time_secs: self.run.clock.time_secs(),
             frame: (self.run.clock.next_frame_number() - 1).max(0),
-            fps: Some(self.run.fps.fps).filter(|fps| playing && *fps > 0.0),
-            gpu_millis: (playing && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
-            cpu_micros: playing.then_some(self.run.cpu_micros),
+            fps: Some(self.run.fps.fps).filter(|fps| is_drawn && *fps > 0.0),
+            gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
+            cpu_micros: is_drawn.then_some(self.run.cpu_micros),
             resolution: self.drawing.size(),
-            scale: self.canvas.scale,
-            fixed_size: self.canvas.fixed,
+            scale: self.canvas.asked.scale,
+            fixed_size: self.canvas.asked.fixed,
             speed: self.run.clock.speed(),
             fixed_rate: self.run.clock.fixed_rate(),
             is_seeking: self.run.seeking.is_seeking(),

@@ -13,6 +13,11 @@ impl Session {
         // Another project's engine says that it has no program.
         let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
         let mut reads = Reads::default();
+        // A canvas between two pictures has none.
+        let is_between = self.drawing.wanted.size.is_some() || self.run.is_again_due;
+        if is_between && !is_frame && is_there && self.halting.halt.is_none() {
+            return reads;
+        }
         if is_frame || is_there || self.drawing.wanted.restart {
             self.read_pictures(is_frame, is_playing, &mut reads);
         }
@@ -43,7 +48,7 @@ impl Session {
         };
         reads.wants_run = take(&mut self.comparing.is_due);
         reads.inspect = self.auditing.take_due(&self.run.shown);
-        let is_settled = !is_playing && !self.run.is_frame_due && self.run.steps == 0;
+        let is_settled = !is_playing && !self.run.is_frame_due && !self.run.is_again_due && self.run.steps == 0;
         if is_settled && reads.inspect.is_none() && self.tracing.is_due {
             reads.inspect = self.tracing.place().map(|place| place.pass.clone());
             self.tracing.is_due = reads.inspect.is_none();

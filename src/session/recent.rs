@@ -24,8 +24,20 @@ pub struct RecentProject {
     /// `iTime` when it was closed.
     #[serde(default, rename = "time")]
     pub time_secs: f64,
+    /// `iFrame` when it was closed. A file of an earlier version has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<i32>,
     #[serde(default)]
     pub paused: bool,
+}
+
+/// Says where the time of a project stands when it is closed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    pub time_secs: f64,
+    /// The number of the frame that is shown; below 0, none is.
+    pub frame: i32,
+    pub is_paused: bool,
 }
 
 #[derive(Default, Serialize, Deserialize)]
@@ -61,18 +73,19 @@ impl Recent {
         self.change(|list| {
             let at = list.iter().position(|project| project.path == path);
             known = at.map(|at| list.remove(at));
-            let fresh = || RecentProject { path: path.clone(), time_secs: 0.0, paused: false };
+            let fresh = || RecentProject { path: path.clone(), time_secs: 0.0, frame: None, paused: false };
             list.insert(0, known.clone().unwrap_or_else(fresh));
         })?;
         Ok(known)
     }
 
     /// Keeps where the time of a project stands.
-    pub fn left(&mut self, origin: &Origin, time_secs: f64, paused: bool) -> Result<(), String> {
+    pub fn left(&mut self, origin: &Origin, left: Left) -> Result<(), String> {
         let Some(path) = place(origin) else { return Ok(()) };
         self.change(|list| {
             if let Some(project) = list.iter_mut().find(|project| project.path == path) {
-                (project.time_secs, project.paused) = (time_secs, paused);
+                (project.time_secs, project.paused) = (left.time_secs, left.is_paused);
+                project.frame = Some(left.frame.max(0));
             }
         })
     }
@@ -152,10 +165,15 @@ mod tests {
         assert_eq!(first.opened(&a), Ok(None));
         let (mut second, _) = Recent::open(Some(&state));
         assert_eq!(second.opened(&b), Ok(None));
-        first.left(&a, 12.5, true).unwrap();
+        first.left(&a, Left { time_secs: 12.5, frame: 750, is_paused: true }).unwrap();
         assert_eq!(paths(&first), [path(&b), path(&a)]);
         let known = second.opened(&a).unwrap().unwrap();
-        assert_eq!((known.time_secs, known.paused), (12.5, true));
+        assert_eq!((known.time_secs, known.frame, known.paused), (12.5, Some(750), true));
+        // As an earlier version has written it.
+        let file = state.join(NAME);
+        let text = std::fs::read_to_string(&file).unwrap().replace("frame = 750\n", "");
+        std::fs::write(&file, text).unwrap();
+        assert_eq!(first.opened(&a).unwrap().unwrap().frame, None);
         assert_eq!(paths(&Recent::open(Some(&state)).0), [path(&a), path(&b)]);
         assert_eq!(second.opened(&Origin::Preset("fluid".into())), Ok(None));
         assert_eq!(second.list().len(), 2);

@@ -1,6 +1,11 @@
 //! Records the inputs of what is drawn, and writes them to a file.
 
-use super::{Session, capture, recorder::Recorder, recording::EXTENSION, view::Level};
+use super::{
+    Session, capture,
+    recorder::Recorder,
+    recording::EXTENSION,
+    view::{About, Level},
+};
 use crate::engine::FrameInputs;
 
 impl Session {
@@ -25,7 +30,11 @@ impl Session {
         let Some(Recorder { recording, .. }) = self.run.recorder.take() else { return };
         let frames = recording.frames.len();
         if frames == 0 {
-            self.notice(Level::Warning, "nothing to save: no frame was drawn during the recording");
+            self.notice_about(
+                About::Capture,
+                Level::Warning,
+                "nothing to save: no frame was drawn during the recording",
+            );
             return;
         }
         let project = self.documents.current();
@@ -39,15 +48,15 @@ impl Session {
                     notice.path = Some(path);
                 }
             }
-            Err(error) => self.notice(Level::Error, error.to_string()),
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
         }
     }
 
     /// Takes down a job before it is handed in.
-    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>) {
+    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
         let size = self.drawing.wanted.size.unwrap_or_else(|| self.drawing.coming_size());
         if let Some(recorder) = &mut self.run.recorder {
-            recorder.note(&self.drawing.wanted, size, frame);
+            recorder.note(&self.drawing.wanted, size, frame, again);
         }
     }
 }

@@ -21,11 +21,15 @@ impl Recorder {
         Self { recording: Recording { project, frames: Vec::new() }, values, is_reset: false }
     }
 
-    /// Takes down a job for the engine: its changes, the canvas that it has then, and its frame.
-    pub fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>) {
+    /// Takes down a job for the engine: its changes, the canvas that it has then, and its frame, or that it draws the
+    /// last one again.
+    pub fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>, again: bool) {
         self.is_reset |= changes.reset;
         if let Some(values) = &changes.custom_uniforms {
             self.values.clone_from(values);
+        }
+        if let Some(last) = self.recording.frames.last_mut().filter(|_| again) {
+            (last.size, last.values) = (size, self.values.clone());
         }
         if let Some(inputs) = frame {
             let (inputs, values) = (inputs.clone(), self.values.clone());

@@ -5,7 +5,7 @@ use super::{
     command::{Answer, Question, Recovered, Then},
     documents::Documents,
     recovery::{Left, News, Recovery},
-    view::Level,
+    view::{About, Level},
 };
 use crate::project::Origin;
 use std::path::{Path, PathBuf};
@@ -35,7 +35,7 @@ impl Session {
     pub(super) fn take_found_work(&mut self) {
         while let Some(news) = self.safekeeping.recovery.as_ref().and_then(Recovery::take_news) {
             match news {
-                News::Trouble(text) => self.notice(Level::Warning, text),
+                News::Trouble(text) => self.notice_about(About::Window, Level::Warning, text),
                 News::Found(found) => {
                     let here = place(&self.project().origin);
                     let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;

@@ -4,7 +4,7 @@ use super::{
     Session, capture,
     command::Question,
     documents::{self, Merge},
-    view::Level,
+    view::{About, Level},
     watch::Watch,
 };
 use crate::project::{self, Loaded, Origin, Project, Tab, confine, limits};
@@ -34,6 +34,7 @@ impl Session {
             Some(OnDisk::Project(project)) => {
                 self.disk.unsettled_since = None;
                 self.disk.told = None;
+                self.settled(About::Files);
                 self.merge(*project);
             }
             Some(OnDisk::Unusable(_)) if !is_last_try => self.disk.changes.touch(self.now),
@@ -41,7 +42,9 @@ impl Session {
                 self.disk.unsettled_since = None;
                 self.tell_gone();
                 if self.disk.told.as_ref() != Some(&why) {
-                    self.notice(Level::Warning, format!("{why}\nThe texts and the picture here are unchanged"));
+                    self.settled(About::Files);
+                    let text = format!("{why}\nThe texts and the picture here are unchanged");
+                    self.notice_about(About::Files, Level::Warning, text);
                     self.disk.told = Some(why);
                 }
             }
@@ -154,13 +157,17 @@ impl Session {
                 && saved.source(tab).is_some_and(|s| !s.text.is_empty())
         };
         let gone: Vec<Tab> = saved.tabs().into_iter().filter(is_gone).collect();
+        if gone.is_empty() {
+            self.settled(About::MissingFile);
+        }
         let new = self.documents.set_missing(gone.into_iter().collect());
         new.iter().for_each(|tab| self.tell_one_gone(tab));
     }
 
     fn tell_one_gone(&mut self, tab: &Tab) {
         let name = self.project().source(tab).map_or_else(|| tab.title(), |s| s.name.clone());
-        self.notice(
+        self.notice_about(
+            About::MissingFile,
             Level::Warning,
             format!("{name} was deleted or emptied outside Eddy; its tab keeps the text, and saving writes it again"),
         );
@@ -193,7 +200,8 @@ impl Session {
                 self.dialog.questions.len() == questions
             }
             Some(OnDisk::Unusable(why)) => {
-                self.notice(
+                self.notice_about(
+                    About::Saving,
                     Level::Error,
                     format!(
                         "not saved: the files have changed on disk and cannot be read. {why}\nFix them, or save to \
@@ -225,14 +233,19 @@ impl Session {
     }
 
     fn watch(&mut self, folders: BTreeSet<PathBuf>) {
+        self.settled(About::Watching);
         match Watch::new(folders, self.wake.clone()) {
             Ok((watch, failed)) => {
                 self.disk.watch = Some(watch);
                 for (folder, error) in failed {
-                    self.notice(Level::Warning, format!("cannot watch {} for changes: {error}", folder.display()));
+                    let text = format!("cannot watch {} for changes: {error}", folder.display());
+                    self.notice_about(About::Watching, Level::Warning, text);
                 }
             }
-            Err(e) => self.notice(Level::Warning, format!("cannot watch files for changes: {e}")),
+            Err(e) => {
+                let text = format!("cannot watch files for changes: {e}");
+                self.notice_about(About::Watching, Level::Warning, text);
+            }
         }
     }
 }

@@ -8,13 +8,14 @@ use super::{
     Session,
     drawing::{Job, Travelled},
     seeking::{Goal, Reach, TimeRange},
-    view::Level,
+    view::{About, Level},
 };
 use crate::engine::EngineError;
 
 impl Session {
     /// Shows the frame that is so many before the one that is shown, and pauses.
     pub(super) fn step_back(&mut self, by: usize) {
+        self.settled(About::Seeking);
         self.override_halt();
         self.run.clock.pause();
         self.run.steps = 0;
@@ -29,6 +30,7 @@ impl Session {
 
     /// One frame further: the next one of the run, where one has gone back, else a new one.
     pub(super) fn step_forward(&mut self) {
+        self.settled(About::Seeking);
         self.override_halt();
         self.run.clock.pause();
         let before = match self.run.seeking.goal {
@@ -50,6 +52,7 @@ impl Session {
             return;
         }
         let secs = secs.max(0.0);
+        self.settled(About::Seeking);
         self.override_halt();
         // What is recorded is a run without a break.
         self.end_recording();
@@ -84,7 +87,7 @@ impl Session {
     /// Hands in the frame that is to be shown. False where there is none, or nothing to draw it.
     pub(super) fn travel(&mut self) -> bool {
         let is_ready = self.drawing.has_program() && !self.drawing.wanted.restart;
-        if self.run.seeking.goal.is_none() || self.drawing.is_program_coming() {
+        if self.run.seeking.goal.is_none() || self.drawing.is_program_coming() || self.run.seeking.awaits_program {
             return false;
         }
         let goal = self.run.seeking.goal.take();
@@ -101,10 +104,11 @@ impl Session {
     /// The engine shows another frame of the run, or cannot.
     pub(super) fn travelled(&mut self, travelled: Option<Result<Travelled, EngineError>>) {
         self.changed = true;
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         let is_wanted = std::mem::take(&mut self.run.seeking.is_under_way);
         match travelled {
-            Some(Ok(Travelled { inputs, goal, left, is_display_new: _ })) => {
+            Some(Ok(Travelled { inputs, goal, left, is_display_new })) => {
+                self.picture_is_other();
                 self.run.clock.go_to(inputs.frame, inputs.time_secs);
                 if self.run.seeking.goal.is_some() || !is_wanted {
                     return;
@@ -113,6 +117,8 @@ impl Session {
                     self.run.seeking.goal = Some(Goal::Frame(goal));
                 } else {
                     self.run.measuring.go_to(inputs.frame);
+                    // On its own canvas it was another picture.
+                    self.run.is_again_due = is_display_new;
                     self.arrive();
                 }
             }
@@ -127,7 +133,7 @@ impl Session {
                         .to_owned(),
                     back => format!("that frame is out of reach: you can go back {back} frames"),
                 };
-                self.notice(Level::Warning, text);
+                self.notice_about(About::Seeking, Level::Warning, text);
             }
         }
     }
@@ -146,6 +152,7 @@ impl Session {
     }
 
     fn arrive(&mut self) {
+        self.run.seeking.is_taking_up = false;
         if self.run.seeking.until.is_none() && std::mem::take(&mut self.run.seeking.resumes) {
             self.run.clock.play();
             self.run.fps.restart();
@@ -155,7 +162,7 @@ impl Session {
     /// A new program draws: by the same inputs up to the same frame, where that is asked for.
     pub(super) fn keep_inputs(&mut self) {
         let reach = self.drawing.reach();
-        if !self.run.seeking.keeps_inputs || reach.shown == 0 || !self.has_state() {
+        if !self.keeps_inputs_of(reach) {
             return;
         }
         if !reach.is_whole {
@@ -168,12 +175,22 @@ impl Session {
         let resumes = self.is_playing();
         self.run.seeking.cancel();
         self.run.clock.pause();
-        self.run.is_frame_due = false;
+        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         self.run.seeking.goal = Some(Goal::Anew(reach.shown));
         self.run.seeking.resumes = resumes;
     }
 
-    fn has_state(&self) -> bool {
+    fn keeps_inputs_of(&self, reach: Reach) -> bool {
+        self.run.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
+    }
+
+    /// A program that is coming draws all frames since the reset.
+    pub(super) fn draws_all_anew(&self) -> bool {
+        let reach = self.drawing.reach();
+        self.drawing.wanted.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+    }
+
+    pub(super) fn has_state(&self) -> bool {
         // A project that was opened paused has no program yet.
         let project = self.drawing.project().unwrap_or_else(|| self.documents.current());
         !project.stateful_passes().is_empty()

@@ -48,6 +48,10 @@ pub(super) struct Seeking {
     pub goal: Option<Goal>,
     /// The engine has been asked.
     pub is_under_way: bool,
+    /// The project has just been opened: its first program goes there.
+    pub awaits_program: bool,
+    /// The frames are drawn that lead to where the project was left.
+    pub is_taking_up: bool,
     /// `iTime` up to which frames are drawn at a fixed step, once the goal is reached.
     pub until: Option<f64>,
     /// The picture runs on from there.
@@ -62,6 +66,7 @@ impl Seeking {
     /// Ends a seek wherever it has come to.
     pub fn cancel(&mut self) {
         (self.goal, self.is_under_way, self.until, self.resumes) = (None, false, None, false);
+        (self.awaits_program, self.is_taking_up) = (false, false);
     }
 
     pub fn is_seeking(&self) -> bool {

@@ -25,9 +25,10 @@ use super::{
     recent::Recent,
     recorder::Recorder,
     recovery::Safekeeping,
+    runs::Runs,
     seeking::Seeking,
     tracing::Tracing,
-    view::{CompileState, Level, Notice, TabDiagnostic},
+    view::{About, CompileState, Level, Notice, TabDiagnostic},
     watch::Watch,
     worker::Worker,
 };
@@ -59,6 +60,7 @@ pub struct Session {
     pub(super) dialog: Dialog,
     pub(super) safekeeping: Safekeeping,
     pub(super) recent: Recent,
+    pub(super) runs: Runs,
     pub(super) run: Run,
     pub(super) probing: Probing,
     pub(super) tracing: Tracing,
@@ -68,11 +70,17 @@ pub struct Session {
     pub(super) comparing: Comparing,
     pub(super) notices: Vec<Notice>,
     pub(super) next_notice: u64,
+    /// The number of the next notice when the command under way began.
+    pub(super) command_began: u64,
+    /// Counts the projects that have taken the place of another.
+    pub(super) projects_opened: u64,
     pub(super) text_generation: u64,
     pub(super) display_generation: u64,
     pub(super) pictures_shown: u64,
     /// Counts the programs of the newest text that have drawn a frame.
     pub(super) programs_drawn: u64,
+    /// Counts the pictures of frames that the engine has drawn.
+    pub(super) frames_drawn: u64,
     /// A frame was drawn between two ticks.
     pub(super) has_drawn: bool,
     /// Counts the shaders begun by [`Command::New`](super::Command::New).
@@ -90,12 +98,25 @@ pub struct Session {
 /// The size that the picture shall have.
 pub(super) struct Canvas {
     pub viewport: Option<(u32, u32)>,
-    pub scale: f32,
-    pub fixed: Option<(u32, u32)>,
-    /// The open project asked for that size: it goes with the project.
-    pub is_fixed_by_project: bool,
+    pub asked: CanvasSize,
+    /// The size that was asked for before any project was opened: each begins with it.
+    pub usual: CanvasSize,
     /// A size the device did not take; not tried again.
     pub refused: Option<(u32, u32)>,
+}
+
+/// The size that a person has asked for, for the open project.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CanvasSize {
+    /// Canvas pixels to viewport pixels.
+    pub scale: f32,
+    pub fixed: Option<(u32, u32)>,
+}
+
+impl Default for CanvasSize {
+    fn default() -> Self {
+        Self { scale: 1.0, fixed: None }
+    }
 }
 
 /// Keeps the way from texts to the running program.
@@ -161,6 +182,8 @@ pub(super) struct Run {
     pub shown: PassId,
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
+    /// The frame that is shown must be drawn again: the code, the canvas or a value is another than it was drawn with.
+    pub is_again_due: bool,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
@@ -218,7 +241,12 @@ impl Session {
             drawing,
             halting: Halting::new(options.frame_limit, options.state_dir.clone()),
             documents: Documents::new(super::template::project()),
-            canvas: Canvas { viewport: None, scale: 1.0, fixed: None, is_fixed_by_project: false, refused: None },
+            canvas: Canvas {
+                viewport: None,
+                asked: CanvasSize::default(),
+                usual: CanvasSize::default(),
+                refused: None,
+            },
             compile: Compile {
                 edits: Debounce::new(options.edit_debounce),
                 jobs,
@@ -249,12 +277,14 @@ impl Session {
             dialog: Dialog::default(),
             safekeeping: Safekeeping::default(),
             recent,
+            runs: Runs::new(options.state_dir.as_deref()),
             run: Run {
                 clock: Clock::default(),
                 mouse: Mouse::default(),
                 keyboard: Keyboard::default(),
                 shown: PassId::Image,
                 is_frame_due: false,
+                is_again_due: false,
                 is_program_new: false,
                 is_picture_new: false,
                 waits_for_painting: false,
@@ -277,10 +307,13 @@ impl Session {
             comparing,
             notices: Vec::new(),
             next_notice: 0,
+            command_began: 0,
+            projects_opened: 0,
             text_generation: 0,
             display_generation: 0,
             pictures_shown: 0,
             programs_drawn: 0,
+            frames_drawn: 0,
             has_drawn: false,
             begun: 0,
             passes: PassHistory::default(),
@@ -291,10 +324,14 @@ impl Session {
         };
         match Safekeeping::new(session.options.recovery.clone(), &session.wake) {
             Ok(safekeeping) => session.safekeeping = safekeeping,
-            Err(e) => session.notice(Level::Warning, format!("unsaved work is not protected against a crash: {e}")),
+            Err(e) => session.notice_about(
+                About::Window,
+                Level::Warning,
+                format!("unsaved work is not protected against a crash: {e}"),
+            ),
         }
         if let Some(why) = forgotten {
-            session.notice(Level::Warning, why);
+            session.notice_about(About::Window, Level::Warning, why);
         }
         session.compile.state.compiling = true;
         Ok(session)
@@ -303,20 +340,5 @@ impl Session {
     /// Takes the oldest thing that the front end is asked to do.
     pub fn take_request(&mut self) -> Option<Request> {
         self.dialog.requests.pop_front()
-    }
-
-    pub(super) fn notice(&mut self, level: Level, text: impl Into<String>) {
-        let text = text.into();
-        log::log!(
-            match level {
-                Level::Info => log::Level::Info,
-                Level::Warning => log::Level::Warn,
-                Level::Error => log::Level::Error,
-            },
-            "{text}"
-        );
-        self.notices.push(Notice { id: self.next_notice, level, text, path: None, undoes: None, at: self.now });
-        self.next_notice += 1;
-        self.changed = true;
     }
 }

@@ -75,6 +75,13 @@ impl Tracing {
         self.place = place;
     }
 
+    /// Another project is open.
+    pub fn forget(&mut self) {
+        self.want(None);
+        self.worker.forget();
+        self.finding.forget();
+    }
+
     pub fn place(&self) -> Option<&Place> {
         self.place.as_ref()
     }

@@ -28,6 +28,42 @@ pub enum Level {
     Error,
 }
 
+/// Says what a notice is about. It is gone when that is mended or tried again, and all but those about the window when
+/// another project is opened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum About {
+    /// The window, its device and its files.
+    Window,
+    /// The open project.
+    #[default]
+    Project,
+    Opening,
+    Saving,
+    /// A text that does not become a program, or whose frames do not come back.
+    Code,
+    /// A frame that was not drawn.
+    Drawing,
+    CanvasSize,
+    /// A factor of the canvas' size that is none.
+    Scale,
+    /// Files that make no whole project.
+    Files,
+    /// A file that is gone.
+    MissingFile,
+    /// Folders that are watched.
+    Watching,
+    Seeking,
+    /// A question that stands first.
+    Question,
+    /// A picture, a recording or numbers that were to be written.
+    Capture,
+    CustomUniform,
+    PassEdit,
+    Audit,
+    /// The frame that is shown and cannot be drawn again.
+    Again,
+}
+
 /// Something the user should hear once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
@@ -35,6 +71,7 @@ pub struct Notice {
     pub id: u64,
     pub level: Level,
     pub text: String,
+    pub about: About,
     /// The file it is about, where there is one to open or copy.
     pub path: Option<std::path::PathBuf>,
     /// The edit of passes that it tells of, by [`PassStep::serial`](super::PassStep::serial): as long as that is the

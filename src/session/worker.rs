@@ -62,6 +62,12 @@ impl<Job: Send + 'static, Done: Send + 'static> Worker<Job, Done> {
         self.thread = None;
     }
 
+    /// Nobody wants what comes of the jobs so far.
+    pub fn forget(&mut self) {
+        self.newest += 1;
+        self.is_busy = false;
+    }
+
     /// The newest job has not ended yet.
     pub fn is_busy(&self) -> bool {
         self.is_busy
@@ -133,6 +139,20 @@ mod tests {
         assert_eq!(wait(&mut w), Ok(50));
         assert!(!w.is_busy());
         assert!(w.take().is_none(), "once");
+    }
+
+    #[test]
+    fn what_is_forgotten_gives_no_result() {
+        let mut w = Worker::new("test", Arc::new(|| ()), |n: u32| n).unwrap();
+        w.submit(1);
+        w.forget();
+        assert!(!w.is_busy());
+        w.submit(2);
+        assert_eq!(wait(&mut w), Ok(2));
+        w.submit(3);
+        std::thread::sleep(Duration::from_millis(20));
+        w.forget();
+        assert!(w.take().is_none() && !w.is_busy());
     }
 
     #[test]

@@ -200,8 +200,11 @@ fn import_and_export_overwrite_only_when_told_to() {
     b.line("check p fluid.json").expect(0);
     let before = all("p");
     b.write("p/image.glsl", "mine");
+    b.write("p/common.glsl", "mine");
     let refused = b.line("import fluid.json --out p").expect(2);
-    assert!(refused.err.contains("--force"), "{}", refused.err);
+    for word in ["--force", "p/image.glsl", "p/common.glsl"] {
+        assert!(refused.err.contains(word), "{word}: {}", refused.err);
+    }
     assert_eq!(b.bytes("p/image.glsl"), b"mine");
     b.line("import fluid.json --out p --force").expect(0);
     assert_eq!(all("p"), before);

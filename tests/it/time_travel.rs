@@ -102,7 +102,8 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     stage.tick();
     stage.session.apply(Command::StepBack(1));
     stage.tick();
-    assert!(stage.notices(Level::Warning)[1].contains("restarts at frame 0"), "{:?}", stage.notices(Level::Warning));
+    let warnings = stage.notices(Level::Warning);
+    assert!(warnings.len() == 1 && warnings[0].contains("restarts at frame 0"), "the one before is over: {warnings:?}");
 }
 
 /// A checkpoint is put into an engine that has drawn nothing, so what it lacks is zeros there.
@@ -157,13 +158,13 @@ fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
     stage.tick();
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (150, 0));
     assert!(texels(&mut stage) == last);
-    // A slider that is turned makes another run of it.
+    // A slider that is turned makes another run of it, from the frame that is shown on.
     stage.session.apply(Command::StepBack(20));
     stage.tick();
     stage.session.apply(Command::AssignCustomUniform("level=0.75".into()));
     stage.tick();
-    assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (131, 0));
-    for _ in 0..19 {
+    assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (130, 0));
+    for _ in 0..20 {
         stage.session.apply(Command::Step);
         stage.tick();
     }
@@ -316,13 +317,14 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     assert!(changed != original);
     resized(&mut fresh);
     assert!(texels(&mut fresh) == changed);
-    // Back goes as far as the canvas is the same.
-    assert_eq!(kept.session.reach().back, 59);
-    // Without the switch it goes on from the buffers as they are.
+    // Back goes as far as the canvas is the same: the frame that was shown was drawn again on it.
+    assert_eq!(kept.session.reach().back, 60);
+    // Without the switch only the frame that is shown is drawn by the new code.
     kept.session.apply(Command::SetKeepInputs(false));
-    edited(&mut kept, &other);
-    assert_eq!(place(&kept).1, shown.1 + 1);
-    assert!(texels(&mut kept) != changed);
+    edited(&mut kept, HISTORY);
+    assert_eq!(place(&kept), shown);
+    let mixed = texels(&mut kept);
+    assert!(mixed != changed && mixed != original);
 }
 
 /// Plays a preset for so many frames of uneven length with a hand on it, and records it. Gives the recording and what

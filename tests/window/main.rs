@@ -18,6 +18,7 @@ mod window_measures;
 mod window_passes;
 mod window_save;
 mod window_slow;
+mod window_state;
 // The portal is spoken to by a library that only the window needs.
 #[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]
 mod window_theme;

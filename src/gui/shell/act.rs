@@ -80,7 +80,7 @@ impl Shell {
                 self.change(Change::Theme(theme), out);
             }
             Action::Theme(theme) => self.change(Change::Theme(theme), out),
-            Action::Passes => self.passes.toggle(None),
+            Action::Passes => self.kept.passes.toggle(None),
             Action::UndoPasses => out.ask(Command::UndoPassEdit),
             Action::RedoPasses => out.ask(Command::RedoPassEdit),
             Action::Paste => self.wants_clipboard = true,
@@ -123,7 +123,7 @@ impl Shell {
             }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
-                self.debugger.act(session, action, caret);
+                self.kept.debugger.act(session, action, caret);
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
             Action::Picture(action) => self.act_on_picture(session, action, out),

@@ -2,15 +2,14 @@
 
 mod act;
 mod arrivals;
+mod of_project;
 mod panels;
 mod report;
 
 use super::{
     actions::{Action, KeyFile, KeysHere, Listening},
-    buffers::Buffers,
     channels::Live,
     code::CodePanel,
-    compare::Compare,
     dock::{Dock, Panel},
     files::{Files, Picked},
     focus::Focus,
@@ -18,15 +17,12 @@ use super::{
     gallery::Gallery,
     help::Help,
     lab::Lab,
-    measures::Measurements,
     outbox::{Outbox, Pick, Wish},
     palette::Palette,
-    passes::Passes,
     questions,
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
     thumbnails::Thumbnails,
     toasts,
-    trace::Debugger,
     viewport::{Around, Viewport},
 };
 use crate::{
@@ -36,6 +32,7 @@ use crate::{
 };
 use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
+use of_project::OfProject;
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -47,15 +44,15 @@ pub struct Shell {
     code: CodePanel,
     files: Files,
     lab: Lab,
-    debugger: Debugger,
-    buffers: Buffers,
-    compare: Compare,
-    measurements: Measurements,
+    kept: OfProject,
+    /// The projects that had taken the place of another when `kept` was made.
+    kept_of: u64,
     dock: Dock,
     sees_costs: bool,
     /// Small pictures of buffers.
     live: Live,
     thumbnails: Thumbnails,
+    wake: Arc<dyn Fn() + Send + Sync>,
     gallery: bool,
     help: Option<Help>,
     page: Gallery,
@@ -70,7 +67,6 @@ pub struct Shell {
     keeps_frame_limit: bool,
     palette: Palette,
     focus: Focus,
-    passes: Passes,
     /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
     wants_clipboard: bool,
     takes_paste: bool,
@@ -100,14 +96,13 @@ impl Shell {
             code: CodePanel::new(),
             files: Files::new(wake.clone()),
             lab: Lab::new(&gpu, wake.clone()),
-            debugger: Debugger::default(),
-            buffers: Buffers::default(),
-            compare: Compare::new(wake.clone()),
-            measurements: Measurements::default(),
+            kept: OfProject::new(wake.clone()),
+            kept_of: 0,
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
-            thumbnails: Thumbnails::new(gpu, wake),
+            thumbnails: Thumbnails::new(gpu, wake.clone()),
+            wake,
             gallery,
             page: Gallery::default(),
             help: None,
@@ -119,7 +114,6 @@ impl Shell {
             keeps_frame_limit: false,
             palette: Palette::default(),
             focus: Focus::default(),
-            passes: Passes::default(),
             wants_clipboard: false,
             takes_paste: false,
             opened: 0,
@@ -143,8 +137,8 @@ impl Shell {
     pub fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
         self.viewport.forget_texture();
         self.live = Live::default();
-        self.buffers.forget_texture();
-        self.compare.forget_textures();
+        self.kept.buffers.forget_texture();
+        self.kept.compare.forget_textures();
         self.thumbnails = Thumbnails::new(gpu, wake);
     }
 
@@ -173,13 +167,17 @@ impl Shell {
 
     /// Takes over what the session has new, before it is shown or painted.
     pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
+        if std::mem::replace(&mut self.kept_of, session.projects_opened()) != session.projects_opened() {
+            self.kept = OfProject::new(self.wake.clone());
+            self.viewport.stop_picking();
+        }
         self.code.prepare(session);
         self.viewport.prepare(session, renderer);
-        self.debugger.prepare(session);
-        if let Some((tab, line)) = self.debugger.take_reveal(session) {
+        self.kept.debugger.prepare(session);
+        if let Some((tab, line)) = self.kept.debugger.take_reveal(session) {
             self.code.reveal_line(tab, line);
         }
-        self.code.set_debug(self.debugger.marks(session, self.code.current()));
+        self.code.set_debug(self.kept.debugger.marks(session, self.code.current()));
     }
 
     /// Returns the picture's texture if a painting of now differs from the last one there.
@@ -191,8 +189,15 @@ impl Shell {
     pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
-        let mistakes = self.refresh_files(ui);
+        let is_read = self.is_back(ui);
+        let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
         let mut out = Outbox::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
+        if is_read {
+            // What is mended is no news any more, and what is said anew is said once.
+            let is_over = |text: &str| self.keys.is_mended(text) || self.settings.is_mended(text);
+            let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
+            over.for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
+        }
         for text in mistakes {
             out.ask(Command::Notify { level: Level::Error, text, path: None });
         }
@@ -218,13 +223,13 @@ impl Shell {
             self.panels(ui, session, &mut out);
         }
         out.commands.extend(self.live.end_frame());
-        out.commands.extend(self.buffers.end_frame(session));
-        out.commands.extend(self.measurements.end_frame());
+        out.commands.extend(self.kept.buffers.end_frame(session));
+        out.commands.extend(self.kept.measurements.end_frame());
         toasts::expire(ui.ctx(), session, Instant::now(), &mut out);
         toasts::over(ui, session, Instant::now(), &mut out);
         if !self.gallery {
             self.thumbnails.animate(None);
-            self.passes.show(ui, session, &self.code.current().clone(), &mut out);
+            self.kept.passes.show(ui, session, &self.code.current().clone(), &mut out);
         }
         questions::show(ui, session, &mut out);
         if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
@@ -250,13 +255,14 @@ impl Shell {
         commands
     }
 
-    /// Reads the files of keys and settings when the window gets the keyboard. What is wrong in them comes back.
-    fn refresh_files(&mut self, ui: &Ui) -> Vec<String> {
+    /// The window has just got the keyboard.
+    fn is_back(&mut self, ui: &Ui) -> bool {
         let is_focused = ui.input(|i| i.focused);
-        let was_focused = std::mem::replace(&mut self.was_focused, is_focused);
-        if !is_focused || was_focused {
-            return Vec::new();
-        }
+        !std::mem::replace(&mut self.was_focused, is_focused) && is_focused
+    }
+
+    /// Reads the files of keys and settings. What is wrong in them comes back.
+    fn refresh_files(&mut self) -> Vec<String> {
         let mut mistakes = self.keys.refresh();
         mistakes.extend(self.settings.refresh());
         mistakes
@@ -388,7 +394,7 @@ impl Shell {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
             Wish::Set(change) => self.change(change, out),
-            Wish::Breakpoint(tab, line) => self.debugger.toggle(session, &tab, line),
+            Wish::Breakpoint(tab, line) => self.kept.debugger.toggle(session, &tab, line),
             Wish::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
                 out.ask(Command::Trace(Some(at)));
@@ -396,7 +402,7 @@ impl Shell {
             Wish::Pick(pick) => self.files.ask(pick, start_folder(session)),
             Wish::Picked(pick, path) => self.picked(pick, path, out),
             Wish::CloseGallery => self.close_gallery(out),
-            Wish::ChoosePass(tab) => self.passes.toggle(Some(tab)),
+            Wish::ChoosePass(tab) => self.kept.passes.toggle(Some(tab)),
             Wish::ShowRecovered => {
                 self.uncover(out);
                 self.code.focus();
@@ -439,7 +445,7 @@ impl Shell {
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
-            Pick::Reference => self.compare.choose(&path),
+            Pick::Reference => self.kept.compare.choose(&path),
             Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
         }
     }

@@ -1,6 +1,6 @@
 //! Says where the panels are, and what is in each.
 
-use super::Shell;
+use super::{Shell, of_project::OfProject};
 use crate::{
     gui::{
         actions::Action,
@@ -54,7 +54,8 @@ impl Shell {
             toasts::panel(ui, session, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
-        let Self { viewport, code, lab, debugger, buffers, compare, measurements, thumbnails, live, dock, .. } = self;
+        let Self { viewport, code, lab, kept, thumbnails, live, dock, .. } = self;
+        let OfProject { debugger, buffers, compare, measurements, passes: _ } = kept;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
             let panels = Panels { viewport, code, lab, debugger, buffers, compare, measurements };
             dock.show(ui, &mut Shown { panels, thumbnails, live, under_picture, session, out });
@@ -63,8 +64,9 @@ impl Shell {
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
             out.ask(Command::Trace(None));
         }
-        let sees_costs =
-            self.dock.is_seen(Panel::Costs) | self.buffers.wants_costs() | self.measurements.take_costs_wish();
+        let sees_costs = self.dock.is_seen(Panel::Costs)
+            | self.kept.buffers.wants_costs()
+            | self.kept.measurements.take_costs_wish();
         self.watch_costs(sees_costs, out);
     }
 

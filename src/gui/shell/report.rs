@@ -68,19 +68,19 @@ impl Shell {
             report.say_if_new("costs", costs::report(session));
         }
         if self.dock.is_open(Panel::Buffers) {
-            report.say_if_new("buffers", buffers::report(&self.buffers, session));
+            report.say_if_new("buffers", buffers::report(&self.kept.buffers, session));
         }
         if self.dock.is_open(Panel::Compare) {
-            report.say_if_new("compare", compare::report(&self.compare, session));
+            report.say_if_new("compare", compare::report(&self.kept.compare, session));
         }
         if self.dock.is_open(Panel::Measurements) {
-            report.say_if_new("measurements", measures::report(&self.measurements, session));
+            report.say_if_new("measurements", measures::report(&self.kept.measurements, session));
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));
         report.say_if_new("audit", audited::report(session));
         if self.dock.is_open(Panel::Trace) {
-            report.say_if_new("trace", self.debugger.report(session));
+            report.say_if_new("trace", self.kept.debugger.report(session));
         }
         let theme = if ctx.theme() == egui::Theme::Dark { "dark" } else { "light" };
         report.say_if_new("theme", json!({ "shown": theme }));

@@ -20,9 +20,9 @@ use std::{
 
 /// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
 /// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are
-/// its own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen
+/// its own and written without asking, others as `overwrite` says; a picture in the old folder is copied along into a new one. No file is ever seen
 /// half written, and on failure every old one is still there; files whose content stays the same are not touched.
-pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+pub fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let extension = target.extension().unwrap_or_default();
     if target.is_dir() {
         save_folder(project, target, overwrite)
@@ -50,7 +50,7 @@ pub fn name_at(target: &Path) -> String {
     }
 }
 
-fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+fn save_json(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
     // The others of several shaders are not here, and would be lost.
     let own = own && !confine::read_own(target, limits::JSON).is_ok_and(|bytes| is_of_several(&bytes));
@@ -76,7 +76,7 @@ fn is_of_several(bytes: &[u8]) -> bool {
     }
 }
 
-fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
     let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
     let base = target.parent().unwrap_or(Path::new(""));
@@ -127,7 +127,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     Ok(saved)
 }
 
-fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let target = if target.as_os_str().is_empty() { Path::new(".") } else { target };
     let (is_home, had_manifest) = match &project.origin {
         Origin::Folder { path, has_manifest } if is_same(path, target) => (true, *has_manifest),
@@ -206,7 +206,7 @@ pub fn remove_renamed(before: &Project, renamed: &Project, after: &Project) -> V
 }
 
 /// Writes the one file that a project is.
-fn write_one(target: &Path, bytes: Vec<u8>, is_own: bool, overwrite: Overwrite) -> Result<(), ProjectError> {
+fn write_one(target: &Path, bytes: Vec<u8>, is_own: bool, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
     let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let own = if is_own { BTreeSet::from([name.clone()]) } else { BTreeSet::new() };
     let mut writes = Writes::into(target.parent().unwrap_or(Path::new("")), own);

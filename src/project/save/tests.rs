@@ -285,11 +285,34 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     fs::create_dir(&other).unwrap();
     fs::write(other.join("image.glsl"), "precious").unwrap();
     let error = save(&project, &other, Overwrite::Refuse).unwrap_err();
-    assert!(matches!(&error, ProjectError::WouldOverwrite { path } if path.ends_with("image.glsl")), "{error}");
+    assert!(
+        matches!(&error, ProjectError::WouldOverwrite { paths } if *paths == [other.join("image.glsl")]),
+        "{error}"
+    );
     assert_eq!(fs::read_to_string(other.join("image.glsl")).unwrap(), "precious");
     assert_eq!(fs::read_dir(&other).unwrap().count(), 1, "nothing was written at all");
     save(&project, &other, Overwrite::Allow).unwrap();
     assert_eq!(fs::read_to_string(other.join("image.glsl")).unwrap(), "image");
+    // Where several are in the way, all of them are named, and each is kept.
+    fs::write(other.join("image.glsl"), "precious").unwrap();
+    fs::write(other.join("eddy.toml"), "eddy = 1\nname = \"precious\"\n").unwrap();
+    let error = save(&project, &other, Overwrite::Refuse).unwrap_err();
+    let all = ["eddy.toml", "image.glsl"].map(|name| other.join(name));
+    assert!(matches!(&error, ProjectError::WouldOverwrite { paths } if *paths == all), "{error}");
+    let text = error.to_string();
+    assert!(all.iter().all(|path| text.contains(path.to_str().unwrap())) && text.contains(" exist and are "), "{text}");
+    let kept = dir.path().join("kept/other-0001");
+    save(&project, &other, Overwrite::KeepIn(&kept)).unwrap();
+    let texts = |name: &str| [&other, &kept].map(|at| fs::read_to_string(at.join(name)).unwrap());
+    assert_eq!(texts("image.glsl"), ["image", "precious"]);
+    assert!(!texts("eddy.toml")[0].contains("precious") && texts("eddy.toml")[1].contains("precious"));
+    // What cannot be kept is not replaced.
+    fs::write(other.join("image.glsl"), "again").unwrap();
+    let blocked = dir.path().join("mine/image.glsl/below");
+    let error = save(&project, &other, Overwrite::KeepIn(&blocked)).unwrap_err().to_string();
+    assert!(error.starts_with("cannot keep what would be replaced in "), "{error}");
+    assert_eq!(fs::read_to_string(other.join("image.glsl")).unwrap(), "again");
+    save(&project, &other, Overwrite::Allow).unwrap();
     // A file that appeared in the project's own folder is not its own either.
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();

@@ -86,11 +86,9 @@ impl Watching {
         self.watch = watch;
     }
 
-    /// Another project's have these names.
-    pub fn forget(&mut self) {
-        self.shown = None;
-        self.under.clear();
-        (self.is_shown_due, self.is_place_due) = (true, true);
+    /// Nothing of another project is looked at yet.
+    pub fn of_next_project(&self) -> Self {
+        Self { generation: self.generation, ..Self::default() }
     }
 
     /// The newest of the target that is looked at, and a number that grows with each new one.

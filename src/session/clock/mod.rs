@@ -59,10 +59,12 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// A clock at frame 0 whose first frame is at a time.
-    pub fn at(time_secs: f64, is_playing: bool) -> Self {
+    /// A clock whose first frame is at a time and has a number; `None`: the one that a run at 60 frames a second has
+    /// about then.
+    pub fn at(time_secs: f64, frame: Option<i32>, is_playing: bool) -> Self {
         let time_secs = if time_secs.is_finite() { time_secs.max(0.0) } else { 0.0 };
-        Self { is_playing, time_secs, ..Self::default() }
+        let frame = frame.unwrap_or((time_secs * STEP_RATE).round() as i32).max(0);
+        Self { is_playing, time_secs, frame, ..Self::default() }
     }
 
     pub fn is_playing(&self) -> bool {

@@ -70,6 +70,7 @@ impl Comparing {
     /// Another project is open.
     pub fn forget(&mut self) {
         self.want(None);
+        self.worker.forget();
         self.end = None;
     }
 

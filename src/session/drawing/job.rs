@@ -1,7 +1,7 @@
 //! The engine is asked to do a job at once, and gives an answer.
 
 use super::gate::Gate;
-use super::history::{Replay, ReplayFrom, Run, Travelled};
+use super::history::{Frame, Replay, ReplayFrom, Run, Travelled};
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
@@ -29,16 +29,23 @@ pub struct Changes {
     pub look: Option<Option<ValueLook>>,
     /// Every buffer as before frame 0.
     pub reset: bool,
+    /// The frames of a run from that reset on, which are to be gone to.
+    pub run: Option<Vec<Frame>>,
     /// The table of costs is to be made anew.
     pub costs: bool,
 }
 
 impl Changes {
     pub fn is_empty(&self) -> bool {
-        let Self { restart, size, program, custom_uniforms, shown, look, reset, costs } = self;
-        let is_asked = *restart || *reset || *costs;
+        let Self { restart, size, program, custom_uniforms, shown, look, reset, run, costs } = self;
+        let is_asked = *restart || *reset || *costs || run.is_some();
         let is_shown_otherwise = shown.is_some() || look.is_some();
         !is_asked && size.is_none() && program.is_none() && custom_uniforms.is_none() && !is_shown_otherwise
+    }
+
+    /// Returns whether the targets are others after it, on a canvas of such a size.
+    pub fn touches_targets(&self, canvas: (u32, u32)) -> bool {
+        self.program.is_some() || self.size.is_some_and(|size| size != canvas)
     }
 }
 
@@ -85,6 +92,10 @@ pub struct Job {
     pub frame: Option<FrameInputs>,
     /// Another frame of the run is to be shown.
     pub travel: Option<Goal>,
+    /// Time stands still: what the changes make other than before is drawn again, and is not a further frame.
+    pub stays: bool,
+    /// The frame that is shown is to be drawn again, as it would be now.
+    pub again: bool,
     pub reads: Reads,
     /// The project whose passes' costs are asked for: somebody looks at them.
     pub costs_of: Option<Project>,
@@ -142,6 +153,8 @@ pub struct Done {
     /// The display may be another texture.
     pub is_display_new: bool,
     pub frame: Option<Result<DrawnFrame, EngineError>>,
+    /// The frame that is shown was to be drawn again, and what it was drawn from is not kept.
+    pub is_again_lost: bool,
     /// The frame of the run that is shown now; `Some(None)` where the goal is out of reach.
     pub travelled: Option<Option<Result<Travelled, EngineError>>>,
     /// The frames that one can go to.

@@ -4,7 +4,7 @@ use super::{
     Session,
     compile::{self, Compiled, Done, Job},
     drawing::{Coming, Way},
-    view::{Level, Meanwhile, Outcome, TabDiagnostic, Tick},
+    view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
     worker::Panicked,
 };
 use crate::{diag::Severity, engine::EngineError, gpu::GpuError};
@@ -188,7 +188,7 @@ impl Session {
                 self.auditing.map = None;
                 self.compile.state.last = Some(self.failed());
                 let goes_on = if self.drawing.has_program() { "; the last working version keeps running" } else { "" };
-                self.notice(Level::Error, format!("{what}{goes_on}"));
+                self.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
             }
             Ok(compiled) => self.take_program(compiled),
         }
@@ -265,29 +265,30 @@ impl Session {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
         self.drawing.wanted.size = is_new.then_some(size);
+        if !is_new && self.canvas.refused.is_none() {
+            self.settled(About::CanvasSize);
+        }
     }
 
     /// The device does not take a size for the canvas.
     pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
         self.canvas.refused = Some(size);
         let (width, height) = self.drawing.size();
-        self.notice(Level::Error, format!("{error}; the picture stays at {width}x{height}"));
+        let text = format!("{error}; the picture stays at {width}x{height}");
+        self.notice_about(About::CanvasSize, Level::Error, text);
     }
 
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
     pub fn tell_of(&mut self, error: &GpuError) {
-        let text = error.to_string();
-        if self.notices.iter().all(|n| n.text != text) {
-            self.notice(Level::Error, text);
-        }
+        self.notice_once(About::Window, Level::Error, &error.to_string());
     }
 }
 
 impl super::state::Canvas {
     /// Pixels, at least one each way; `None` before the viewport is known.
     fn size(&self) -> Option<(u32, u32)> {
-        let scaled = |v: u32| ((f64::from(v) * f64::from(self.scale)).floor() as u32).max(1);
-        self.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+        let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
+        self.asked.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 

@@ -171,7 +171,7 @@ fn a_comment_keeps_its_record_until_its_text_changes() {
     );
     measuring.follow(&project("//@probe max(image.y)\n//@probe min(image)\n"), (1, 3));
     assert_eq!(told(&measuring), [(4, "max(image.y)", 1, false), (2, "min(image)", 2, true)]);
-    measuring.forget();
+    measuring = measuring.of_next_project();
     measuring.follow(&project("//@probe min(image)\n"), (2, 3));
     assert_eq!(told(&measuring), [(5, "min(image)", 1, false)]);
 }

@@ -96,8 +96,8 @@ impl Measuring {
     }
 
     /// Another project's comments may have the same texts.
-    pub fn forget(&mut self) {
-        (self.measures, self.read_at, self.frame) = (Vec::new(), None, None);
+    pub fn of_next_project(&self) -> Self {
+        Self { next_serial: self.next_serial, count: self.count, ..Self::default() }
     }
 
     /// Every record begins anew.
@@ -128,6 +128,12 @@ impl Measuring {
             measure.has_gap |= !is_next || !self.seen.contains(&measure.serial);
         }
         self.frame = Some(frame);
+    }
+
+    /// The frame that is shown is drawn again: what was measured of it is measured anew.
+    pub fn draw_again(&mut self, frame: i32) {
+        self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
+        self.is_due = true;
     }
 
     /// A frame of the run is shown again; what lies ahead may come otherwise.

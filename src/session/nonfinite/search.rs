@@ -119,6 +119,12 @@ impl Searching {
         (self.is_due, self.end, self.of) = (is_wanted, None, 0);
     }
 
+    /// Another project is open.
+    pub fn forget(&mut self) {
+        self.want(false);
+        self.worker.forget();
+    }
+
     pub fn submit(&mut self, job: SearchJob) {
         self.progress = Arc::default();
         self.of = job.frames.len();

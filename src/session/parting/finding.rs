@@ -65,6 +65,12 @@ impl Finding {
         self.is_due = traced.is_some();
     }
 
+    /// Another project is open.
+    pub fn forget(&mut self) {
+        self.want(None);
+        self.worker.forget();
+    }
+
     /// The frames are to be handed out now.
     pub fn take_due(&mut self) -> bool {
         std::mem::take(&mut self.is_due)

@@ -108,7 +108,7 @@ impl Recording {
     }
 
     /// Reads at most `limit` of a file, into frames of at most `most` bytes.
-    pub(super) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
+    pub(in crate::session) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
         let mut text = text.take(limit.bytes + 1);
         let read = Self::read_lines(&mut text, most);
         if text.limit() == 0 { Err(ReadError::TooLarge(limit)) } else { read }

@@ -2,6 +2,7 @@
 
 use super::{
     left::{self, Left, Read},
+    replaced,
     slot::Slot,
 };
 use crate::project::{self, Project, write_snapshot};
@@ -14,7 +15,7 @@ use std::{
         mpsc::{self, Receiver, RecvTimeoutError, Sender},
     },
     thread::JoinHandle,
-    time::{Duration, Instant},
+    time::{Duration, Instant, SystemTime},
 };
 
 /// The time that a change waits for others before all are written. Writing takes its own time, and both together stay
@@ -183,6 +184,7 @@ impl Keeper {
     }
 
     fn scan(&mut self) {
+        replaced::sweep(&self.folder, SystemTime::now());
         let slots = match Slot::left_behind(&self.folder) {
             Ok(slots) => slots,
             Err(e) => return self.told("looked for", Err(e)),

@@ -4,15 +4,17 @@
 //! and goes on. There is one file for each project that is open with something unsaved, written whole or not at all,
 //! and gone once nothing is unsaved. A file belongs to the process that holds the lock beside it; a lock ends with its
 //! process, so a file that nobody holds was left behind by one that was killed. Knows nothing of questions: what was
-//! left behind is handed out as [`Left`].
+//! left behind is handed out as [`Left`]. What a save has replaced is kept in the same folder for a while.
 
 mod keeper;
 mod left;
+mod replaced;
 mod safekeeping;
 mod slot;
 
 pub(super) use keeper::{News, Recovery};
 pub(super) use left::Left;
+pub use replaced::{KEPT_DAYS, place_for_replaced};
 pub(super) use safekeeping::Safekeeping;
 use std::{env, path::PathBuf};
 

@@ -2,6 +2,8 @@
 //! snapshot of what the frames to come read of the targets. A frame between two snapshots is drawn again from the one
 //! before it, or from the reset that the run began with. Far back snapshots are few (`thinning`).
 
+mod again;
+mod before;
 mod thinning;
 
 use crate::{
@@ -9,6 +11,7 @@ use crate::{
     project::CustomUniformValues,
     session::seeking::{Goal, Reach},
 };
+use before::Again;
 use std::{
     collections::VecDeque,
     sync::Arc,
@@ -61,6 +64,7 @@ pub struct History {
     is_from_reset: bool,
     /// Each with the number of frames that were drawn before it.
     snapshots: VecDeque<(u64, Arc<Snapshot>)>,
+    again: Again,
     /// The values of the author's own uniforms.
     values: Arc<CustomUniformValues>,
     /// The time that a frame takes.
@@ -112,6 +116,7 @@ impl Default for History {
             is_whole: true,
             is_from_reset: true,
             snapshots: VecDeque::new(),
+            again: Again::default(),
             values: Arc::default(),
             took: Duration::ZERO,
             budget: BUDGET,
@@ -126,11 +131,16 @@ impl History {
         (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
         self.frames.clear();
         self.snapshots.clear();
+        self.again = Again::default();
     }
 
     /// The canvas has another size from the next frame on.
     pub fn resize(&mut self) {
-        self.frames.truncate((self.drawn - self.forgotten) as usize);
+        // One that is to be drawn again is drawn on the new canvas. Those of a run that was taken up have their own.
+        let kept = self.drawn + u64::from(self.again.rewound.is_some());
+        if self.drawn > 0 {
+            self.frames.truncate((kept - self.forgotten) as usize);
+        }
         self.snapshots.clear();
         (self.floor, self.canvas) = (self.drawn, None);
     }
@@ -139,6 +149,7 @@ impl History {
     /// program.
     pub fn change_program(&mut self) {
         self.snapshots.clear();
+        self.again.change_program();
         self.is_from_reset = false;
     }
 
@@ -149,6 +160,13 @@ impl History {
     /// A new frame is about to be drawn: those behind the one that is shown are forgotten, and where it is time for one
     /// a snapshot is taken.
     pub fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
+        // The frame that it follows has not been drawn by this program yet.
+        if self.again.rewound.is_some()
+            && let Some(inputs) = self.prepare_again(engine)?
+        {
+            engine.draw(&inputs)?;
+            self.drew_again(self.took);
+        }
         // On the way to a frame that is not wanted any more.
         if self.put_canvas_back(engine)? {
             self.floor = self.drawn;
@@ -157,6 +175,7 @@ impl History {
         while self.snapshots.back().is_some_and(|(at, _)| *at > self.drawn) {
             self.snapshots.pop_back();
         }
+        self.again.drop_behind(self.drawn);
         self.keep(engine, self.interval());
         self.forget(KEPT);
         Ok(())
@@ -186,10 +205,14 @@ impl History {
 
     /// A frame has been drawn.
     pub fn drew(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
-        // A slow one alone tells nothing.
-        self.took = if self.took.is_zero() { took } else { (7 * self.took + took) / 8 };
+        self.learn(took);
         self.frames.push_back(Frame { inputs, values: self.values.clone(), size });
         self.drawn += 1;
+    }
+
+    /// A frame took so long. A slow one alone tells nothing.
+    fn learn(&mut self, took: Duration) {
+        self.took = if self.took.is_zero() { took } else { (7 * self.took + took) / 8 };
     }
 
     /// Takes a snapshot where the one before is at least so many frames ago. A device without room keeps none.
@@ -262,12 +285,12 @@ impl History {
     }
 
     pub fn reach(&self) -> Reach {
-        let Some(shown) = self.drawn.checked_sub(1) else { return Reach::default() };
+        let Some(shown) = self.shown() else { return Reach::default() };
         let secs = |number: u64| self.frame(number).map_or(0.0, |frame| frame.inputs.time_secs);
         let first = self.first().min(shown);
         Reach {
             back: shown - first,
-            ahead: self.end() - self.drawn,
+            ahead: self.end().saturating_sub(shown + 1),
             first_secs: secs(first),
             last_secs: secs(self.end() - 1),
             shown,
@@ -278,7 +301,7 @@ impl History {
     fn number(&self, goal: Goal) -> Option<u64> {
         let first = self.first();
         let number = match goal {
-            Goal::By(frames) => self.drawn.checked_sub(1)?.checked_add_signed(frames)?,
+            Goal::By(frames) => self.shown()?.checked_add_signed(frames)?,
             Goal::Frame(number) => number,
             Goal::Anew(number) => return (number < self.end() && self.is_whole).then_some(number),
             // Time may have been set back on the way.
@@ -299,9 +322,11 @@ impl History {
         patience: Duration,
     ) -> Option<Result<Travelled, EngineError>> {
         let number = self.number(goal)?;
+        self.again.rewound = None;
         if let Goal::Anew(_) = goal {
             engine.reset();
             self.snapshots.clear();
+            self.again = Again::default();
             (self.drawn, self.is_from_reset) = (0, true);
             self.canvas.get_or_insert(engine.size());
         } else if !self.go_near(engine, number) {

@@ -62,14 +62,25 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, travel, reads, costs_of, tile_limit, gate } = job;
+        let Job { changes, frame, travel, stays, again, reads, costs_of, tile_limit, gate } = job;
         let mut done = Done::default();
         // Another program draws its own frame.
         if changes.program.is_none() || !reads.is_empty() {
             done.is_display_new |= self.finish();
         }
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
-        self.change(changes, tile_limit, &first_inputs, &mut done);
+        let canvas = self.engine.size();
+        if stays && changes.touches_targets(canvas) {
+            self.rewind(changes.size.is_some());
+        }
+        self.change(changes, canvas, tile_limit, &first_inputs, &mut done);
+        // Before a further frame, the one that is shown is drawn with the values that were turned meanwhile.
+        if stays && frame.is_some() && done.custom_uniforms_changed {
+            self.rewind(false);
+        }
+        if again {
+            self.draw_again(costs_of.is_some(), &mut done);
+        }
         if let Some(goal) = travel {
             let travelled = self.history.travel(&mut self.engine, goal, PATIENCE);
             done.is_display_new |= travelled.as_ref().is_some_and(|t| t.as_ref().is_ok_and(|t| t.is_display_new));
@@ -105,6 +116,36 @@ impl Studio {
         done
     }
 
+    /// Puts back what the targets held before the frame that is shown, if that is kept.
+    fn rewind(&mut self, is_size_coming: bool) {
+        // A device that is lost is told of by what is asked of it next.
+        if let Err(e) = self.history.rewind(&mut self.engine, is_size_coming) {
+            log::error!("a frame is not drawn again: {e}");
+        }
+    }
+
+    /// Draws the frame again that is shown.
+    fn draw_again(&mut self, is_watched: bool, done: &mut Done) {
+        let size = self.engine.size();
+        let drawn = match self.history.prepare_again(&mut self.engine) {
+            Ok(Some(inputs)) => {
+                self.shown = Some((inputs.frame, inputs.time_secs));
+                self.draw(&inputs, is_watched, None)
+            }
+            Ok(None) => {
+                done.is_again_lost = true;
+                return;
+            }
+            Err(error) => Err(error),
+        };
+        done.is_display_new |= self.engine.size() != size;
+        match &drawn {
+            Ok(drawn) => self.history.drew_again(drawn.took),
+            Err(_) => self.history.begin(false),
+        }
+        done.frame = Some(drawn);
+    }
+
     /// Reads what is asked for of the targets as they are now.
     fn read_behind(&mut self, reads: Reads, done: &mut Done) {
         let Reads { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = reads;
@@ -123,18 +164,23 @@ impl Studio {
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
     }
 
-    fn change(&mut self, changes: Changes, tile_limit: Option<TileLimit>, inputs: &FrameInputs, done: &mut Done) {
-        let Changes { restart, size, program, custom_uniforms, shown, look, reset, costs: _ } = changes;
+    /// `canvas`: the size that the picture has had.
+    fn change(
+        &mut self,
+        changes: Changes,
+        canvas: (u32, u32),
+        tile_limit: Option<TileLimit>,
+        inputs: &FrameInputs,
+        done: &mut Done,
+    ) {
+        let Changes { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
         if restart {
             let made = Studio::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
             done.restarted = Some(made.map(|studio| *self = studio));
             done.is_display_new = true;
         }
-        if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
-            done.resized = Some(((width, height), self.engine.resize(width, height)));
-            self.history.resize();
-            self.shown = None;
-            done.is_display_new = true;
+        if let Some(size) = size {
+            self.resize(size, canvas, done);
         }
         if let Some(coming) = program {
             let tried = match tile_limit {
@@ -167,6 +213,29 @@ impl Studio {
             self.history.begin(true);
             self.shown = None;
         }
+        if let Some(frames) = run {
+            self.history.take_up(frames);
+        }
+    }
+
+    /// `canvas`: the size that the picture has had.
+    fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut Done) {
+        if self.history.resize_behind((width, height)) {
+            done.resized = Some(((width, height), Ok(())));
+            return;
+        }
+        if (width, height) == canvas {
+            return;
+        }
+        let resized = self.engine.resize(width, height);
+        if resized.is_err() && self.engine.size() != canvas {
+            // It has been rewound on another canvas.
+            let _ = self.engine.resize(canvas.0, canvas.1);
+        }
+        done.resized = Some(((width, height), resized));
+        self.history.resize();
+        self.shown = None;
+        done.is_display_new = true;
     }
 
     /// Draws a new program on a canvas of a few pixels, then on larger ones until the time tells something, and says

@@ -1,0 +1,135 @@
+//! Another project takes the place of the open one: what belongs to a project goes with it as a whole.
+//!
+//! Owns the line between the two. Each part of a session that has both is made anew here, member by member, so that one
+//! that is added is asked about by the compiler: is it the project's, or the window's? The window's are the device, what
+//! is watched of the disk, the folders, counters, and what a person has set for all projects (the limit of a frame,
+//! whether a reload begins anew, whether an edit keeps the inputs).
+
+use super::{
+    Session,
+    clock::Clock,
+    command::{Question, Request},
+    costs::Costs,
+    debounce::Debounce,
+    documents::Documents,
+    fps::FpsMeter,
+    mouse::Mouse,
+    options::SessionOptions,
+    probe::Probing,
+    seeking::Seeking,
+    state::{Canvas, Compile, Dialog, Disk, Run},
+    view::CompileState,
+};
+use crate::{media::Keyboard, project::PassId};
+
+impl Session {
+    /// Another project takes the place of this one, from where its time stood when it was open last.
+    pub(super) fn replace(&mut self, documents: Documents) {
+        self.end_recording();
+        self.keep_time();
+        self.drawing.restart();
+        self.documents = documents;
+        self.projects_opened += 1;
+        self.text_generation += 1;
+        self.forget_notices();
+        self.safekeeping.kept = None;
+        self.passes.clear();
+        self.canvas = self.canvas.of_next_project();
+        self.compile = self.compile.of_next_project(&self.options);
+        self.disk.begin_next_project(&self.options);
+        self.dialog.begin_next_project();
+        self.run.begin_next_project();
+        // A compile of the project that goes may end before the new one's begins.
+        self.compiler.forget();
+        self.probing = Probing::default();
+        self.tracing.forget();
+        self.auditing.forget();
+        self.searching.forget();
+        self.comparing.forget();
+        self.take_time_up();
+        self.halt_for_new_project();
+        self.disk_is_known();
+        self.compile_soon();
+    }
+}
+
+impl Canvas {
+    fn of_next_project(&self) -> Canvas {
+        let Canvas { viewport, asked: _, usual, refused: _ } = *self;
+        Canvas { viewport, asked: usual, usual, refused: None }
+    }
+}
+
+impl Compile {
+    fn of_next_project(&self, options: &SessionOptions) -> Compile {
+        Compile {
+            edits: Debounce::new(options.edit_debounce),
+            jobs: self.jobs.clone(),
+            edited: false,
+            include_edits: self.include_edits,
+            includes_read: self.include_edits,
+            is_wanted: true,
+            is_look_wanted: false,
+            reset_when_built: false,
+            state: CompileState::default(),
+            diagnostics: Vec::new(),
+            read: Vec::new(),
+            fallback: None,
+            newest_since: None,
+            edited_at: None,
+        }
+    }
+}
+
+impl Disk {
+    fn begin_next_project(&mut self, options: &SessionOptions) {
+        *self = Disk {
+            watch: self.watch.take(),
+            changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
+            is_check_wanted: false,
+            unsettled_since: None,
+            told: None,
+            manifest: None,
+            opened: self.opened + 1,
+            media_files: Vec::new(),
+            reset_on_reload: self.reset_on_reload,
+        };
+    }
+}
+
+impl Dialog {
+    fn begin_next_project(&mut self) {
+        let Dialog { questions, requests, after_save } = self;
+        // What was left behind is of other projects.
+        questions.retain(|question| matches!(question, Question::Recover(_)));
+        requests.retain(|request| !matches!(request, Request::SaveAs { .. }));
+        *after_save = None;
+    }
+}
+
+impl Run {
+    fn begin_next_project(&mut self) {
+        *self = Run {
+            clock: Clock::default(),
+            mouse: Mouse::default(),
+            keyboard: Keyboard::default(),
+            shown: PassId::Image,
+            is_frame_due: false,
+            is_again_due: false,
+            is_program_new: false,
+            is_picture_new: self.is_picture_new,
+            waits_for_painting: self.waits_for_painting,
+            steps: 0,
+            seeking: Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() },
+            is_covered: self.is_covered,
+            is_device_lost: self.is_device_lost,
+            fps: FpsMeter::default(),
+            cpu_micros: 0.0,
+            costs: Costs::watched(self.costs.is_watched()),
+            miniatures: self.miniatures.of_next_project(),
+            buffers: self.buffers.of_next_project(),
+            measuring: self.measuring.of_next_project(),
+            recorder: None,
+        };
+    }
+}

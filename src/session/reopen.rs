@@ -1,0 +1,113 @@
+//! Owns where the time of a project stands when it is closed and opened again.
+//!
+//! The rule: a project without a state goes on at the time and the frame where it was. One whose passes read what the
+//! last frame left begins at frame 0, as its buffers do; where it was closed while paused, the frames that led to what
+//! was shown are drawn again from the inputs that they had, on the way to that frame, and it is paused there. Where
+//! these are not known, as of a run of more than ten minutes, it is paused at frame 0.
+
+use super::{
+    Session,
+    clock::Clock,
+    drawing::{Job, Run},
+    recent::{Left, RecentProject},
+    seeking::Goal,
+    view::{About, Level},
+};
+use std::time::{Duration, Instant};
+
+/// The inputs of the run are waited for so long when a project is closed.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+impl Session {
+    /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
+    pub(super) fn place_known(&mut self) -> Option<RecentProject> {
+        match self.recent.opened(&self.documents.current().origin) {
+            Ok(known) => known,
+            Err(why) => {
+                self.notice_about(About::Window, Level::Warning, why);
+                None
+            }
+        }
+    }
+
+    /// Keeps where the open project's time stands.
+    pub(super) fn keep_time(&mut self) {
+        // What was left last time has not been drawn again yet: it is what is left.
+        if self.run.seeking.is_taking_up {
+            return;
+        }
+        let clock = &self.run.clock;
+        // A picture that a halt has paused runs again once it is drawn fast.
+        let is_paused = !self.is_playing() && !self.halting.resumes;
+        let left = Left { time_secs: clock.time_secs(), frame: clock.next_frame_number() - 1, is_paused };
+        let origin = self.documents.current().origin.clone();
+        if let Err(why) = self.recent.left(&origin, left) {
+            log::warn!("{why}");
+        }
+        self.keep_run(is_paused);
+    }
+
+    /// Keeps the inputs that led to the frame that is shown, where they are needed to show it again.
+    fn keep_run(&mut self, is_paused: bool) {
+        let (reach, origin) = (self.drawing.reach(), self.documents.current().origin.clone());
+        let is_kept = is_paused && reach.is_whole && self.has_state() && self.runs.takes(&origin, reach.shown + 1);
+        match if is_kept { self.take_run() } else { None } {
+            Some(Run { frames, is_whole: true }) if !frames.is_empty() => {
+                let name = self.documents.current().name.clone();
+                if let Err(e) = self.runs.keep(&origin, name, frames) {
+                    log::warn!("the frame that is shown will not be drawn again: {e}");
+                    self.runs.forget(&origin);
+                }
+            }
+            _ => self.runs.forget(&origin),
+        }
+    }
+
+    /// Asks the engine for the run, and waits for it, but not for long.
+    fn take_run(&mut self) -> Option<Run> {
+        let end = Instant::now() + PATIENCE;
+        self.rest_until(end)?;
+        // What else is wanted is of a project that goes.
+        let wanted = std::mem::take(&mut self.drawing.wanted);
+        self.drawing.submit(self.now, false, |job: &mut Job| job.reads.wants_run = true);
+        self.drawing.wanted = wanted;
+        loop {
+            if let Some(done) = self.drawing.take(true) {
+                return done.run;
+            }
+            if Instant::now() >= end {
+                return None;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Waits for the job under way. `None`: it goes on.
+    fn rest_until(&mut self, end: Instant) -> Option<()> {
+        while self.drawing.is_busy() {
+            self.take_drawn(false);
+            if Instant::now() >= end {
+                return None;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Some(())
+    }
+
+    /// Goes on from where the time of the project stood that has just been opened.
+    pub(super) fn take_time_up(&mut self) {
+        let Some(RecentProject { time_secs, frame, paused, .. }) = self.place_known() else { return };
+        let is_playing = !paused;
+        if !self.has_state() {
+            self.run.clock = Clock::at(time_secs, frame, is_playing);
+            self.run.is_frame_due = true;
+            return;
+        }
+        self.run.clock = Clock::at(0.0, None, is_playing);
+        let origin = &self.documents.current().origin;
+        let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
+        self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
+        (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
+        self.drawing.wanted.run = Some(frames);
+    }
+}

@@ -1,0 +1,115 @@
+//! The inputs of projects that were closed while paused, so that the next start shows the frame that was left: it is
+//! drawn again from them.
+//!
+//! Owns the files, one a project, in the folder of what is remembered between two starts. Each is a recording
+//! ([`Recording`]). A project whose passes read nothing of the last frame needs none.
+
+use super::{
+    drawing::Frame,
+    recording::{EXTENSION, RecordedFrame, Recording},
+};
+use crate::project::{self, Origin, limits};
+use std::{
+    fs::{self, File},
+    hash::{DefaultHasher, Hash, Hasher},
+    io::{self, BufReader, BufWriter, Write},
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::SystemTime,
+};
+
+/// A longer run is not drawn again when its project is opened: ten minutes at 60 frames a second.
+const LONGEST: usize = 36_000;
+/// So many projects have one; the oldest go.
+const MOST: usize = 50;
+
+/// The folder of the runs.
+pub(super) struct Runs {
+    /// `None`: nothing is kept.
+    folder: Option<PathBuf>,
+}
+
+impl Runs {
+    /// `state_dir`: what is remembered between two starts lies there.
+    pub fn new(state_dir: Option<&Path>) -> Self {
+        Self { folder: state_dir.map(|dir| dir.join("runs")) }
+    }
+
+    /// Returns whether a run of so many frames is kept of a project.
+    pub fn takes(&self, origin: &Origin, frames: u64) -> bool {
+        frames <= LONGEST as u64 && self.file(origin).is_some()
+    }
+
+    /// Keeps a run from its first frame on.
+    pub fn keep(&self, origin: &Origin, project: String, frames: Vec<Frame>) -> io::Result<()> {
+        let Some(path) = self.file(origin) else { return Ok(()) };
+        let one = |(index, frame): (usize, Frame)| RecordedFrame {
+            inputs: frame.inputs,
+            size: frame.size,
+            values: Arc::unwrap_or_clone(frame.values),
+            reset: index == 0,
+        };
+        let recording = Recording { project, frames: frames.into_iter().enumerate().map(one).collect() };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        project::make_private(folder)?;
+        let new = tempfile::NamedTempFile::new_in(folder)?;
+        let mut out = BufWriter::new(new);
+        recording.write(&mut out)?;
+        out.flush()?;
+        out.into_inner().map_err(io::IntoInnerError::into_error)?.persist(&path)?;
+        sweep(folder);
+        Ok(())
+    }
+
+    /// Forgets the run of a project.
+    pub fn forget(&self, origin: &Origin) {
+        let Some(path) = self.file(origin) else { return };
+        match fs::remove_file(&path) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => log::warn!("cannot remove {}: {e}", path.display()),
+            Ok(()) | Err(_) => {}
+        }
+    }
+
+    /// Returns the frames of a project's run, if one is kept. What cannot be read is none.
+    pub fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
+        let path = self.file(origin)?;
+        let file = File::open(&path).ok()?;
+        let recording = Recording::read_within(BufReader::new(file), limits::RUN, limits::RUN_BYTES)
+            .inspect_err(|e| log::warn!("{} is not drawn again: {e}", path.display()))
+            .ok()?;
+        if recording.frames.len() > LONGEST {
+            return None;
+        }
+        let mut values = Arc::default();
+        let one = |frame: RecordedFrame| {
+            // Frames of the same values share them.
+            if *values != frame.values {
+                values = Arc::new(frame.values);
+            }
+            Frame { inputs: frame.inputs, values: values.clone(), size: frame.size }
+        };
+        Some(recording.frames.into_iter().map(one).collect())
+    }
+
+    fn file(&self, origin: &Origin) -> Option<PathBuf> {
+        let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return None };
+        let mut hasher = DefaultHasher::new();
+        path.canonicalize().unwrap_or_else(|_| path.clone()).hash(&mut hasher);
+        Some(self.folder.as_ref()?.join(format!("{:016x}.{EXTENSION}", hasher.finish())))
+    }
+}
+
+/// Removes the oldest files where there are too many.
+fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    let is_run = |path: &PathBuf| path.extension().is_some_and(|e| e == EXTENSION);
+    let files = entries.flatten().map(|entry| entry.path()).filter(is_run);
+    let written = |path: &PathBuf| path.metadata().and_then(|meta| meta.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+    let mut files: Vec<(SystemTime, PathBuf)> = files.map(|path| (written(&path), path)).collect();
+    files.sort();
+    for (_, path) in files.iter().take(files.len().saturating_sub(MOST)) {
+        if let Err(e) = fs::remove_file(path) {
+            log::warn!("cannot remove {}: {e}", path.display());
+        }
+    }
+}

@@ -1,0 +1,432 @@
+//! Another project is opened: nothing of the one before is left, whatever was done to it.
+
+use crate::support::{self, stage::*};
+use eddy::{
+    gpu::Gpu,
+    project::{PassId, Tab},
+    session::{
+        Answer, Command, Level, Question, Session, SessionOptions, buffers::BufferWatch, comparing::Against,
+        probe::ProbePlace, seeking::TimeRange,
+    },
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+const KEEP: &str = "void mainImage(out vec4 o, in vec2 p) {
+    o = texelFetch(iChannel0, ivec2(p), 0) + vec4(0.01, 0.0, 0.0, 1.0);
+    if (iTime < 1.0) o.g = 0.5;
+}
+";
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) {\n    o = texelFetch(iChannel0, ivec2(p), 0);\n}\n";
+const MANIFEST: &str =
+    "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
+
+fn write(folder: &Path, files: &[(&str, &str)]) -> String {
+    fs::create_dir_all(folder).unwrap();
+    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
+    folder.to_str().unwrap().to_owned()
+}
+
+fn with_buffer(folder: &Path) -> String {
+    write(folder, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", KEEP), ("image.glsl", SHOW)])
+}
+
+/// Everything that a front end can see of the open project.
+fn seen(session: &Session) -> String {
+    let project = session.project();
+    let custom_uniforms: Vec<_> = session.custom_uniforms().iter().map(|u| session.custom_uniform_value(u)).collect();
+    let said: Vec<_> = session.notices().iter().map(|n| &n.text).collect();
+    let measures: Vec<_> = session.measures().iter().map(|m| (&m.text, m.record.cells().len())).collect();
+    format!(
+        "{:#?}",
+        (
+            (&project.name, project.tabs(), session.tabs(), session.shown_pass(), session.is_dirty()),
+            (session.transport(), session.reach(), session.time_range(), session.halt(), session.has_last_good()),
+            (session.compile_state().compiling, session.diagnostics(), said, session.question()),
+            (session.audit_map(), session.probe().is_some(), session.trace().traced.is_some(), session.trace().trouble),
+            (session.parting().is_some(), session.search(), session.comparison().is_some(), session.buffer().is_some()),
+            (session.texels_under().len(), session.miniature(&PassId::Image, 0).is_some(), measures, custom_uniforms),
+            (session.pass_undo().is_some(), session.pass_redo().is_some(), session.recorded_frames()),
+            session.is_first_frame_coming(),
+        )
+    )
+}
+
+/// Ticks until nothing is under way. Its time of now is no matter of the project.
+fn rest(stage: &mut Stage) {
+    stage.session.apply(Command::Pause);
+    // What a panel looks at is the window's; there is none here.
+    stage.session.apply(Command::WatchTargets(Vec::new()));
+    stage.until_compiled();
+    stage.until("rest", |s| !s.transport().is_seeking);
+    stage.session.apply(Command::Reset);
+    stage.for_a_while();
+}
+
+#[test]
+fn nothing_of_a_project_is_left_when_another_is_opened() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let a = "#iUniform float gain = 0.5 in { 0.0, 1.0 }\n//@probe max(image.x)\n".to_owned() + KEEP;
+    let a = write(&dir.path().join("a"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", &a), ("image.glsl", SHOW)]);
+    // A second file with everything that the first has a name for.
+    let b = "#iUniform float gain = 0.5 in { 0.0, 1.0 }\n//@probe max(image.x)\n".to_owned() + KEEP;
+    let b = write(&dir.path().join("b"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", &b), ("image.glsl", SHOW)]);
+    let open = |stage: &mut Stage, path: &str| {
+        stage.session.apply(Command::SetViewport { width: 32, height: 18 });
+        stage.session.apply(Command::Open(path.into()));
+        if stage.session.question().is_some() {
+            assert!(matches!(stage.session.question(), Some(Question::Unsaved { .. })));
+            stage.session.apply(Command::Answer(Answer::Discard));
+        }
+    };
+    let mut fresh = Stage::bare(gpu.clone());
+    open(&mut fresh, &b);
+    rest(&mut fresh);
+    let expected = seen(&fresh.session);
+
+    let mut stage = Stage::bare(gpu);
+    open(&mut stage, &a);
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    let buffer_a = PassId::Buffer("A".into());
+    for _ in 0..5 {
+        stage.session.apply(Command::Step);
+    }
+    stage.tick();
+    let everything = [
+        Command::SetScale(0.25),
+        Command::SetFixedSize(Some((6, 6))),
+        Command::SetFixedSize(None),
+        Command::SetScale(-1.0),
+        Command::SetSpeed(3.0),
+        Command::SetFixedRate(Some(30.0)),
+        Command::SetTimeRange(TimeRange::new(0.0, 0.5)),
+        Command::ShowPass(buffer_a.clone()),
+        Command::AssignCustomUniform("gain=0.75".into()),
+        Command::AssignCustomUniform("nothing=0.75".into()),
+        Command::AddTab(Tab::Common),
+        Command::UndoPassEdit,
+        Command::AddTab(Tab::Pass(PassId::Buffer("C".into()))),
+        Command::MouseDown { x: 3.0, y: 2.0 },
+        Command::KeyDown(65),
+        Command::WatchBuffers(BufferWatch {
+            shown: Some(((buffer_a, 0), Default::default())),
+            under: Some([0.5, 0.5]),
+        }),
+        Command::WatchTargets(vec![(PassId::Image, 0)]),
+        Command::WatchMeasures(vec![1]),
+        Command::Trace(Some([0.5, 0.5])),
+        Command::Audit,
+        Command::FindNonfinite(true),
+        Command::StepBack(5000),
+        Command::Screenshot,
+        Command::SaveTexels,
+        Command::Compare(Some(Against::LastSave)),
+        Command::Notify { level: Level::Info, text: "of the window".into(), path: None },
+    ];
+    for command in everything {
+        stage.session.apply(command);
+        let end = Instant::now() + Duration::from_millis(300);
+        while Instant::now() < end {
+            stage.tick();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+    stage.session.apply(Command::FindParting);
+    stage.for_a_while();
+    stage.session.apply(Command::Probe(Some(ProbePlace { tab: IMAGE, at: SHOW.find("texel").unwrap(), visit: 0 })));
+    stage.until_compiled();
+    stage.session.apply(Command::Record);
+    // Some of it is still under way when the other project comes.
+    stage.session.apply(Command::Audit);
+    stage.session.apply(Command::Trace(Some([0.2, 0.2])));
+    stage.edit("void mainImage(");
+    stage.session.apply(Command::CompileNow);
+    stage.tick();
+    assert_ne!(seen(&stage.session), expected);
+    open(&mut stage, &b);
+    let notices: Vec<_> = stage.session.notices().iter().map(|n| n.text.as_str()).collect();
+    assert!(notices.contains(&"of the window") && !notices.iter().any(|text| text.contains("out of reach")));
+    let ids: Vec<u64> = stage.session.notices().iter().map(|n| n.id).collect();
+    ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
+    rest(&mut stage);
+    let left = seen(&stage.session);
+    let differing: Vec<_> = left.lines().zip(expected.lines()).filter(|(a, b)| a != b).collect();
+    assert!(left == expected, "{differing:#?}");
+}
+
+#[test]
+fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let open = |name: &str, red: f32| write(&dir.path().join(name), &[("image.glsl", &plain(red))]);
+    let (a, b) = (open("a", 0.2), open("b", 0.6));
+    let mut stage = Stage::bare(gpu);
+    stage.session.apply(Command::Open(a));
+    stage.session.apply(Command::CompileNow);
+    stage.tick();
+    std::thread::sleep(Duration::from_millis(500));
+    // The compile has ended, and the front end is woken for it just now.
+    stage.session.apply(Command::Open(b));
+    stage.session.attend(Instant::now());
+    assert_eq!(stage.session.programs_drawn(), 0);
+    stage.until_compiled();
+    assert_eq!(stage.red(), 153);
+}
+
+#[test]
+fn notices_end_with_what_they_are_about() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", KEEP), ("image.glsl", SHOW)]);
+    let count = |stage: &Stage| stage.session.notices().iter().filter(|n| n.level != Level::Info).count();
+    let after = |stage: &mut Stage, commands: Vec<Command>| {
+        commands.into_iter().for_each(|command| stage.session.apply(command));
+        stage.tick();
+        count(stage)
+    };
+    let step = || vec![Command::Step];
+    assert_eq!([after(&mut stage, vec![Command::StepBack(99)]), after(&mut stage, step())], [1, 0]);
+    let assign = |text: &str| vec![Command::AssignCustomUniform(text.into())];
+    assert_eq!([after(&mut stage, assign("none=1")), after(&mut stage, assign("none=2"))], [1, 1]);
+    let size = |scale| vec![Command::SetScale(scale)];
+    assert_eq!([after(&mut stage, size(-1.0)), after(&mut stage, size(-2.0)), after(&mut stage, size(1.0))], [2, 2, 1]);
+    let open = |text: &str| vec![Command::Open(text.into())];
+    assert_eq!([after(&mut stage, open("/none")), after(&mut stage, open("/none of these"))], [2, 2]);
+    // Files that make no project, until they do.
+    stage.write("eddy.toml", "eddy = ");
+    stage.session.apply(Command::Focus(true));
+    stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("stay as they are")));
+    stage.write("eddy.toml", MANIFEST);
+    stage.session.apply(Command::Focus(true));
+    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("stay as they are")));
+    // A file that is gone, until it is back.
+    fs::remove_file(stage.path("image.glsl")).unwrap();
+    stage.session.apply(Command::Focus(true));
+    stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("was deleted")));
+    stage.write("image.glsl", SHOW);
+    stage.session.apply(Command::Focus(true));
+    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("was deleted")));
+}
+
+#[test]
+fn figures_are_told_of_what_is_drawn_and_of_nothing_else() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let broken = write(&dir.path().join("broken"), &[("image.glsl", "void mainImage(")]);
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
+    stage.session.apply(Command::Play);
+    for _ in 0..5 {
+        stage.tick();
+    }
+    assert!(stage.session.transport().cpu_micros.is_some());
+    stage.session.apply(Command::Open(broken));
+    for _ in 0..2 {
+        let transport = stage.session.transport();
+        assert_eq!((transport.cpu_micros, transport.gpu_millis, transport.fps), (None, None, None));
+        stage.until_compiled();
+    }
+}
+
+#[test]
+fn the_map_of_errors_goes_when_another_picture_is_shown() {
+    let Some(gpu) = support::gpu() else { return };
+    let sine = "void mainImage(out vec4 o, in vec2 p) { o = vec4(sin(p.x * 91.7 + iTime) * 0.5 + 0.5); }";
+    let mut stage = Stage::open(gpu, &[("image.glsl", sine)]);
+    let ways: [(&str, fn(&mut Stage)); 5] = [
+        ("a step", |stage| stage.session.apply(Command::Step)),
+        ("a frame gone back to", |stage| stage.session.apply(Command::StepBack(1))),
+        ("a press of the mouse", |stage| stage.session.apply(Command::MouseDown { x: 2.0, y: 2.0 })),
+        ("another size", |stage| stage.session.apply(Command::SetFixedSize(Some((16, 9))))),
+        ("playing", |stage| stage.session.apply(Command::Play)),
+    ];
+    for (what, way) in ways {
+        // While it plays too: the picture stands still as the map does.
+        stage.session.apply(Command::Play);
+        stage.tick();
+        stage.session.apply(Command::Audit);
+        assert!(!stage.session.transport().playing, "{what}");
+        stage.until("the map", |s| s.audit_map().is_some());
+        way(&mut stage);
+        stage.tick();
+        assert!(stage.session.audit_map().is_none(), "{what}");
+    }
+}
+
+fn place(stage: &Stage) -> (f64, i32, bool) {
+    let transport = stage.session.transport();
+    (transport.time_secs, transport.frame, transport.playing)
+}
+
+fn remembering(gpu: &Gpu, state: &Path) -> Stage {
+    let state = state.to_owned();
+    Stage::with_options(gpu.clone(), move |_| SessionOptions { state_dir: Some(state), ..SessionOptions::default() })
+}
+
+/// Opens a project and waits for what it shows.
+fn opened(gpu: &Gpu, state: &Path, project: &str) -> Stage {
+    let mut stage = remembering(gpu, state);
+    stage.session.apply(Command::Open(project.into()));
+    stage.until_compiled();
+    stage.until("the frame that was left", |s| !s.transport().is_seeking);
+    stage.tick();
+    stage
+}
+
+fn texels(stage: &mut Stage) -> Vec<u8> {
+    stage.session.apply(Command::SaveTexels);
+    stage.tick();
+    fs::read(stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap()).unwrap()
+}
+
+fn close(mut stage: Stage) {
+    stage.session.apply(Command::Close);
+    assert!(stage.session.take_request().is_some());
+}
+
+fn runs(state: &Path) -> Vec<PathBuf> {
+    fs::read_dir(state.join("runs")).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
+}
+
+#[test]
+fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
+    let project = with_buffer(&folder);
+    let mut stage = remembering(&gpu, &state);
+    stage.session.apply(Command::Open(project.clone()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    stage.session.apply(Command::Seek(1.5));
+    stage.until("the time", |s| !s.transport().is_seeking);
+    stage.session.apply(Command::MouseDown { x: 3.0, y: 2.0 });
+    stage.tick();
+    let (left, picture) = (place(&stage), texels(&mut stage));
+    assert_eq!(left, (1.5, 91, false));
+    close(stage);
+    assert_eq!(runs(&state).len(), 1);
+    // The seed of its first second is in it, though that second is over.
+    let mut again = opened(&gpu, &state, &project);
+    assert_eq!(place(&again), left);
+    assert!(texels(&mut again) == picture);
+    assert!(again.notices(Level::Warning).is_empty(), "{:?}", again.notices(Level::Warning));
+    // Back and forth as if it had never been closed.
+    again.session.apply(Command::StepBack(40));
+    again.tick();
+    assert_eq!(place(&again).1, 51);
+    again.session.apply(Command::Seek(1.5));
+    again.until("the frame", |s| !s.transport().is_seeking);
+    assert!(texels(&mut again) == picture);
+    close(again);
+    // In a window of another size.
+    let mut other = remembering(&gpu, &state);
+    other.session.apply(Command::SetFixedSize(Some((12, 6))));
+    other.session.apply(Command::Open(project.clone()));
+    other.until_compiled();
+    other.until("the frame that was left", |s| !s.transport().is_seeking);
+    other.tick();
+    assert_eq!((place(&other), other.session.transport().resolution), (left, (12, 6)));
+    assert!(other.session.notices().is_empty(), "{:?}", other.session.notices());
+    other.session.apply(Command::Screenshot);
+    other.tick();
+    let shot = other.session.notices().last().and_then(|n| n.path.clone()).unwrap();
+    assert_eq!(image::open(&shot).unwrap().to_rgb8().dimensions(), (12, 6));
+    // Closed while it plays it begins at 0, with the buffers.
+    other.session.apply(Command::Play);
+    other.tick();
+    close(other);
+    assert!(runs(&state).is_empty());
+    let mut playing = remembering(&gpu, &state);
+    playing.session.apply(Command::Open(project.clone()));
+    assert_eq!(place(&playing), (0.0, 0, true));
+    playing.until_compiled();
+    assert!(place(&playing).0 < 1.0);
+    assert!(playing.red() < 40, "a few frames from black");
+    close(playing);
+    // Where the run is not known any more, paused at 0.
+    let mut paused = opened(&gpu, &state, &project);
+    paused.session.apply(Command::Pause);
+    paused.session.apply(Command::Seek(1.0));
+    paused.until("the time", |s| !s.transport().is_seeking);
+    close(paused);
+    runs(&state).iter().for_each(|file| fs::write(file, "{\"eddy_recording\":1}\nno frame\n").unwrap());
+    assert_eq!(place(&opened(&gpu, &state, &project)), (0.0, 0, false));
+}
+
+#[test]
+fn a_project_without_a_state_goes_on_at_its_time_and_frame() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let state = dir.path().join("state");
+    let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime * 0.25, float(iFrame) / 255.0, 0.0, 1.0); }";
+    let project = write(&dir.path().join("p"), &[("image.glsl", text)]);
+    for (is_paused, frames) in [(true, 7), (false, 3)] {
+        let mut stage = opened(&gpu, &state, &project);
+        stage.session.apply(Command::Pause);
+        (0..frames).for_each(|_| stage.session.apply(Command::Step));
+        stage.tick();
+        let left = place(&stage);
+        let red = stage.red();
+        if !is_paused {
+            stage.session.apply(Command::Play);
+        }
+        close(stage);
+        let mut again = remembering(&gpu, &state);
+        again.session.apply(Command::Open(project.clone()));
+        if is_paused {
+            again.until_compiled();
+            assert_eq!((place(&again), again.red()), (left, red));
+        } else {
+            let (time, frame, playing) = place(&again);
+            assert_eq!((time, playing), (left.0, true));
+            assert!((left.1 - 1..=left.1).contains(&frame), "{frame} after {}", left.1);
+        }
+        close(again);
+    }
+    assert!(runs(&state).is_empty(), "no inputs are kept of it");
+}
+
+#[test]
+fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
+    let project = with_buffer(&folder);
+    let mut stage = opened(&gpu, &state, &project);
+    stage.session.apply(Command::Pause);
+    stage.session.apply(Command::Seek(0.5));
+    stage.until("the time", |s| !s.transport().is_seeking);
+    let (left, picture) = (place(&stage), texels(&mut stage));
+    close(stage);
+    // It does not compile when it is opened.
+    fs::write(folder.join("image.glsl"), "void mainImage(").unwrap();
+    let mut broken = remembering(&gpu, &state);
+    broken.session.apply(Command::Open(project.clone()));
+    broken.until_compiled();
+    broken.for_a_while();
+    assert_eq!(broken.frames(), 0);
+    broken.session.apply(Command::EditText { tab: IMAGE, text: SHOW.into() });
+    broken.session.apply(Command::CompileNow);
+    broken.until("a program", |s| s.programs_drawn() > 0 || s.transport().frame > 0);
+    broken.until("the frame that was left", |s| !s.transport().is_seeking);
+    broken.tick();
+    assert_eq!(place(&broken), left);
+    assert!(texels(&mut broken) == picture);
+    broken.session.apply(Command::Save);
+    close(broken);
+    // Closed before it was there: it is as it was.
+    let mut early = remembering(&gpu, &state);
+    early.session.apply(Command::Open(project.clone()));
+    close(early);
+    let mut played = remembering(&gpu, &state);
+    played.session.apply(Command::Open(project.clone()));
+    assert!(played.session.transport().is_seeking);
+    played.session.apply(Command::Play);
+    played.until_compiled();
+    let (time, frame, playing) = place(&played);
+    assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
+}

@@ -1,0 +1,299 @@
+//! End to end: what is a project's goes with it, a paused picture stands still, and what is closed comes back as it was
+//! left. By real keys and clicks.
+
+use crate::support::window::{Display, Window};
+use serde_json::Value;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Counts the frames that it has seen in red; what it is seeded with in its first second stays in green.
+const COUNT: &str = "void mainImage(out vec4 o, in vec2 p) {
+    o = texelFetch(iChannel0, ivec2(p), 0) + vec4(1.0 / 256.0, 0.0, 0.0, 1.0);
+    if (iTime < 1.0) o.g = 0.5;
+}
+";
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) {
+    o = texelFetch(iChannel0, ivec2(p), 0);
+    float g = o.r;
+}
+";
+const MANIFEST: &str =
+    "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
+
+fn project(home: &Path, name: &str) -> PathBuf {
+    let folder = home.join(name);
+    fs::create_dir(&folder).unwrap();
+    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    folder
+}
+
+/// Opens it paused, before its first frame, and goes to frame 90.
+fn at_frame_90<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
+    let mut window = Window::open(display, home, &["--paused", folder.to_str().unwrap()]);
+    window.resize(1300, 900);
+    window.compiled();
+    window.keys(&["alt+g"]);
+    window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
+    window.type_text("1.5");
+    window.keys(&["Return"]);
+    window.wait_until("a second and a half", "frame", |e| e["frame"] == 90);
+    window.keys(&["Escape"]);
+    window.hides("time:field");
+    window
+}
+
+/// The colour in the middle of the picture.
+fn colour(display: &Display, window: &mut Window, home: &Path) -> [u8; 3] {
+    let middle = window.picture_point(0.5, 0.5);
+    let file = home.join("shot.png");
+    display.photograph(&file);
+    image::open(&file).unwrap().to_rgb8().get_pixel(middle.0 as u32, middle.1 as u32).0
+}
+
+/// Waits until the middle of the picture has a colour, and returns what it has in the end.
+fn comes_to(display: &Display, window: &mut Window, home: &Path, wanted: [u8; 3]) -> [u8; 3] {
+    let end = Instant::now() + Duration::from_secs(30);
+    loop {
+        let seen = colour(display, window, home);
+        if seen == wanted || Instant::now() > end {
+            return seen;
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        window.drain();
+    }
+}
+
+fn type_path(window: &mut Window, path: &Path) {
+    window.wait_until("the field for a path", "layout", |e| e["rects"]["field:path"].is_array());
+    window.keys(&["ctrl+a"]);
+    window.type_text(path.to_str().unwrap());
+    window.keys(&["Return"]);
+}
+
+fn question(window: &mut Window, kind: &str) {
+    window.wait_until(&format!("the question {kind}"), "question", |e| e["kind"] == kind);
+}
+
+fn files(folder: &Path) -> Vec<(String, String)> {
+    let read = |entry: fs::DirEntry| {
+        (entry.file_name().into_string().unwrap(), fs::read_to_string(entry.path()).unwrap_or_default())
+    };
+    let mut all: Vec<_> = fs::read_dir(folder).unwrap().flatten().map(read).collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mine = project(home.path(), "mine");
+    let theirs = home.path().join("theirs");
+    fs::create_dir(&theirs).unwrap();
+    for (name, text) in
+        [("eddy.toml", "eddy = 1\nname = \"Theirs\"\n"), ("buffer_a.glsl", "theirs"), ("image.glsl", "them")]
+    {
+        fs::write(theirs.join(name), text).unwrap();
+    }
+    let before = files(&theirs);
+    let mut window = Window::open(&display, home.path(), &["--paused", mine.to_str().unwrap()]);
+    window.resize(1300, 900);
+    window.compiled();
+    for key in ["Return", "space", "Escape"] {
+        window.keys(&["ctrl+shift+s"]);
+        type_path(&mut window, &theirs);
+        question(&mut window, "overwrite");
+        window.wait_until("the safe answer has the keyboard", "focus", |e| e["widget"] == "answer:cancel");
+        for name in ["eddy.toml", "buffer_a.glsl", "image.glsl"] {
+            window.shows(&format!("replaces:{name}"));
+        }
+        display.shot("replace.png");
+        window.keys(&[key]);
+        window.wait_until("no question", "question", |e| e["kind"].is_null());
+        assert!(files(&theirs) == before, "{key}");
+    }
+    window.keys(&["ctrl+shift+s"]);
+    type_path(&mut window, &theirs);
+    question(&mut window, "overwrite");
+    window.click_on("answer:overwrite");
+    window.wait_until("the new name", "opened", |e| e["origin"]["folder"] == theirs.to_str().unwrap());
+    assert_eq!(fs::read_to_string(theirs.join("image.glsl")).unwrap(), SHOW);
+    let kept = home.path().join(".local/state/eddy/recovery/replaced/theirs-0001");
+    assert!(files(&kept) == before, "{:?}", files(&kept));
+}
+
+#[test]
+fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path(), "count");
+    let mut window = at_frame_90(&display, home.path(), &folder);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    // Edits, each in the picture before the next one.
+    window.click_on("editor");
+    for n in 1..=4 {
+        let drawn = |e: &Value| e["programs"].as_u64();
+        window.drain();
+        let before = window.newest("drawn").and_then(|e| drawn(&e)).unwrap();
+        window.keys(&["ctrl+End"]);
+        window.type_text(&format!("// {n}"));
+        window.wait_until("the edit in the picture", "drawn", |e| drawn(e) > Some(before));
+        window.compiled();
+    }
+    // A value of the code, and the picture again.
+    window.keys(&["ctrl+g"]);
+    window.type_text("3:11");
+    window.keys(&["Return", "ctrl+shift+i"]);
+    window.wait_until("the probe", "probe", |e| e["text"].is_string() && e["range"].is_array());
+    window.keys(&["Escape"]);
+    window.wait_until("the picture", "probe", |e| e["text"].is_null());
+    window.compiled();
+    // The map of errors, the trace of a pixel, a picture on disk.
+    window.keys(&["ctrl+shift+u"]);
+    window.wait_until("the audit", "audit", |e| e["worst"].is_array());
+    let middle = window.picture_point(0.5, 0.5);
+    window.click_holding(&["ctrl", "shift"], middle);
+    window.wait_until("the traced pixel", "trace", |e| e["pixel"].is_array());
+    window.keys(&["ctrl+shift+d", "ctrl+p"]);
+    window.wait_for("a picture", |e| e["event"] == "notice" && e["path"].is_string());
+    // Other sizes of the window and its panels.
+    for (width, height) in [(900, 700), (1100, 600), (1300, 900)] {
+        window.resize(width, height);
+        window.wait_until("the size", "layout", |e| e["window"] == serde_json::json!([width, height]));
+        window.rect("timeline");
+    }
+    window.drain();
+    let frames: Vec<i64> =
+        window.events.iter().filter(|e| e["event"] == "frame").filter_map(|e| e["frame"].as_i64()).collect();
+    let from = frames.iter().position(|frame| *frame == 90).unwrap();
+    assert!(frames[from..].iter().all(|frame| *frame == 90), "{:?}", &frames[from..]);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    display.shot("paused.png");
+    // And one step is one step.
+    window.keys(&["alt+period"]);
+    window.wait_until("a step", "frame", |e| e["frame"] == 91);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [92, 128, 0]), [92, 128, 0]);
+}
+
+#[test]
+fn a_project_that_was_closed_paused_is_as_it_was_left() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let (folder, other) = (project(home.path(), "count"), project(home.path(), "other"));
+    let mut window = at_frame_90(&display, home.path(), &folder);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    // Another one in the same window, and back.
+    window.keys(&["ctrl+o"]);
+    type_path(&mut window, &other.join("eddy.toml"));
+    window.wait_until("the other one", "opened", |e| e["name"] == "other");
+    window.wait_until("its frames", "frame", |e| e["playing"] == true && e["frame"].as_i64() < Some(80));
+    window.keys(&["ctrl+o"]);
+    type_path(&mut window, &folder.join("eddy.toml"));
+    window.wait_until("the first one", "opened", |e| e["name"] == "count");
+    window.wait_until("its frame", "frame", |e| e["frame"] == 90 && e["playing"] == false);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    window.keys(&["ctrl+q"]);
+    assert_eq!(window.ends(), Some(0));
+    // In another window, which is smaller.
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    window.compiled();
+    window.wait_until("the frame", "frame", |e| e["frame"] == 90);
+    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    display.shot("reopened.png");
+}
+
+#[test]
+fn what_was_done_to_a_project_is_not_done_to_the_next() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let (first, second) = (project(home.path(), "first"), project(home.path(), "second"));
+    let mut window = at_frame_90(&display, home.path(), &first);
+    let whole = window.newest("layout").unwrap()["canvas"].clone();
+    // A quarter of the pixels, by the menu of sizes.
+    window.click_on("combo:size");
+    window.click_on("scale:1/2");
+    window.wait_until("fewer pixels", "layout", |e| e["canvas"] != whole);
+    window.keys(&["Escape"]);
+    // A breakpoint, a traced pixel, a watch, a value, a notice.
+    window.click_on("editor");
+    window.keys(&["ctrl+shift+d", "F9"]);
+    window.wait_until("the breakpoint", "trace", |e| e["breakpoints"].as_array().is_some_and(|list| list.len() == 1));
+    let middle = window.picture_point(0.5, 0.5);
+    window.click_holding(&["ctrl", "shift"], middle);
+    window.wait_until("the traced pixel", "trace", |e| e["pixel"].is_array());
+    window.keys(&["ctrl+o"]);
+    type_path(&mut window, &first.join("none.glsl"));
+    window.wait_for("a notice", |e| e["event"] == "notice" && e["level"] == "error");
+    display.shot("state-first.png");
+    window.keys(&["ctrl+o"]);
+    type_path(&mut window, &second.join("eddy.toml"));
+    window.wait_until("the second one", "opened", |e| e["name"] == "second");
+    window.wait_until("all pixels", "layout", |e| e["canvas"] == whole);
+    let left = window.wait_until("no breakpoint", "trace", |e| e["breakpoints"].as_array().is_some_and(Vec::is_empty));
+    assert!(left["pixel"].is_null(), "{left}");
+    window.compiled();
+    let layout = window.wait_until("no notice", "layout", |e| e["rects"]["notices"].is_null());
+    assert!(layout["rects"]["audit"].is_null());
+    display.shot("state-second.png");
+}
+
+/// A dialog that changes its size while it is there makes the first click miss.
+#[test]
+fn the_question_of_recovered_work_stands_where_it_came() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path(), "project");
+    let long: String = (0..120).map(|n| format!("// line {n} of a text that is longer than the dialog\n")).collect();
+    fs::write(folder.join("image.glsl"), format!("{long}{SHOW}")).unwrap();
+    let mut window = Window::open(&display, home.path(), &["--paused", folder.to_str().unwrap()]);
+    window.compiled();
+    window.click_on("editor");
+    window.keys(&["ctrl+End"]);
+    for line in 0..6 {
+        window.type_text(&format!("// typed {line}"));
+        window.keys(&["Return"]);
+    }
+    // A second text with a short difference.
+    window.click_on("tab:Buffer A");
+    window.rect("tab:Buffer A");
+    window.click_on("editor");
+    window.keys(&["ctrl+End"]);
+    window.type_text("// typed 6");
+    window.wait_until("two unsaved texts", "dirty", |e| e["tabs"].as_array().is_some_and(|tabs| tabs.len() == 2));
+    let recovery = home.path().join(".local/state/eddy/recovery");
+    let is_kept = || {
+        let texts = fs::read_dir(&recovery).into_iter().flatten().flatten();
+        texts.filter_map(|e| fs::read_to_string(e.path()).ok()).any(|text| text.contains("// typed 6"))
+    };
+    let end = Instant::now() + Duration::from_secs(60);
+    while !is_kept() {
+        assert!(Instant::now() < end, "no recovery file");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    window.kill();
+    for (size, arguments) in [("760x440", vec![]), ("1280x860", vec![folder.to_str().unwrap()])] {
+        let mut window = Window::open_as(&display, home.path(), Some(size), &[], &arguments);
+        question(&mut window, "recover");
+        window.rect("answer:recover");
+        let now = |window: &mut Window| window.rect("answer:recover");
+        let before = now(&mut window);
+        for tab in ["Buffer A", "Image", "Buffer A"] {
+            window.click_on(&format!("recovered:{tab}"));
+            assert_eq!(now(&mut window), before, "{size}: {tab}");
+        }
+        let places: Vec<String> = window
+            .events
+            .iter()
+            .filter(|e| e["event"] == "layout" && e["rects"]["answer:recover"].is_array())
+            .map(|e| e["rects"]["answer:recover"].to_string())
+            .collect();
+        display.shot(&format!("recover-{size}.png"));
+        assert!(places.iter().all(|place| *place == places[0]), "{size}: {places:?}");
+        window.kill();
+    }
+}
