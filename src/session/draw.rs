@@ -318,7 +318,6 @@ impl Session {
         }
         if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
             self.programs_drawn += 1;
-            self.settled_by_edit();
         }
         if self.run.clock.is_playing() {
             self.changed |= self.run.fps.frame(self.now);
@@ -336,6 +335,7 @@ impl Session {
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
         if let Some(millis) = self.drawing.new_program_millis() {
+            self.settled_by_edit();
             self.compile.state.last = Some(self.compiled(millis));
             if std::mem::take(&mut self.compile.reset_when_built) {
                 self.reset();
@@ -382,9 +382,8 @@ impl Session {
 
     /// Writes the shown pass to a new file, as soon as the engine has time.
     pub(super) fn capture(&mut self, format: capture::Format) {
-        self.settled(About::Capture);
         if !self.drawing.has_program() {
-            self.notice_about(About::Capture, Level::Warning, "there is no picture to save yet");
+            self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
             return;
         }
         let project = self.documents.current();

@@ -50,7 +50,7 @@ impl Session {
         self.changed |= self.notices.len() != before;
     }
 
-    /// A program of a text that was edited after them is in the picture: notices about code are of an older text.
+    /// A program of a text that was edited after them draws: notices about code are of an older text.
     pub(super) fn settled_by_edit(&mut self) {
         if let Some(edited) = self.compile.edited_at {
             let before = self.notices.len();
