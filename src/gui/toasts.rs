@@ -79,7 +79,9 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let frame = Frame::NONE.fill(theme::of(ui).raised);
     // As high as what is in it was in the last frame: what scrolls does not say by itself how high it would be.
     let id = Id::unique("height of notices");
-    let height = ui.data(|d| d.get_temp(id)).unwrap_or(ROW * told.len().min(SHOWN) as f32);
+    let (count, height) = ui.data(|d| d.get_temp::<(usize, f32)>(id)).unwrap_or_default();
+    let more = told.len().min(SHOWN) as f32 - count.min(SHOWN) as f32;
+    let height = (height + more * ROW).max(ROW);
     let panel = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false);
     let shown = panel.exact_size(height.min(most)).show(ui, |ui| {
         out.stop(PLACE, ui);
@@ -99,8 +101,8 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
                 });
             }
         });
+        ui.data_mut(|d| d.insert_temp(id, (told.len(), shown.content_size.y)));
         if (shown.content_size.y - height).abs() > 0.5 {
-            ui.data_mut(|d| d.insert_temp(id, shown.content_size.y));
             ui.ctx().request_repaint();
         }
     });

@@ -87,7 +87,7 @@ fn tabs_follow_the_drawing_order_scroll_by_the_wheel_and_bring_the_current_one_i
     let tabs: Vec<String> = stage.state().session.tabs().iter().map(|tab| tab.title()).collect();
     assert_eq!(tabs, order);
     stage.run_steps(4);
-    let left = place(&stage, "code").left() - 1.0;
+    let left = place(&stage, "viewport").right() - 4.0;
     let is_seen = |stage: &Stage, name: &str| {
         let tab = place(stage, name);
         tab.left() >= left && tab.right() < place(stage, "button:add-tab").left() + 1.0
@@ -107,7 +107,8 @@ fn tabs_follow_the_drawing_order_scroll_by_the_wheel_and_bring_the_current_one_i
         });
         stage.run_steps(2);
     }
-    assert!(is_seen(&stage, "tab:Buffer A"), "{:?}", place(&stage, "tab:Buffer A"));
+    let (first, add) = (place(&stage, "tab:Buffer A"), place(&stage, "button:add-tab"));
+    assert!(is_seen(&stage, "tab:Buffer A"), "{first:?} before {add:?}, behind {left}");
 }
 
 #[test]

@@ -279,7 +279,11 @@ fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
     let notice = stage.session.notices().last().unwrap().clone();
     assert_eq!(notice.text, "iChannel2 of Image reads red.png");
     stage.until("the picture", |stage| stage.colour() == [255, 0, 0]);
-    // The notice takes it back.
+    // The notice takes it back. Others may come above it meanwhile.
+    for _ in 0..8 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        stage.frame(vec![]);
+    }
     stage.click(&format!("toast:{}:undo", notice.id));
     assert_eq!(reads(&stage, 2), None);
     stage.drop_files(&["red.png"], Some("channel:1"));

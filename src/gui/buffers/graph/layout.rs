@@ -2,6 +2,7 @@
 
 use super::layers::{Edge, Layers};
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
+use rustc_hash::FxHashSet;
 
 /// Points of a node, and between nodes.
 pub const NODE: Vec2 = vec2(164.0, 68.0);
@@ -84,7 +85,7 @@ impl Layout {
 /// Below this scale a node's words cannot be read.
 pub const LEGIBLE: f32 = 0.6;
 /// Below a row, beside its lanes.
-const BELOW: f32 = 28.0;
+const BELOW: f32 = 18.0;
 
 /// Nodes, and edges forth and back.
 type Graph<'a> = (usize, &'a [Edge], &'a [Edge]);
@@ -120,10 +121,18 @@ impl Rows {
             let forth = forth.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
             forth.count() + back.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
         };
+        // An edge between rows goes round, and needs no room between the nodes that it would pass.
+        let ways = forth.iter().zip(&layers.ways).filter(|(edge, _)| row_of(edge.0) != row_of(edge.1));
+        let round: FxHashSet<usize> = ways.flat_map(|(_, way)| way[1..way.len() - 1].iter().copied()).collect();
         let (mut tops, mut spans, mut top) = (Vec::new(), Vec::new(), MARGIN);
         for (n, row) in layers.layers.chunks(length).enumerate() {
             let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
-            let all = || row.iter().flatten().map(|&node| (middles[node], height(node) / 2.0));
+            let all = || {
+                row.iter()
+                    .flatten()
+                    .filter(|node| !round.contains(node))
+                    .map(|&node| (middles[node], height(node) / 2.0))
+            };
             let first = all().map(|(middle, half)| middle - half).fold(f32::INFINITY, f32::min).min(f32::MAX);
             let last = all().map(|(middle, half)| middle + half).fold(first, f32::max);
             tops.push(top);
