@@ -45,6 +45,8 @@ pub enum Wish {
     ShowRecovered,
     Set(Change),
     ClosePanel(Panel),
+    /// Closes the tab of an included file.
+    CloseFile(Tab),
     /// A breakpoint at a line of a tab, from 0, or none there any more.
     Breakpoint(Tab, usize),
     /// The way of the pixel at a place of the picture, from 0 to 1.

@@ -47,6 +47,23 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
             theme::of(ui).weak,
         );
         out.place("includes", end);
+        let link = ui.interact(end, ui.scope_id().with("includes"), Sense::click());
+        accessible::name(&link, egui::Role::Link, "Open an included file");
+        let files: Vec<Tab> = session.tabs().into_iter().filter(|tab| matches!(tab, Tab::Included(_))).collect();
+        if let ([file], true) = (&files[..], link.clicked()) {
+            out.wishes.push(Wish::GoTo(file.clone(), None));
+        }
+        if files.len() > 1 {
+            egui::Popup::menu(&link).show(|ui| {
+                for file in &files {
+                    let button = ui.button(file.title());
+                    if out.clicked(&format!("includes:{}", file.title()), &button) {
+                        out.wishes.push(Wish::GoTo(file.clone(), None));
+                    }
+                }
+            });
+        }
+        link.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text("Open an included file");
     }
     out.place("compile-state", rect);
     whole(ui, session, caret, out);

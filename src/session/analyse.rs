@@ -45,12 +45,21 @@ impl Session {
 
     /// The tab whose text is analysed from now on.
     pub(super) fn bring_to_front(&mut self, tab: Tab) {
-        if let Some(id) = tab.pass() {
+        // Included files are read with what includes them: as before, if that does.
+        let read_with = match &tab {
+            Tab::Included(_) => {
+                let users = self.project().tabs_that_include(&tab);
+                let is_known = |user: &Tab| user.pass().is_none_or(|id| *id == self.analyst.pass);
+                users.iter().find(|user| is_known(user)).or(users.first()).cloned().unwrap_or(Tab::Common)
+            }
+            _ => tab.clone(),
+        };
+        if let Some(id) = read_with.pass() {
             self.analyst.pass = id.clone();
         }
-        self.analyst.stage = match &tab {
-            Tab::Stage(_, file) => Some(file.clone()),
-            Tab::Common | Tab::Pass(_) => None,
+        self.analyst.stage = match read_with {
+            Tab::Stage(_, file) => Some(file),
+            Tab::Common | Tab::Pass(_) | Tab::Included(_) => None,
         };
         self.analyst.front = Some(tab);
     }

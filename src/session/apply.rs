@@ -189,9 +189,7 @@ impl Session {
         if include_names(&source.text) != include_names(text) {
             self.compile.include_edits += 1;
         }
-        if let Some(source) = self.documents.current_mut().source_mut(tab) {
-            source.text = text.into();
-        }
+        self.documents.set_text(tab, text);
         self.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);

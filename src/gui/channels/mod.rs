@@ -37,7 +37,7 @@ pub fn title(session: &Session, tab: &Tab) -> String {
 fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
-        Tab::Common => None,
+        Tab::Common | Tab::Included(_) => None,
     }
 }
 

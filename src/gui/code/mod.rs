@@ -8,7 +8,9 @@ use super::{
     actions::{Action, Keymap, Listening},
     editor::{Ask, Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
     outbox::{Outbox, Wish},
-    problems, tabs, theme, toasts,
+    problems,
+    tabs::{self, OpenFile},
+    theme, toasts,
     uses::Uses,
 };
 use crate::{
@@ -22,6 +24,10 @@ use std::{collections::HashMap, ops::Range};
 pub struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
+    /// The included files that are open as tabs.
+    files: Vec<OpenFile>,
+    /// A compile was under way: who includes them may be others then.
+    was_compiling: bool,
     /// The session's text generation that the editors hold.
     generation: Option<u64>,
     /// Says which project they are of: another one's undo must not lead back here.
@@ -53,6 +59,8 @@ impl CodePanel {
         Self {
             editors: HashMap::new(),
             current: Tab::Pass(PassId::Image),
+            files: Vec::new(),
+            was_compiling: false,
             generation: None,
             project: (String::new(), Origin::Unsaved),
             font_size: 13.0,
@@ -92,7 +100,7 @@ impl CodePanel {
     pub fn reveal_line(&mut self, tab: Tab, line: usize) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.reveal_line(line);
-            self.current = tab;
+            self.bring(tab);
         }
     }
 
@@ -119,11 +127,31 @@ impl CodePanel {
         {
             editor.go_to(line, column);
         }
+        self.bring(tab);
+    }
+
+    /// Brings a tab to the front. An included file has one from then on.
+    fn bring(&mut self, tab: Tab) {
+        if let Tab::Included(_) = tab
+            && !self.files.iter().any(|file| file.tab == tab)
+        {
+            self.files.push(OpenFile { tab: tab.clone(), users: Vec::new() });
+            // Who includes it is looked up in the next frame.
+            self.was_compiling = true;
+        }
         self.current = tab;
     }
 
+    /// Closes the tab of an included file.
+    pub fn close_file(&mut self, tab: &Tab) {
+        self.files.retain(|file| file.tab != *tab);
+        if self.current == *tab {
+            self.current = Tab::Pass(PassId::Image);
+        }
+    }
+
     pub fn go_aside(&mut self, session: &Session, by: isize) {
-        let tabs = session.tabs();
+        let tabs = tabs::shown(session, &self.files);
         if let Some(at) = tabs.iter().position(|t| *t == self.current) {
             let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
             self.current = tabs[to].clone();
@@ -229,6 +257,7 @@ impl CodePanel {
             let kept = moved && self.editors.iter().all(|(tab, e)| session.text(tab) == e.buffer().text());
             if !kept {
                 self.editors.clear();
+                self.files.clear();
                 self.problem = None;
                 self.uses = None;
                 self.current = Tab::Pass(PassId::Image);
@@ -237,9 +266,12 @@ impl CodePanel {
         }
         self.follow_renames(session);
         let tabs = session.tabs();
-        if self.generation != Some(session.text_generation()) || tabs.len() != self.editors.len() {
+        // An included file's undo stays while its line is being rewritten.
+        let is_kept = |tab: &Tab| tabs.contains(tab) || matches!(tab, Tab::Included(_));
+        let is_complete = tabs.iter().all(|tab| self.editors.contains_key(tab)) && self.editors.keys().all(is_kept);
+        if self.generation != Some(session.text_generation()) || !is_complete {
             self.generation = Some(session.text_generation());
-            self.editors.retain(|tab, _| tabs.contains(tab));
+            self.editors.retain(|tab, _| is_kept(tab));
             for tab in &tabs {
                 let text = session.text(tab);
                 match self.editors.get_mut(tab) {
@@ -248,8 +280,14 @@ impl CodePanel {
                 }
             }
         }
-        if !self.editors.contains_key(&self.current) {
+        if !tabs.contains(&self.current) {
             self.current = Tab::Pass(PassId::Image);
+        }
+        let is_compiling = session.compile_state().compiling;
+        if std::mem::replace(&mut self.was_compiling, is_compiling) && !is_compiling {
+            for file in &mut self.files {
+                file.users = session.project().tabs_that_include(&file.tab);
+            }
         }
     }
 
@@ -273,7 +311,7 @@ impl CodePanel {
     /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
     pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) -> bool {
         ui.spacing_mut().item_spacing.y = 0.0;
-        let is_dragged = tabs::show(ui, session, &self.current, out);
+        let is_dragged = tabs::show(ui, session, &self.current, &self.files, out);
         let bar = Frame::NONE.fill(theme::of(ui).raised).inner_margin(Margin::symmetric(8, 5));
         if self.find.is_open() {
             bar.show(ui, |ui| {
@@ -345,6 +383,12 @@ impl CodePanel {
         for ask in shown.asks {
             let (Some(analysis), Some(help)) = (analysis, help) else { break };
             match ask {
+                Ask::OpenIncluded(at) => {
+                    if let Some(tab) = session.project().included_at(&self.current, at) {
+                        self.bring(tab);
+                        self.focus();
+                    }
+                }
                 Ask::GoTo(span) => {
                     if let Some(tab) = analysis.tab_of(span.source) {
                         self.show_range(tab, span.range());
@@ -370,7 +414,7 @@ impl CodePanel {
     fn show_range(&mut self, tab: Tab, range: Range<usize>) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.show_range(range);
-            self.current = tab;
+            self.bring(tab);
         }
     }
 

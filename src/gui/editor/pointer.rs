@@ -52,7 +52,7 @@ impl CodeEditor {
         }
         if modifiers.command
             && response.hovered()
-            && help.is_some_and(|h| h.analysis.definition(h.source, at).is_some())
+            && (self.names_file(at) || help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()))
         {
             ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
         }
@@ -72,6 +72,13 @@ impl CodeEditor {
             response.request_focus();
             ui.ctx().request_repaint();
         }
+    }
+
+    /// Returns whether the line of a byte includes a file.
+    fn names_file(&self, at: usize) -> bool {
+        let line = &self.buffer.text()[self.buffer.whole_line(at)];
+        let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
+        directive.is_some_and(|directive| directive.starts_with("include") && directive.contains('"'))
     }
 
     /// Selects from where the drag began to a place.

@@ -2,6 +2,7 @@
 
 mod act;
 mod arrivals;
+mod keys;
 mod panels;
 mod report;
 
@@ -78,8 +79,7 @@ pub struct Shell {
     opened: u64,
     /// The window had the keyboard in the frame before.
     was_focused: bool,
-    /// A key with Alt was an action: the letter that it also types is not for the text.
-    drops_text: bool,
+    pressed: keys::Keys,
     /// Wanted by the frame before: done when the session has done what went with it.
     wishes: Vec<Wish>,
     places: Outbox,
@@ -124,7 +124,7 @@ impl Shell {
             takes_paste: false,
             opened: 0,
             was_focused: false,
-            drops_text: false,
+            pressed: keys::Keys::default(),
             wishes: Vec::new(),
             places: Outbox::default(),
             reported_notice: None,
@@ -162,9 +162,9 @@ impl Shell {
         !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
     }
 
-    /// A key press means something to the window wherever the keyboard is.
-    pub fn is_action(&self, event: &egui::Event) -> bool {
-        self.keys.keymap().pressed(event, Listening::default()).is_some()
+    /// A key press means something to the window as things stand: it is not the shader's.
+    pub fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
+        self.keys.keymap().pressed(event, self.listening(ctx)).is_some()
     }
 
     pub fn ask_save_as(&mut self, name: &str) {
@@ -296,36 +296,21 @@ impl Shell {
         }
     }
 
-    /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
-    /// what is typed.
-    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
-        let listening = Listening {
-            code: self.code.has_keys(ui.ctx()),
+    /// Says whose keys are listened to.
+    fn listening(&self, ctx: &egui::Context) -> Listening {
+        Listening {
+            code: self.code.has_keys(ctx),
             find_bar: self.code.is_finding(),
             trace: !self.gallery && self.dock.is_seen(Panel::Trace),
-        };
+        }
+    }
+
+    /// The window's own keys, taken before any widget sees them.
+    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
+        let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
         let keymap = self.keys.keymap().clone();
-        let drops_text = &mut self.drops_text;
-        // A field for a name has an undo of its own.
-        let types = ui.ctx().text_edit_focused();
-        ui.input_mut(|i| {
-            i.events.retain(|event| {
-                if let egui::Event::Text(_) = event {
-                    return !std::mem::take(drops_text);
-                }
-                let egui::Event::Key { key, modifiers, pressed: true, repeat, .. } = event else { return true };
-                let found = keymap.pressed(event, listening);
-                *drops_text = found.is_some() && modifiers.alt && key.name().len() == 1;
-                let Some(entry) = found.filter(|e| !(types && is_of_texts(e.action))) else { return true };
-                if matches!(entry.action, Action::Code(_)) {
-                    return true;
-                }
-                if !repeat || entry.repeats() {
-                    out.wishes.push(Wish::Act(entry.action));
-                }
-                false
-            });
-        });
+        let actions = ui.input_mut(|i| self.pressed.take(&mut i.events, &keymap, keyboard));
+        out.wishes.extend(actions.into_iter().map(Wish::Act));
         if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
@@ -376,6 +361,7 @@ impl Shell {
         match wish {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
+            Wish::CloseFile(tab) => self.code.close_file(&tab),
             Wish::Set(change) => self.change(change, out),
             Wish::Breakpoint(tab, line) => self.debugger.toggle(session, &tab, line),
             Wish::Trace(at) => {
@@ -432,11 +418,6 @@ impl Shell {
             Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
         }
     }
-}
-
-/// Returns whether a field that is typed in does the same with its own text.
-fn is_of_texts(action: Action) -> bool {
-    matches!(action, Action::UndoPasses | Action::RedoPasses)
 }
 
 /// Returns where a file dialog begins: beside the project.

@@ -17,6 +17,8 @@ pub enum PassEditError {
     Image,
     #[error("{0} is drawn with; take it out of eddy.toml instead")]
     Stage(String),
+    #[error("{0} is included by the text of passes; take its #include line out instead")]
+    Included(String),
     #[error("{pass} has no {what}; give a buffer this and show that")]
     NotHere { pass: String, what: &'static str },
     #[error("a size has a factor above 0, or at least one texel each way")]

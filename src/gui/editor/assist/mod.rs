@@ -19,6 +19,8 @@ use std::ops::Range;
 pub enum Ask {
     /// To a place of some text of the analysis.
     GoTo(Span),
+    /// To the file that the `#include` line at this byte names.
+    OpenIncluded(usize),
     /// A list of all uses of what is named at this byte.
     ListUses(usize),
 }
@@ -198,7 +200,8 @@ impl Assist {
         let caret = buffer.selection().head;
         match self.question.take() {
             Some(Question::Definition) => {
-                self.asks.extend(help.analysis.definition(help.source, caret).map(Ask::GoTo));
+                let declared = help.analysis.definition(help.source, caret).map(Ask::GoTo);
+                self.asks.push(declared.unwrap_or(Ask::OpenIncluded(caret)));
             }
             Some(Question::Uses) => self.asks.push(Ask::ListUses(caret)),
             None => {}
