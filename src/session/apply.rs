@@ -37,6 +37,12 @@ impl Session {
                 self.analyse();
             }
             Command::CompileNow => self.compile_soon(),
+            Command::SetCompileOnSave(on) => {
+                self.compile.on_save = on;
+                if !on && std::mem::take(&mut self.compile.waits_for_save) {
+                    self.compile_soon();
+                }
+            }
             Command::Play => self.play(),
             Command::Pause => self.pause(),
             Command::TogglePlay if self.is_playing() => self.pause(),
@@ -172,6 +178,7 @@ impl Session {
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
         self.compile.fallback = None;
+        self.compile.waits_for_save = false;
         self.compile.is_wanted = true;
         self.compile.state.compiling = true;
     }
@@ -198,6 +205,10 @@ impl Session {
             {
                 pass.channels = now;
             }
+        }
+        if self.compile.on_save {
+            self.compile.waits_for_save = true;
+            return;
         }
         self.compile.edited = true;
         self.compile.state.compiling = true;

@@ -52,6 +52,7 @@ mod recover;
 mod recovery;
 pub mod reduction;
 mod reload;
+mod rename;
 pub mod revision;
 pub mod script;
 mod seek;
@@ -81,5 +82,6 @@ pub use recovery::folder as recovery_folder;
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{
-    CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
+    CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabEdit, TabFix, TabLabel, Tick,
+    Transport,
 };

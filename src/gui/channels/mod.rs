@@ -46,7 +46,10 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnai
     let rect = ui.available_rect_before_wrap();
     let mut swatches = Swatches { session, thumbnails, live };
     let Some(pass) = pass(session, tab) else {
-        let text = "Common is put before every pass; channels belong to the passes";
+        let text = match tab {
+            Tab::Included(_) => "Passes include this file; channels belong to the passes",
+            _ => "Common is put before every pass; channels belong to the passes",
+        };
         let painter = ui.painter().with_clip_rect(rect);
         let font = FontId::proportional(12.0);
         painter.text(rect.center(), Align2::CENTER_CENTER, text, font, theme::of(ui).weak);

@@ -34,6 +34,12 @@ impl CodeEditor {
             self.drag = Some(Drag { from: from..from, granularity: Granularity::Letter, others });
             self.drag_to(at);
         }
+        // A menu is about what is selected, or about the place that was clicked.
+        if response.secondary_clicked() && !self.buffer.carets().list().iter().any(|s| s.range().contains(&at)) {
+            self.assist.close_all();
+            self.buffer.select(at, at);
+            response.request_focus();
+        }
         let grown = if response.triple_clicked() {
             Some(Granularity::Line)
         } else if response.double_clicked() {
@@ -52,7 +58,7 @@ impl CodeEditor {
         }
         if modifiers.command
             && response.hovered()
-            && (self.names_file(at) || help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()))
+            && (self.buffer.names_file(at) || help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()))
         {
             ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
         }
@@ -72,13 +78,6 @@ impl CodeEditor {
             response.request_focus();
             ui.ctx().request_repaint();
         }
-    }
-
-    /// Returns whether the line of a byte includes a file.
-    fn names_file(&self, at: usize) -> bool {
-        let line = &self.buffer.text()[self.buffer.whole_line(at)];
-        let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
-        directive.is_some_and(|directive| directive.starts_with("include") && directive.contains('"'))
     }
 
     /// Selects from where the drag began to a place.

@@ -15,6 +15,16 @@ use egui::{
 };
 use std::collections::HashMap;
 
+/// A field that a press took the keyboard from.
+struct Left {
+    field: Id,
+    /// The place of the field, and the part of the window that it was in.
+    rect: Rect,
+    stop: Option<&'static str>,
+    /// The place that was pressed.
+    at: Pos2,
+}
+
 #[derive(Default)]
 pub struct Focus {
     /// Those of the frame before, in reading order.
@@ -28,7 +38,7 @@ pub struct Focus {
     walks: bool,
     /// The field that had the keyboard when the pointer was pressed, and where that was: a press takes the keyboard from
     /// it, and what is beside it takes none.
-    pressed_from: Option<(Id, Pos2)>,
+    pressed_from: Option<Left>,
     /// A popup was open in the frame before, opened by this widget.
     popup_of: Option<Option<Id>>,
     /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
@@ -61,7 +71,7 @@ impl Focus {
         });
         let field = ui.memory(|m| m.focused()).filter(|_| ui.ctx().text_edit_focused());
         if let Some(at) = pressed {
-            self.pressed_from = field.map(|field| (field, at));
+            self.pressed_from = field.map(|field| self.leaving(ui, field, at));
         }
         // It closes what is open, and means nothing to what lies below.
         let is_escape = |e: &Event| matches!(e, Event::Key { key: Key::Escape, pressed: true, .. });
@@ -212,12 +222,32 @@ impl Focus {
         }
     }
 
-    /// Returns the field that a press took the keyboard from, if what was pressed lies in the same panel or window.
-    fn field_beside(&self, ui: &Ui, (field, at): (Id, Pos2)) -> Option<Id> {
-        let layer = layer_of(ui, field)?;
-        let stop = ui.ctx().viewport(|v| self.stop_of(&v.this_pass.widgets, field).map(|stop| stop.rect));
-        let is_beside = ui.ctx().layer_id_at(at) == Some(layer) && stop.is_none_or(|rect| rect.contains(at));
-        is_beside.then_some(field)
+    fn leaving(&self, ui: &Ui, field: Id, at: Pos2) -> Left {
+        ui.ctx().viewport(|v| {
+            let widgets = &v.prev_pass.widgets;
+            let rect = widgets.get(field).map_or(Rect::NOTHING, |w| w.rect);
+            Left { field, rect, stop: self.stop_of(widgets, field).map(|stop| stop.name), at }
+        })
+    }
+
+    /// Returns the field that a press took the keyboard from, if what was pressed lies in the same panel or window. Where
+    /// the panel has been laid out anew, the field that is nearest to where it was.
+    fn field_beside(&self, ui: &Ui, left: Left) -> Option<Id> {
+        let stop = left.stop.and_then(|name| self.stops.iter().find(|stop| stop.name == name));
+        if left.stop.is_some() && stop.is_none_or(|stop| !stop.rect.contains(left.at)) {
+            return None;
+        }
+        if let Some(layer) = layer_of(ui, left.field) {
+            return (ui.ctx().layer_id_at(left.at) == Some(layer)).then_some(left.field);
+        }
+        let inside = ui.ctx().viewport(|v| {
+            let widgets = &v.this_pass.widgets;
+            let place = |id: Id| Some((id, widgets.get(id)?.rect.center().distance(left.rect.center())));
+            self.inside(widgets, stop?).into_iter().map(place).collect::<Option<Vec<_>>>()
+        });
+        let is_field = |id: Id| egui::text_edit::TextEditState::load(ui.ctx(), id).is_some();
+        let fields = inside?.into_iter().filter(|(id, _)| is_field(*id));
+        fields.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
     }
 
     /// The innermost panel that a widget lies in.

@@ -48,7 +48,11 @@ pub fn run(
 }
 
 #[cfg(test)]
+mod fields;
+#[cfg(test)]
 mod harness;
+#[cfg(test)]
+mod mends;
 #[cfg(test)]
 mod names;
 #[cfg(test)]

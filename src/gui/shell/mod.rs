@@ -75,6 +75,9 @@ pub struct Shell {
     /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
     wants_clipboard: bool,
     takes_paste: bool,
+    /// The code asked for what is on the clipboard.
+    wants_code_paste: bool,
+    pastes_into_code: bool,
     /// The projects that the session has opened so far.
     opened: u64,
     /// The window had the keyboard in the frame before.
@@ -122,6 +125,8 @@ impl Shell {
             passes: Passes::default(),
             wants_clipboard: false,
             takes_paste: false,
+            wants_code_paste: false,
+            pastes_into_code: false,
             opened: 0,
             was_focused: false,
             pressed: keys::Keys::default(),
@@ -282,6 +287,7 @@ impl Shell {
         {
             commands.push(Command::Notify { level: Level::Error, text, path: None });
         }
+        commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));
         }
@@ -333,6 +339,29 @@ impl Shell {
         self.places.places.get(name).copied()
     }
 
+    /// Returns the innermost part of the window at a place, by its name.
+    #[cfg(test)]
+    pub fn stop_at(&self, at: egui::Pos2) -> Option<&'static str> {
+        let here = self.places.stops.iter().filter(|stop| stop.rect.contains(at));
+        here.min_by(|a, b| a.rect.area().total_cmp(&b.rect.area())).map(|stop| stop.name)
+    }
+
+    /// Returns the breakpoints: tabs and lines from 0.
+    #[cfg(test)]
+    pub fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
+        self.debugger.lines()
+    }
+
+    #[cfg(test)]
+    pub fn ask_fix(&mut self, fix: crate::session::TabFix) {
+        self.wishes.push(Wish::Fix(fix));
+    }
+
+    #[cfg(test)]
+    pub fn focus_code(&mut self) {
+        self.code.focus();
+    }
+
     /// Has no dialogs of the desktop's.
     #[cfg(test)]
     pub fn type_paths(&mut self) {
@@ -361,9 +390,19 @@ impl Shell {
         match wish {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
+            Wish::PasteCode => self.wants_code_paste = true,
+            Wish::Fix(fix) => {
+                if let Err(why) = self.code.apply_fix(&fix, out) {
+                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                }
+            }
             Wish::CloseFile(tab) => self.code.close_file(&tab),
             Wish::Set(change) => self.change(change, out),
-            Wish::Breakpoint(tab, line) => self.debugger.toggle(session, &tab, line),
+            Wish::Breakpoint(tab, line) => {
+                if let Err(why) = self.debugger.toggle(session, &tab, line) {
+                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                }
+            }
             Wish::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
                 out.ask(Command::Trace(Some(at)));

@@ -121,7 +121,8 @@ impl Documents {
             let now = match (of(&before, name).filter(|i| i.is_edited), &base) {
                 (Some(edited), _) => edited,
                 (None, Some(base)) => base.clone(),
-                (None, None) => new.clone(),
+                // It was edited when the reading began, and has been saved or left since.
+                (None, None) => continue,
             };
             is_other |= of(&before, name).is_some_and(|before| before.source.text != now.source.text);
             self.current.includes.push(now);
@@ -275,9 +276,7 @@ impl Documents {
         for tab in self.saved.tabs() {
             // A file that nothing includes any more is not gone.
             let is_left = matches!(tab, Tab::Included(_)) && !self.is_tab_dirty(&tab);
-            if disk.source(&tab).is_some() {
-                self.missing.remove(&tab);
-            } else if is_left {
+            if is_left || disk.source(&tab).is_some() {
                 self.missing.remove(&tab);
             } else if self.current.source(&tab).is_some() && (!is_listed || self.is_tab_dirty(&tab)) {
                 reinsert(disk, &self.saved, &tab);

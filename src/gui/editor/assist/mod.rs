@@ -23,6 +23,12 @@ pub enum Ask {
     OpenIncluded(usize),
     /// A list of all uses of what is named at this byte.
     ListUses(usize),
+    /// The mends for what is wrong at this byte.
+    Fix(usize),
+    /// Another name for what is named at this byte.
+    Rename(usize),
+    /// The clipboard's text, in the place of what is selected.
+    Paste,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -201,7 +207,8 @@ impl Assist {
         match self.question.take() {
             Some(Question::Definition) => {
                 let declared = help.analysis.definition(help.source, caret).map(Ask::GoTo);
-                self.asks.push(declared.unwrap_or(Ask::OpenIncluded(caret)));
+                let included = buffer.names_file(caret).then_some(Ask::OpenIncluded(caret));
+                self.asks.extend(declared.or(included));
             }
             Some(Question::Uses) => self.asks.push(Ask::ListUses(caret)),
             None => {}
