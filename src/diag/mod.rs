@@ -79,6 +79,52 @@ pub struct Label {
     pub message: String,
 }
 
+/// A stretch of a text, and what shall stand there instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    pub span: Span,
+    pub text: String,
+}
+
+/// A mend that can be made without asking further: all of its edits together. No two of them touch the same bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fix {
+    /// Says what it does, in a menu: "Replace with `texture`".
+    pub title: String,
+    pub edits: Vec<Edit>,
+}
+
+impl Fix {
+    pub fn new(title: impl Into<String>, edits: Vec<Edit>) -> Self {
+        Self { title: title.into(), edits }
+    }
+
+    /// Returns the mend that puts a text in the place of another.
+    pub fn replace(span: Span, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self::new(format!("Replace with `{text}`"), vec![Edit { span, text }])
+    }
+
+    /// Returns `text`, which is that of a source, with the edits of it made. An edit of bytes that the text does not have
+    /// is left out.
+    pub fn applied(&self, source: SourceId, text: &str) -> String {
+        let mut edits: Vec<&Edit> = self.edits.iter().filter(|edit| edit.span.source == source).collect();
+        edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+        let (mut out, mut done) = (String::new(), 0);
+        for edit in edits {
+            let range = edit.span.range();
+            let Some(before) = text.get(done..range.start).filter(|_| text.get(range.clone()).is_some()) else {
+                continue;
+            };
+            out.push_str(before);
+            out.push_str(&edit.text);
+            done = range.end;
+        }
+        out.push_str(&text[done..]);
+        out
+    }
+}
+
 /// One thing the author has to mend, or should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -91,11 +137,20 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// The mends, one line each.
     pub hints: Vec<String>,
+    /// The mends that an editor can make by itself, the likeliest first. The terminal does not tell of them.
+    pub fixes: Vec<Fix>,
 }
 
 impl Diagnostic {
     pub fn new(severity: Severity, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
-        Self { severity, span: span.into(), message: message.into(), labels: Vec::new(), hints: Vec::new() }
+        Self {
+            severity,
+            span: span.into(),
+            message: message.into(),
+            labels: Vec::new(),
+            hints: Vec::new(),
+            fixes: Vec::new(),
+        }
     }
 
     pub fn error(span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
@@ -115,6 +170,12 @@ impl Diagnostic {
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
+        self
+    }
+
+    #[must_use]
+    pub fn fix(mut self, fix: Fix) -> Self {
+        self.fixes.push(fix);
         self
     }
 
@@ -185,5 +246,28 @@ impl SourceMap {
         let before = &text[..start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         Some(LineColumn { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_edits_of_a_text_are_made_together() {
+        let edit = |source: u16, range: std::ops::Range<usize>, text: &str| Edit {
+            span: Span::new(SourceId(source), range),
+            text: text.into(),
+        };
+        let edits = vec![edit(0, 4..5, "()"), edit(0, 0..1, ""), edit(1, 0..1, "X"), edit(0, 90..91, "out of it")];
+        let fix = Fix::new("Do it", edits);
+        assert_eq!(fix.applied(SourceId(0), "abcdef"), "bcd()f");
+        assert_eq!(fix.applied(SourceId(1), "abc"), "Xbc");
+        assert_eq!(fix.applied(SourceId(2), "abc"), "abc");
+        assert_eq!(
+            Fix::replace(Span::new(SourceId(0), 1..2), "é").applied(SourceId(0), "aüb"),
+            "aüb",
+            "within a letter"
+        );
     }
 }

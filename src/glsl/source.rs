@@ -25,6 +25,11 @@ impl PassKind {
     pub fn is_stage(self) -> bool {
         matches!(self, PassKind::Vertex | PassKind::Fragment)
     }
+
+    /// Its entry point is called once for each pixel.
+    pub fn draws_pixels(self) -> bool {
+        matches!(self, PassKind::Image | PassKind::Buffer | PassKind::Cubemap)
+    }
 }
 
 /// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.

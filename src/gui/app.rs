@@ -325,7 +325,7 @@ impl Running {
     fn key(&mut self, event: &winit::event::KeyEvent, is_synthetic: bool) {
         let is_press = |e: &&egui::Event| matches!(e, egui::Event::Key { pressed: true, .. });
         let press = self.input.egui_input().events.iter().rev().find(is_press);
-        let is_ours = press.is_some_and(|event| self.shell.is_action(event));
+        let is_ours = press.is_some_and(|event| self.shell.is_action(&self.ctx, event));
         let to_shader = self.shell.picture_has_keys(&self.ctx) && !is_synthetic && !is_ours;
         match self.held.change(event, to_shader) {
             Some(KeyChange::Down(code)) => self.session.apply(Command::KeyDown(code)),

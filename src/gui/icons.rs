@@ -48,6 +48,16 @@ pub fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
 /// Does the same without a ground, for rows of titles.
 pub fn flat(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
+    flat_sign(ui, rect, response, icon, label)
+}
+
+/// Does the same at a place over another widget.
+pub fn flat_at(ui: &Ui, rect: Rect, icon: Icon, label: &str) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with(label), Sense::click());
+    flat_sign(ui, rect, response, icon, label)
+}
+
+fn flat_sign(ui: &Ui, rect: Rect, response: Response, icon: Icon, label: &str) -> Response {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     let p = theme::of(ui);
     if response.hovered() || response.has_focus() {

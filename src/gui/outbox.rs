@@ -7,7 +7,10 @@ use super::{
     geometry::Area,
     settings::Change,
 };
-use crate::{project::Tab, session::Command};
+use crate::{
+    project::Tab,
+    session::{Command, TabFix},
+};
 use egui::{Id, Rect, Response, Ui};
 use std::{collections::BTreeMap, path::PathBuf};
 
@@ -45,6 +48,12 @@ pub enum Wish {
     ShowRecovered,
     Set(Change),
     ClosePanel(Panel),
+    /// Makes the edits of a quick fix.
+    Fix(TabFix),
+    /// Pastes what is on the clipboard into the code.
+    PasteCode,
+    /// Closes the tab of an included file.
+    CloseFile(Tab),
     /// A breakpoint at a line of a tab, from 0, or none there any more.
     Breakpoint(Tab, usize),
     /// The way of the pixel at a place of the picture, from 0 to 1.

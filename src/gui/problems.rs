@@ -2,6 +2,8 @@
 
 use super::{
     accessible,
+    actions::Action,
+    editor::EditorAction,
     outbox::{Outbox, Wish},
     theme::{self, Palette},
 };
@@ -13,6 +15,8 @@ use crate::{
 use egui::{Align2, Color32, FontId, Frame, Label, Margin, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 22.0;
+/// Width of the button that mends a problem.
+const FIX: f32 = 36.0;
 /// A further place stands so far to the right of its problem.
 const INDENT: f32 = 14.0;
 /// The least room in which a hint is shown behind its problem.
@@ -47,6 +51,23 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
             theme::of(ui).weak,
         );
         out.place("includes", end);
+        let link = ui.interact(end, ui.scope_id().with("includes"), Sense::click());
+        accessible::name(&link, egui::Role::Link, "Open an included file");
+        let files: Vec<Tab> = session.tabs().into_iter().filter(|tab| matches!(tab, Tab::Included(_))).collect();
+        if let ([file], true) = (&files[..], link.clicked()) {
+            out.wishes.push(Wish::GoTo(file.clone(), None));
+        }
+        if files.len() > 1 {
+            egui::Popup::menu(&link).show(|ui| {
+                for file in &files {
+                    let button = ui.button(file.title());
+                    if out.clicked(&format!("includes:{}", file.title()), &button) {
+                        out.wishes.push(Wish::GoTo(file.clone(), None));
+                    }
+                }
+            });
+        }
+        link.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text("Open an included file");
     }
     out.place("compile-state", rect);
     whole(ui, session, caret, out);
@@ -87,6 +108,15 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
         for hint in &problem.hints {
             ui.add(Label::new(text(hint).color(theme::of(ui).weak)).wrap());
         }
+        ui.horizontal_wrapped(|ui| {
+            for (n, fix) in problem.fixes.iter().enumerate() {
+                let tip = out.keys.tip("Fix it", Action::Code(EditorAction::QuickFix));
+                let button = ui.small_button(&fix.title).on_hover_text(tip);
+                if out.clicked(&format!("problem-at-caret:fix:{n}"), &button) {
+                    out.wishes.push(Wish::Fix(fix.clone()));
+                }
+            }
+        });
     });
     out.place("problem-at-caret", shown.response.rect);
 }
@@ -96,6 +126,9 @@ pub fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     let state = session.compile_state();
     if state.compiling {
         return ("Compiling…".into(), palette.accent);
+    }
+    if session.waits_for_save() {
+        return ("Edited: save to compile".into(), palette.weak);
     }
     let some = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
     let (errors, warnings) = counts(session);
@@ -159,10 +192,21 @@ impl Row<'_> {
             let end = painter.text(pos2(x, rect.center().y), Align2::LEFT_CENTER, at, font, theme::of(ui).weak);
             x = end.right() + 10.0;
         }
+        let fix = self.problem.fixes.first().filter(|_| !self.is_label);
+        let mut text_end = rect.right();
+        if let Some(fix) = fix {
+            let place = Rect::from_min_size(pos2(rect.right() - FIX - 6.0, rect.top() + 2.0), vec2(FIX, ROW - 4.0));
+            text_end = place.left();
+            let name = format!("{}:fix", self.name);
+            let button = ui.place(place, egui::Button::new(RichText::new("Fix").size(12.0)).small());
+            if out.clicked(&name, &button.on_hover_text(&fix.title)) {
+                out.wishes.push(Wish::Fix(fix.clone()));
+            }
+        }
         let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
         let text = self.message.replace('\n', " ");
         let mut job = egui::text::LayoutJob::simple_singleline(text, FontId::proportional(12.5), color_of_text);
-        job.wrap = egui::text::TextWrapping::truncate_at_width((rect.right() - x - 8.0).max(20.0));
+        job.wrap = egui::text::TextWrapping::truncate_at_width((text_end - x - 8.0).max(20.0));
         let galley = painter.layout_job(job);
         let text_rect = Rect::from_min_size(pos2(x, rect.center().y - galley.size().y / 2.0), galley.size());
         painter.galley(text_rect.min, galley, color_of_text);
@@ -172,7 +216,7 @@ impl Row<'_> {
                 FontId::proportional(12.0),
                 theme::of(ui).weak,
             );
-            let room = rect.right() - text_rect.right() - 20.0;
+            let room = text_end - text_rect.right() - 20.0;
             job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(0.0));
             let galley = painter.layout_job(job);
             // A few cut letters say nothing; what is pointed at says all.

@@ -4,13 +4,14 @@ use super::{
     accessible,
     actions::Action,
     dock::Panel,
+    icons::{self, Icon},
     menus,
     outbox::{Outbox, Wish},
     passes, theme,
 };
 use crate::{
     diag::Severity,
-    project::{PassEdit, PassId, Tab},
+    project::{PassEdit, PassId, Tab, listed},
     session::{Command, Session},
 };
 use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
@@ -18,9 +19,35 @@ use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style:
 const HEIGHT: f32 = 32.0;
 /// Width of the button behind the tabs.
 const ADD: f32 = 36.0;
+/// Width of the sign that closes a tab.
+const CLOSE: f32 = 18.0;
 
-/// Shows the tabs; `current` has the accent. True: a hand drags what is beside them.
-pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) -> bool {
+/// An included file that is open as a tab, and the tabs whose texts have it in them.
+#[derive(Clone, Debug)]
+pub struct OpenFile {
+    pub tab: Tab,
+    pub users: Vec<Tab>,
+}
+
+impl OpenFile {
+    /// Returns who else an edit of it concerns.
+    fn shared(&self) -> String {
+        match &self.users[..] {
+            [] => "Included by no pass".to_owned(),
+            users => format!("Included by {}", listed(&users.iter().map(Tab::title).collect::<Vec<_>>())),
+        }
+    }
+}
+
+/// Returns the tabs to show: the project's own, and of the files that these include those that are open or not saved.
+pub fn shown(session: &Session, files: &[OpenFile]) -> Vec<Tab> {
+    let is_open = |tab: &Tab| files.iter().any(|file| file.tab == *tab) || session.is_tab_dirty(tab);
+    session.tabs().into_iter().filter(|tab| !matches!(tab, Tab::Included(_)) || is_open(tab)).collect()
+}
+
+/// Shows the tabs; `current` has the accent. `files`: the included files that are open. True: a hand drags what is
+/// beside them.
+pub fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut Outbox) -> bool {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     // Below the tabs, which come after it. That it takes clicks too keeps a click from moving anything.
     let handle = ui.interact(rect, ui.scope_id().with("tab row"), Sense::CLICK | Sense::DRAG);
@@ -39,9 +66,10 @@ pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) -> 
         .show(&mut row, |ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
             scroll_by_wheel(ui, rect);
-            let tabs = session.tabs();
+            let tabs = shown(session, files);
             for tab in &tabs {
-                show_tab(ui, session, tab, tab == current, out);
+                let file = files.iter().find(|file| file.tab == *tab);
+                show_tab(ui, session, tab, file, tab == current, out);
             }
             keep_in_sight(ui, &tabs, current, out);
         });
@@ -70,7 +98,7 @@ fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
     }
 }
 
-fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &mut Outbox) {
+fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, is_current: bool, out: &mut Outbox) {
     let here = session.diagnostics().iter().filter(|d| d.tab() == Some(tab));
     let (mut errors, mut warnings) = (0, 0);
     for d in here {
@@ -88,9 +116,24 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
         (0, n) => Some((n, theme::of(ui).warning)),
         (n, _) => Some((n, theme::of(ui).error)),
     };
-    let extra = if badge.is_some() { 24.0 } else { 0.0 } + if dirty { 12.0 } else { 0.0 };
+    // An edit of it is an edit of several passes.
+    let note = file.filter(|file| file.users.len() != 1).map(|file| {
+        ui.painter().layout_no_wrap(
+            format!("{} passes", file.users.len()),
+            FontId::proportional(11.0),
+            theme::of(ui).weak,
+        )
+    });
+    let note_width = note.as_ref().map_or(0.0, |note| note.size().x + 8.0);
+    let is_included = matches!(tab, Tab::Included(_));
+    let can_close = is_included && !dirty;
+    let extra = if badge.is_some() { 24.0 } else { 0.0 }
+        + if dirty { 12.0 } else { 0.0 }
+        + if can_close { CLOSE } else { 0.0 }
+        + note_width;
     let (rect, response) = ui.allocate_exact_size(vec2(title.size().x + 24.0 + extra, HEIGHT), Sense::click());
-    accessible::choice(&response, egui::Role::Tab, is_current, tab.title());
+    let name = file.map_or_else(|| tab.title(), |file| format!("{}: {}", tab.title(), file.shared()));
+    accessible::choice(&response, egui::Role::Tab, is_current, name);
     if is_current {
         ui.painter().rect_filled(rect, 0.0, theme::of(ui).background);
         ui.painter().hline(rect.x_range(), rect.top() + 1.0, Stroke::new(2.0, theme::of(ui).accent));
@@ -101,6 +144,10 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
     let width = title.size().x;
     ui.painter().galley(pos2(x, rect.center().y - title.size().y / 2.0), title, color);
     x += width;
+    if let Some(note) = note {
+        ui.painter().galley(pos2(x + 8.0, rect.center().y - note.size().y / 2.0), note, color);
+        x += note_width;
+    }
     if dirty {
         ui.painter().circle_filled(pos2(x + 9.0, rect.center().y), 3.0, theme::of(ui).accent);
         x += 12.0;
@@ -117,7 +164,15 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             theme::of(ui).background,
         );
     }
-    if out.clicked(&format!("tab:{}", tab.title()), &response) {
+    let closes = can_close && {
+        let place = Rect::from_center_size(pos2(rect.right() - 14.0, rect.center().y), vec2(18.0, 18.0));
+        let close = icons::flat_at(ui, place, Icon::Close, &format!("Close {}", tab.title()));
+        out.clicked(&format!("tab:close:{}", tab.title()), &close)
+    };
+    let is_middle = response.clicked_by(egui::PointerButton::Middle) && can_close;
+    if closes || is_middle {
+        out.wishes.push(Wish::CloseFile(tab.clone()));
+    } else if out.clicked(&format!("tab:{}", tab.title()), &response) {
         out.wishes.push(Wish::GoTo(tab.clone(), None));
     }
     menus::context(&response, |ui| {
@@ -132,7 +187,12 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             out.wishes.push(Wish::ChoosePass(Tab::Pass(id.clone())));
         }
         let can_go = *tab != Tab::Pass(PassId::Image);
-        if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
+        if is_included {
+            let close = ui.add_enabled(can_close, egui::Button::new("Close tab"));
+            if close.on_disabled_hover_text("Save it first").clicked() {
+                out.wishes.push(Wish::CloseFile(tab.clone()));
+            }
+        } else if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
         }
         ui.separator();
@@ -144,9 +204,13 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
     // Paused, no frame takes any time.
     let times = if session.transport().playing { session.pass_times() } else { &[] };
     let time = times.iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
+    let included = file;
     let file = session.project().source(tab).and_then(|s| s.path.as_ref());
     response.on_hover_ui(|ui| {
         ui.label(tab.title());
+        if let Some(included) = included {
+            ui.label(included.shared());
+        }
         if let Some(path) = file {
             ui.colored_label(theme::of(ui).weak, path.display().to_string());
         }
@@ -156,7 +220,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
         if dirty {
             ui.colored_label(theme::of(ui).accent, "Not saved");
         }
-        if *tab != Tab::Pass(PassId::Image) {
+        if *tab != Tab::Pass(PassId::Image) && !is_included {
             ui.colored_label(theme::of(ui).weak, "Right-click or Shift+F10 for more");
         }
     });

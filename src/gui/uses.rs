@@ -51,6 +51,11 @@ impl Uses {
         Some(Self { name: first.text[first.name.clone()].to_owned(), places, selected: None })
     }
 
+    /// Returns the list of what was looked for. `None` where nothing was found.
+    pub fn found(session: &Session, query: &str, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
+        Some(Self { name: query.to_owned(), ..Self::new(session, places)? })
+    }
+
     /// `limit`: how high the list may be.
     pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) -> Shown {
         out.stop("uses", ui);

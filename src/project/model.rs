@@ -273,6 +273,8 @@ pub enum Tab {
     Pass(PassId),
     /// A stage of a geometry pass that lies in a file of its own, by the file's name.
     Stage(PassId, String),
+    /// A file that others include, by its path from the project's folder.
+    Included(String),
 }
 
 impl Tab {
@@ -280,7 +282,7 @@ impl Tab {
         match self {
             Tab::Common => "Common".into(),
             Tab::Pass(id) => id.title(),
-            Tab::Stage(_, file) => file.clone(),
+            Tab::Stage(_, file) | Tab::Included(file) => file.clone(),
         }
     }
 
@@ -290,13 +292,14 @@ impl Tab {
             Tab::Common => Tab::Common,
             Tab::Pass(_) => Tab::Pass(pass),
             Tab::Stage(_, file) => Tab::Stage(pass, file.clone()),
+            Tab::Included(file) => Tab::Included(file.clone()),
         }
     }
 
     /// The pass it belongs to.
     pub fn pass(&self) -> Option<&PassId> {
         match self {
-            Tab::Common => None,
+            Tab::Common | Tab::Included(_) => None,
             Tab::Pass(id) | Tab::Stage(id, _) => Some(id),
         }
     }
@@ -311,7 +314,8 @@ impl Project {
         })
     }
 
-    /// Every text that is a tab: Common, the passes', the stages'.
+    /// Every text that the project itself names: Common, the passes', the stages'. What these include is in
+    /// [`Project::includes`].
     pub fn tab_sources(&self) -> impl Iterator<Item = &Source> {
         let passes = self.passes.iter().map(|p| &p.source);
         self.common.iter().chain(passes).chain(self.stages().map(|(_, s)| s))
@@ -357,11 +361,17 @@ impl Project {
         map
     }
 
+    /// The included files that have a text.
+    fn readable_includes(&self) -> impl Iterator<Item = &Source> {
+        self.includes.iter().filter(|i| i.trouble.is_none()).map(|i| &i.source)
+    }
+
     pub fn source(&self, tab: &Tab) -> Option<&Source> {
         match tab {
             Tab::Common => self.common.as_ref(),
             Tab::Pass(id) => self.pass(id).map(|p| &p.source),
             Tab::Stage(id, file) => self.pass(id)?.settings.meshes()?.stages.iter().find(|s| s.name == *file),
+            Tab::Included(file) => self.readable_includes().find(|s| s.name == *file),
         }
     }
 
@@ -372,10 +382,15 @@ impl Project {
             Tab::Stage(id, file) => {
                 self.pass_mut(id)?.settings.meshes_mut()?.stages.iter_mut().find(|s| s.name == *file)
             }
+            Tab::Included(file) => {
+                let included = self.includes.iter_mut().find(|i| i.trouble.is_none() && i.source.name == *file);
+                included.map(|i| &mut i.source)
+            }
         }
     }
 
-    /// Every tab there is: Common, then passes as they are drawn; a pass's stages behind it.
+    /// Every tab there is: Common, then passes as they are drawn; a pass's stages behind it. Behind all of them come the
+    /// files that they include.
     pub fn tabs(&self) -> Vec<Tab> {
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
         ids.sort_by(PassId::drawing_order);
@@ -385,6 +400,7 @@ impl Project {
             tabs.push(Tab::Pass(id.clone()));
             tabs.extend(stages.iter().map(|s| Tab::Stage(id.clone(), s.name.clone())));
         }
+        tabs.extend(self.readable_includes().map(|s| Tab::Included(s.name.clone())));
         tabs
     }
 }

@@ -32,4 +32,6 @@ pub struct Included {
     pub trouble: Option<String>,
     /// The trouble is a limit of the whole project: what is named after it was not looked for.
     pub is_limit: bool,
+    /// The text is not the file's: it was edited here and is not saved yet. Reading leaves it as it is.
+    pub is_edited: bool,
 }

@@ -2,7 +2,7 @@
 //! the stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing else
 //! counts them.
 
-use super::{Included, Project, Stage, Tab};
+use super::{Included, PassId, Project, Stage, Tab};
 use crate::diag::SourceId;
 
 impl Project {
@@ -40,9 +40,31 @@ impl Project {
         match usize::from(source.0) {
             0 => Some(Tab::Common),
             i if i < self.first_stage() => Some(Tab::Pass(self.passes[i - 1].id.clone())),
-            i => {
+            i if i < self.first_included() => {
                 let (pass, stage) = self.stages().nth(i - self.first_stage())?;
                 Some(Tab::Stage(self.passes[pass].id.clone(), stage.name.clone()))
+            }
+            _ => {
+                let included = self.included(source).filter(|i| i.trouble.is_none())?;
+                Some(Tab::Included(included.source.name.clone()))
+            }
+        }
+    }
+
+    /// Returns the id of a tab's text; `None` for a tab that this project does not have.
+    pub fn id_of(&self, tab: &Tab) -> Option<SourceId> {
+        let place = |id: &PassId| self.passes.iter().position(|p| p.id == *id);
+        match tab {
+            Tab::Common => self.common.as_ref().map(|_| Self::COMMON_ID),
+            Tab::Pass(of) => place(of).map(Self::pass_id),
+            Tab::Stage(of, file) => {
+                let pass = place(of)?;
+                let at = self.stages().position(|(index, stage)| index == pass && stage.name == *file)?;
+                Some(id(self.first_stage() + at))
+            }
+            Tab::Included(file) => {
+                let at = self.includes.iter().position(|i| i.trouble.is_none() && i.source.name == *file)?;
+                Some(id(self.first_included() + at))
             }
         }
     }

@@ -76,6 +76,10 @@ impl TabAnalysis {
     pub fn source_of(&self, tab: &Tab) -> Option<SourceId> {
         match tab {
             Tab::Common => self.texts.project.common.as_ref().map(|_| COMMON),
+            Tab::Included(_) => {
+                let id = self.texts.project.id_of(tab)?;
+                self.analysis.text(id).map(|_| id)
+            }
             Tab::Pass(_) | Tab::Stage(..) => {
                 let code = self.texts.code();
                 (self.texts.project.tab_of(code).as_ref() == Some(tab)).then_some(code)
@@ -83,7 +87,7 @@ impl TabAnalysis {
         }
     }
 
-    /// `None`: an included file, which has no tab.
+    /// Returns the tab of a text; `None` for one that the project does not have.
     pub fn tab_of(&self, source: SourceId) -> Option<Tab> {
         self.texts.project.tab_of(source)
     }
@@ -93,7 +97,7 @@ impl TabAnalysis {
         match &self.front {
             Tab::Common => self.texts.project.common.as_ref().map_or(&self.texts.pass().source.text, |c| &c.text),
             Tab::Pass(_) => &self.texts.pass().source.text,
-            Tab::Stage(..) => {
+            Tab::Stage(..) | Tab::Included(_) => {
                 let source = self.texts.project.source(&self.front);
                 source.map_or(&self.texts.pass().source.text, |s| &s.text)
             }
@@ -118,7 +122,12 @@ impl Analyst {
         let mut preamble = KeptPreamble::default();
         let work = move |(texts, front): (Texts, Tab)| {
             let analysis = texts.analyse(&mut preamble);
-            let classes = analysis.classes(if front == Tab::Common { COMMON } else { texts.code() });
+            let own = match &front {
+                Tab::Common => COMMON,
+                Tab::Included(_) => texts.project.id_of(&front).unwrap_or(texts.code()),
+                Tab::Pass(_) | Tab::Stage(..) => texts.code(),
+            };
+            let classes = analysis.classes(own);
             TabAnalysis { analysis, front, classes, texts }
         };
         let worker = Worker::new("analysis", wake, work)?;

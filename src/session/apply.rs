@@ -44,6 +44,12 @@ impl Session {
                 self.analyse();
             }
             Command::CompileNow => self.compile_soon(),
+            Command::SetCompileOnSave(on) => {
+                self.compile.on_save = on;
+                if !on && std::mem::take(&mut self.compile.waits_for_save) {
+                    self.compile_soon();
+                }
+            }
             Command::Play => self.play(),
             Command::Pause => self.pause(),
             Command::TogglePlay if self.is_playing() => self.pause(),
@@ -181,6 +187,7 @@ impl Session {
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
         self.compile.fallback = None;
+        self.compile.waits_for_save = false;
         self.compile.is_wanted = true;
         self.compile.state.compiling = true;
     }
@@ -198,9 +205,7 @@ impl Session {
         if include_names(&source.text) != include_names(text) {
             self.compile.include_edits += 1;
         }
-        if let Some(source) = self.documents.current_mut().source_mut(tab) {
-            source.text = text.into();
-        }
+        self.documents.set_text(tab, text);
         self.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
@@ -209,6 +214,10 @@ impl Session {
             {
                 pass.channels = now;
             }
+        }
+        if self.compile.on_save {
+            self.compile.waits_for_save = true;
+            return;
         }
         self.compile.edited = true;
         self.compile.state.compiling = true;

@@ -49,6 +49,9 @@ pub enum Command {
     /// The tab that is being edited: its text is analysed after each change, see
     /// [`Session::analysis`](super::Session::analysis).
     BringToFront(Tab),
+    /// Edits of texts are compiled when they are saved, or by [`Command::CompileNow`], and not a while after they are
+    /// typed.
+    SetCompileOnSave(bool),
     /// Compiles at once.
     CompileNow,
     Play,

@@ -104,6 +104,7 @@ impl Session {
         }
         self.settle_includes();
         if !self.is_dirty() {
+            self.compile_saved();
             self.notice(Level::Info, "nothing to save: the files are up to date");
             return true;
         }
@@ -200,7 +201,15 @@ impl Session {
         self.documents.set_saved(project);
         self.place_known();
         self.disk_is_known();
+        self.compile_saved();
         self.notice(Level::Info, format!("saved {place}"));
+    }
+
+    /// Compiles what waited for it to be saved.
+    fn compile_saved(&mut self) {
+        if self.compile.waits_for_save {
+            self.compile_soon();
+        }
     }
 
     fn finish_save(&mut self) {

@@ -55,6 +55,7 @@ mod recover;
 mod recovery;
 pub mod reduction;
 mod reload;
+mod rename;
 mod reopen;
 pub mod revision;
 mod runs;
@@ -87,5 +88,6 @@ pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{
-    About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
+    About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabEdit, TabFix, TabLabel,
+    Tick, Transport,
 };

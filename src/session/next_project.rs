@@ -77,6 +77,8 @@ impl Compile {
             fallback: None,
             newest_since: None,
             edited_at: None,
+            on_save: self.on_save,
+            waits_for_save: false,
         }
     }
 }

@@ -92,6 +92,12 @@ impl Session {
         self.projects_opened
     }
 
+    /// Edits wait to be compiled until they are saved: see
+    /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
+    pub fn waits_for_save(&self) -> bool {
+        self.compile.waits_for_save
+    }
+
     /// The author's own uniforms, as the running program declares them.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         self.drawing.custom_uniforms()

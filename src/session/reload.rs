@@ -7,7 +7,7 @@ use super::{
     view::{About, Level},
     watch::Watch,
 };
-use crate::project::{self, Loaded, Origin, Project, Tab, confine, limits};
+use crate::project::{self, Included, Loaded, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
 /// The project on disk, if it can be used.
@@ -103,8 +103,7 @@ impl Session {
             self.after_reload();
         }
         let before = self.project().includes.clone();
-        self.documents.current_mut().read_includes();
-        self.compile.includes_read = self.compile.include_edits;
+        self.read_includes();
         if self.project().includes != before {
             self.compile_soon();
         }
@@ -123,9 +122,21 @@ impl Session {
     /// Reads what the texts include where no compile has done it yet: included files are saved with the project.
     pub(super) fn settle_includes(&mut self) {
         if self.compile.includes_read != self.compile.include_edits {
-            self.documents.current_mut().read_includes();
-            self.compile.includes_read = self.compile.include_edits;
+            self.read_includes();
         }
+    }
+
+    fn read_includes(&mut self) {
+        let mut project = self.project().clone();
+        project.read_includes();
+        self.take_includes(project.includes, self.compile.include_edits);
+    }
+
+    /// Takes what the texts include as it was read for an edit of them.
+    pub(super) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
+        self.compile.includes_read = edit;
+        // An editor that shows one takes it anew.
+        self.text_generation += u64::from(self.documents.take_includes(includes));
     }
 
     fn ask_conflicts(&mut self, merge: &Merge) {
@@ -151,12 +162,14 @@ impl Session {
     /// Tells of files that are gone or empty, once each.
     fn tell_gone(&mut self) {
         let saved = self.documents.saved();
+        // A file that others include has an error at the line that does.
+        let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.documents.is_tab_dirty(tab);
         let is_gone = |tab: &Tab| {
             let path = saved.source(tab).and_then(|s| s.path.as_ref());
             path.is_some_and(|p| fs::metadata(p).map_or(true, |m| m.len() == 0))
                 && saved.source(tab).is_some_and(|s| !s.text.is_empty())
         };
-        let gone: Vec<Tab> = saved.tabs().into_iter().filter(is_gone).collect();
+        let gone: Vec<Tab> = saved.tabs().into_iter().filter(is_own).filter(is_gone).collect();
         if gone.is_empty() {
             self.settled(About::MissingFile);
         }

@@ -126,6 +126,10 @@ pub(super) struct Compile {
     pub jobs: Arc<AtomicU64>,
     /// A text was edited since the last tick.
     pub edited: bool,
+    /// Edits are compiled when they are saved.
+    pub on_save: bool,
+    /// There are such edits.
+    pub waits_for_save: bool,
     /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
     pub include_edits: u64,
     pub includes_read: u64,
@@ -251,6 +255,8 @@ impl Session {
                 edits: Debounce::new(options.edit_debounce),
                 jobs,
                 edited: false,
+                on_save: false,
+                waits_for_save: false,
                 include_edits: 0,
                 includes_read: 0,
                 is_wanted: true,

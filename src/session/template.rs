@@ -57,7 +57,7 @@ pub(super) fn text(tab: &Tab) -> &'static str {
         Tab::Pass(PassId::Cubemap) => CUBEMAP,
         Tab::Pass(PassId::Sound) => SOUND,
         Tab::Pass(PassId::Image) => IMAGE,
-        Tab::Stage(..) => "",
+        Tab::Stage(..) | Tab::Included(_) => "",
     }
 }
 
@@ -71,7 +71,7 @@ pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
     match tab {
         Tab::Common => project.common = Some(source),
         // A stage is there because a draw of its pass names it.
-        Tab::Stage(..) => return false,
+        Tab::Stage(..) | Tab::Included(_) => return false,
         Tab::Pass(id) => insert_pass(project, Pass::new(id.clone(), source)),
     }
     true

@@ -1,7 +1,7 @@
 //! A front end shows these plain values of a session.
 
 use crate::{
-    diag::{Diagnostic, Severity, SourceMap, Span},
+    diag::{Diagnostic, Edit, Fix, Severity, SourceMap, Span},
     project::{Project, Tab},
 };
 use std::{
@@ -90,6 +90,40 @@ pub struct TabDiagnostic {
     /// Further places: the declaration that a call does not fit, the macro that a name comes from.
     pub labels: Vec<TabLabel>,
     pub hints: Vec<String>,
+    /// The mends that can be made at once, the likeliest first.
+    pub fixes: Vec<TabFix>,
+}
+
+/// A mend that can be made without asking further, and what else changes several texts at once.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TabFix {
+    /// Says what it does, in a menu.
+    pub title: String,
+    /// All of them are made, or none. No two touch the same bytes.
+    pub edits: Vec<TabEdit>,
+}
+
+/// A stretch of a tab's text, and what shall stand there instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TabEdit {
+    pub tab: Tab,
+    pub range: Range<usize>,
+    /// Holds what stands there. Where that is something else by now, the edit means nothing any more.
+    pub replaced: String,
+    pub text: String,
+}
+
+impl TabFix {
+    /// Returns `None` for a mend of a text that is no tab.
+    fn new(fix: &Fix, sources: &SourceMap, project: &Project) -> Option<Self> {
+        let edit = |edit: &Edit| {
+            let range = edit.span.range();
+            let replaced = sources.get(edit.span.source)?.text.get(range.clone())?.to_owned();
+            Some(TabEdit { tab: project.tab_of(edit.span.source)?, range, replaced, text: edit.text.clone() })
+        };
+        let edits = fix.edits.iter().map(edit).collect::<Option<Vec<_>>>()?;
+        Some(Self { title: fix.title.clone(), edits })
+    }
 }
 
 /// A further place of a diagnostic, and what it has to do with it.
@@ -131,7 +165,14 @@ impl Place {
 impl TabDiagnostic {
     /// Makes an error that has no place in any text.
     pub(super) fn nowhere(message: &str) -> Self {
-        Self { severity: Severity::Error, place: None, message: message.to_owned(), labels: vec![], hints: vec![] }
+        Self {
+            severity: Severity::Error,
+            place: None,
+            message: message.to_owned(),
+            labels: vec![],
+            hints: vec![],
+            fixes: vec![],
+        }
     }
 
     /// `sources` are those of `project`.
@@ -146,6 +187,7 @@ impl TabDiagnostic {
             message: d.message.clone(),
             labels: labels.collect(),
             hints: d.hints.clone(),
+            fixes: d.fixes.iter().filter_map(|fix| TabFix::new(fix, sources, project)).collect(),
         }
     }
 

@@ -1,6 +1,10 @@
 //! `#include` lines from the file to the picture, and back to the file when something is wrong in it.
 
 use crate::support::{gpu, program::Bench, stage::*};
+use eddy::{
+    project::{PassId, Tab},
+    session::{Answer, Command, Question},
+};
 
 const USES: &str =
     "#include \"lib/tone.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(tone(), 0.0, 0.0, 1.0); }\n";
@@ -53,8 +57,8 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.write("image.glsl", USES);
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     let folder = stage.folder();
-    stage.session.apply(eddy::session::Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(eddy::session::Command::Pause);
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
     stage.until_compiled();
     assert_eq!(stage.red(), 255);
     replace(&stage.path("lib/tone.glsl"), "float tone() { return 0.2; }");
@@ -63,11 +67,11 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.write("lib/tone.glsl", "float tone() { return none; }");
     stage.until("the error", |s| {
         let places = s.diagnostics().iter().filter_map(|d| d.place.as_ref());
-        places.into_iter().any(|p| p.tab.is_none() && p.text == "lib/tone.glsl" && p.line == 1)
+        places.into_iter().any(|p| p.tab.as_ref() == Some(&tone()) && p.text == "lib/tone.glsl" && p.line == 1)
     });
     // A line typed now, of a file that comes later.
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
-    stage.session.apply(eddy::session::Command::CompileNow);
+    stage.session.apply(Command::CompileNow);
     stage.until("the missing file", |s| {
         s.diagnostics().iter().any(|d| d.message.contains("there is no file lib/late.glsl"))
     });
@@ -76,6 +80,138 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.until("a good compile", |s| s.diagnostics().is_empty());
     stage.until_compiled();
     assert_eq!(stage.red(), 153);
+}
+
+fn tone() -> Tab {
+    Tab::Included("lib/tone.glsl".into())
+}
+
+fn type_into(stage: &mut Stage, text: &str) {
+    stage.session.apply(Command::EditText { tab: tone(), text: text.into() });
+}
+
+fn with_tone(text: &str) -> Option<Stage> {
+    let mut stage = Stage::bare(gpu()?);
+    std::fs::create_dir(stage.path("lib")).unwrap();
+    stage.write("image.glsl", USES);
+    stage.write("buffer_a.glsl", USES);
+    stage.write("lib/tone.glsl", text);
+    let folder = stage.folder();
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    stage.settle();
+    Some(stage)
+}
+
+#[test]
+fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
+    let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
+    assert!(stage.session.tabs().contains(&tone()));
+    let users = stage.session.project().tabs_that_include(&tone());
+    assert_eq!(users, [Tab::Pass(PassId::Buffer("A".into())), IMAGE]);
+    let at = USES.find("lib").unwrap();
+    assert_eq!(stage.session.project().included_at(&IMAGE, at), Some(tone()));
+    assert_eq!(stage.session.project().included_at(&IMAGE, USES.len() - 3), None);
+
+    type_into(&mut stage, "float tone() { return 0.2; }");
+    assert!(stage.session.is_dirty() && stage.session.is_tab_dirty(&tone()) && !stage.session.is_tab_dirty(&IMAGE));
+    stage.until_red(51);
+    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }", "nothing is written unasked");
+    // An edit that has the files read anew leaves what was typed.
+    stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
+    stage.session.apply(Command::CompileNow);
+    stage.until("the missing file", |s| s.diagnostics().iter().any(|d| d.message.contains("late.glsl")));
+    stage.edit(USES);
+    stage.session.apply(Command::CompileNow);
+    stage.until("a good compile", |s| s.diagnostics().is_empty());
+    assert_eq!(stage.session.text(&tone()), "float tone() { return 0.2; }");
+    // So does a text that includes it no more.
+    stage.edit(&plain(0.0));
+    stage.session.apply(Command::EditText { tab: Tab::Pass(PassId::Buffer("A".into())), text: plain(0.0) });
+    stage.session.apply(Command::CompileNow);
+    stage.until_red(0);
+    assert!(stage.session.is_tab_dirty(&tone()));
+    stage.session.apply(Command::Save);
+    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
+    assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
+    // And back to what is on disk is no edit.
+    stage.edit(USES);
+    stage.session.apply(Command::CompileNow);
+    stage.until_red(51);
+    type_into(&mut stage, "float tone() { return 0.6; }");
+    assert!(stage.session.is_tab_dirty(&tone()));
+    type_into(&mut stage, "float tone() { return 0.2; }");
+    assert!(!stage.session.is_tab_dirty(&tone()));
+}
+
+#[test]
+fn a_change_on_disk_of_an_edited_included_file_is_a_conflict() {
+    let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
+    // Not edited: it follows.
+    let generation = stage.session.text_generation();
+    stage.write("lib/tone.glsl", "float tone() { return 0.2; }");
+    stage.until_red(51);
+    assert!(stage.session.text_generation() > generation && !stage.session.is_dirty());
+    type_into(&mut stage, "float tone() { return 0.6; }");
+    stage.write("lib/tone.glsl", "float tone() { return 0.4; }");
+    stage.until("a question", |s| s.question().is_some());
+    let Some(Question::Conflict { tab, file, mine, disk, .. }) = stage.session.question().cloned() else { panic!() };
+    assert_eq!((tab, file), (Some(tone()), stage.path("lib/tone.glsl")));
+    assert_eq!((&*mine, &*disk), ("float tone() { return 0.6; }", "float tone() { return 0.4; }"));
+    stage.session.apply(Command::Answer(Answer::TakeDisk));
+    assert_eq!(stage.session.text(&tone()), "float tone() { return 0.4; }");
+    assert!(!stage.session.is_dirty());
+    stage.until_red(102);
+    // And the same where only an edited text includes it, with the answer of the other side.
+    stage.write("lib/late.glsl", "float late() { return 0.0; }");
+    stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
+    stage.session.apply(Command::CompileNow);
+    let late = || Tab::Included("lib/late.glsl".into());
+    stage.until("the file", |s| s.tabs().contains(&late()) && !s.compile_state().compiling);
+    stage.session.apply(Command::EditText { tab: late(), text: "float late() { return 1.0; }".into() });
+    stage.write("lib/late.glsl", "float late() { return 2.0; }");
+    stage.until("a question", |s| s.question().is_some());
+    stage.session.apply(Command::Answer(Answer::KeepMine));
+    assert_eq!(stage.session.text(&late()), "float late() { return 1.0; }");
+    stage.session.apply(Command::Save);
+    assert_eq!(stage.read("lib/late.glsl"), "float late() { return 1.0; }");
+    assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
+}
+
+#[test]
+fn an_edited_included_file_goes_into_the_snapshot_and_into_another_folder() {
+    let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
+    type_into(&mut stage, "float tone() { return 0.2; }");
+    let text = eddy::project::write_snapshot(stage.session.project()).unwrap();
+    let mut read = eddy::project::read_snapshot(&text).unwrap();
+    read.read_includes();
+    assert_eq!(read.source(&tone()).map(|s| &*s.text), Some("float tone() { return 0.2; }"));
+    // A name that leads out of the folder is nobody's file.
+    let hostile = text.replace("\"lib/tone.glsl\"", "\"../tone.glsl\"");
+    assert!(hostile != text && eddy::project::read_snapshot(&hostile).unwrap().includes.is_empty());
+    let copy = stage.dir.path().join("copy");
+    stage.session.apply(Command::SaveAs(copy.clone()));
+    assert_eq!(std::fs::read_to_string(copy.join("lib/tone.glsl")).unwrap(), "float tone() { return 0.2; }");
+    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }");
+    assert!(!stage.session.is_dirty());
+}
+
+#[test]
+fn a_file_that_lone_glsl_includes_is_saved_beside_it() {
+    let Some(gpu) = gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    std::fs::create_dir(stage.path("lib")).unwrap();
+    stage.write("lone.glsl", USES);
+    stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
+    let file = stage.path("lone.glsl");
+    stage.session.apply(Command::Open(file.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    type_into(&mut stage, "float tone() { return 0.2; }");
+    stage.session.apply(Command::Save);
+    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
+    assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 }
 
 #[test]
@@ -87,8 +223,8 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.write("lib/late.glsl", "float tone() { return 0.6; }");
     stage.write("image.glsl", USES);
     let folder = stage.folder();
-    stage.session.apply(eddy::session::Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(eddy::session::Command::Pause);
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
     stage.until_compiled();
     assert_eq!(stage.red(), 255);
     stage.settle();
@@ -101,12 +237,12 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.edit(&format!("{USES} // typed"));
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
     assert_eq!(read(&stage), before, "nothing is read where the keys come in");
-    stage.session.apply(eddy::session::Command::CompileNow);
+    stage.session.apply(Command::CompileNow);
     stage.until("the new file", |s| s.project().includes[0].source.name == "lib/late.glsl");
     stage.until_red(153);
     // Back, within a text that is compiled anew: the file that has changed meanwhile is read.
     stage.edit(USES);
-    stage.session.apply(eddy::session::Command::CompileNow);
+    stage.session.apply(Command::CompileNow);
     stage.until_red(51);
 }
 
@@ -118,6 +254,6 @@ fn a_file_that_is_included_just_before_a_save_is_saved_too() {
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     stage.edit(USES);
     let copy = stage.path("copy");
-    stage.session.apply(eddy::session::Command::SaveAs(copy.clone()));
+    stage.session.apply(Command::SaveAs(copy.clone()));
     assert!(copy.join("lib/tone.glsl").is_file(), "{:?}", stage.session.notices());
 }

@@ -21,6 +21,7 @@ mod compile_budget;
 mod directives;
 mod engine;
 mod fills;
+mod fixes;
 mod frame_bands;
 mod geometry;
 mod geometry_files;

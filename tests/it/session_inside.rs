@@ -116,3 +116,49 @@ fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     }
     assert_eq!(stage.frames(), frames);
 }
+
+#[test]
+fn a_breakpoint_stands_where_a_statement_does() {
+    let Some(gpu) = support::gpu() else { return };
+    let image = "// A comment.\n\
+        float twice(float x) {\n\
+        \x20   // Within.\n\
+        \x20   return 2.0 * x;\n\
+        }\n\
+        \n\
+        void mainImage(out vec4 o, in vec2 p) {\n\
+        \x20   vec3 a = vec3(\n\
+        \x20       0.5);\n\
+        #if 0\n\
+        \x20   a.x = 1.0;\n\
+        #endif\n\
+        \x20   for (int i = 0; i < 3; i++) {\n\
+        \x20       a.y += 0.1;\n\
+        \x20   }\n\
+        \x20   o = vec4(a, twice(shade()));\n\
+        }\n\
+        // The end.\n";
+    let mut stage = Stage::bare(gpu);
+    stage.write("image.glsl", format!("#include \"shade.glsl\"\n{image}"));
+    stage.write("shade.glsl", "// Light.\nfloat shade() {\n    return 0.5;\n}\n");
+    stage.write("common.glsl", "const float HALF = 0.5;\nfloat half_of(float x) {\n    return HALF * x;\n}\n");
+    let folder = stage.folder();
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    let at = |tab: &Tab, line: usize| stage.session.stop_line(tab, line);
+    let found: Vec<Option<usize>> = (0..=18).map(|line| at(&IMAGE, line)).collect();
+    let wanted = [4, 4, 4, 4, 4, 8, 8, 8, 8, 8, 13, 13, 13, 13, 14, 16, 16].map(Some);
+    assert_eq!(found[..17], wanted);
+    assert_eq!(found[17..], [None, None], "none is below");
+    let shade = Tab::Included("shade.glsl".into());
+    assert_eq!([0, 2, 3].map(|line| at(&shade, line)), [Some(2), Some(2), None]);
+    assert_eq!([0, 2, 3].map(|line| at(&Tab::Common, line)), [Some(2), Some(2), None]);
+    // What the compiler does not understand is no reason to fall over.
+    for text in ["", "{", "void mainImage(", "void mainImage(out vec4 o, in vec2 p) { o = ; for (;; }", "float f() {"] {
+        stage.edit(text);
+        for line in 0..3 {
+            assert!(stage.session.stop_line(&IMAGE, line).is_none_or(|line| line < 3));
+        }
+    }
+}

@@ -224,7 +224,7 @@ fn an_editor_knows_them_and_what_included_files_declare() {
     let mut project = project(vec![image(code, Default::default())]);
     let lib = "float half_of(float x) { return 0.5 * x * level; }\n#iUniform float level\n";
     let source = Source { name: "lib.glsl".into(), path: None, text: lib.into() };
-    project.includes = vec![eddy::project::Included { source, trouble: None, is_limit: false }];
+    project.includes = vec![eddy::project::Included { source, trouble: None, is_limit: false, is_edited: false }];
     let texts = eddy::engine::Sources::new(&project);
     assert_eq!(texts.diagnostics, []);
     let analysis = texts.analyse(0);

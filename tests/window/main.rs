@@ -9,6 +9,7 @@ mod window_buffers;
 mod window_compare;
 mod window_editor;
 mod window_endurance;
+mod window_fields;
 mod window_first;
 mod window_keyboard;
 mod window_keys;

@@ -116,6 +116,8 @@ pub struct Origins {
     pub macro_uses: Vec<(Span, MacroId)>,
     /// Lines that an `#if` leaves out, its directives not among them; for editors.
     pub inactive: Vec<Span>,
+    /// Names in lines that were refused: who does not find one of them need not be told of it again.
+    pub unread: Vec<Symbol>,
 }
 
 /// A copy is gone on with: the tokens that follow Common's are put behind.
@@ -127,6 +129,7 @@ impl Clone for Origins {
             macros: self.macros.clone(),
             macro_uses: with_room(&self.macro_uses),
             inactive: self.inactive.clone(),
+            unread: self.unread.clone(),
         }
     }
 }

@@ -92,7 +92,7 @@ impl Checker<'_> {
         }
         let members: Vec<_> = self.module[self.module[id].members].iter().map(|m| self.name(m.name.symbol)).collect();
         match crate::glsl::near::nearest_identifier(text, members.iter().copied()) {
-            Some(near) => self.hint(format!("did you mean `{near}`?")),
+            Some(near) => self.did_you_mean(loc.last, near),
             None => self.hint(format!("its members are {}", quoted(&members))),
         }
         if let Some(declared) = self.module[id].name {

@@ -167,7 +167,7 @@ impl Checker<'_> {
             if want != given[i]
                 && let Some(mend) = self.mend(self.done(written), written, want)
             {
-                self.hint(mend.hint());
+                self.mend_with(&mend, written);
             }
         }
         for id in candidates.into_iter().take(6) {

@@ -8,7 +8,7 @@ use super::{
     scope::Scopes,
 };
 use crate::{
-    diag::{Diagnostic, SourceId},
+    diag::{Diagnostic, Fix, SourceId, Span},
     glsl::{
         ast::{self, Ast, Interner, Loc, Origins, Symbol},
         hir::{self, FuncId, Module, TypeId},
@@ -96,6 +96,8 @@ pub(super) struct Checker<'a> {
     pub entry_symbol: Option<Symbol>,
     /// The entry point as the site's header declares it.
     pub header_entry: Option<FuncId>,
+    /// The `main` that stands for the entry point: its name, and which diagnostic says so.
+    pub foreign_main: Option<(FuncId, usize)>,
     /// The number of [`Ast::items`] that were checked.
     pub items: usize,
 }
@@ -157,6 +159,7 @@ impl<'a> Checker<'a> {
             depth_range: begun.depth_range,
             entry_symbol: None,
             header_entry: None,
+            foreign_main: None,
             items: begun.items,
         };
         checker.declare_language(known);
@@ -223,6 +226,35 @@ impl<'a> Checker<'a> {
         if let Some(last) = self.diagnostics.last_mut() {
             last.hints.push(hint.into());
         }
+    }
+
+    /// Adds a mend that an editor can make to the diagnostic reported last.
+    #[cold]
+    pub fn fix(&mut self, fix: Option<Fix>) {
+        if let Some(last) = self.diagnostics.last_mut() {
+            last.fixes.extend(fix);
+        }
+    }
+
+    /// Returns where the author wrote something, if no macro brought it in: an edit of a macro is one of all its uses.
+    pub fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
+        let loc = loc.into();
+        let (first, last) = (self.origins.tokens[loc.first.0 as usize], self.origins.tokens[loc.last.0 as usize]);
+        let is_plain = first.expansion.is_none() && last.expansion.is_none();
+        let is_one = first.spelled.source == last.spelled.source && first.spelled.start <= last.spelled.end;
+        (is_plain && is_one).then(|| first.spelled.to(last.spelled))
+    }
+
+    /// Adds the mend that puts another text in the place of what is written.
+    pub fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
+        let span = self.written_at(loc);
+        self.fix(span.map(|span| Fix::replace(span, text)));
+    }
+
+    /// Says that a name was probably spelled wrong.
+    pub fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
+        self.hint(format!("did you mean `{near}`?"));
+        self.fix_with(loc, near);
     }
 
     /// Returns whether this stands in Common, which a vertex stage has before it though half of it may be for

@@ -2,9 +2,12 @@
 //! by itself, so nearly every such mistake is an int where a float belongs, and the mend can be written out.
 
 use super::checker::Checker;
-use crate::glsl::{
-    ast::{self, ExprKind as A},
-    hir::{ExprId, Scalar, TypeId},
+use crate::{
+    diag::{Edit, Fix, Span},
+    glsl::{
+        ast::{self, ExprKind as A},
+        hir::{ExprId, Scalar, TypeId},
+    },
 };
 
 impl Checker<'_> {
@@ -34,7 +37,28 @@ impl Checker<'_> {
         let message = message.replace("{}", &format!("`{}`", self.type_name(found)));
         self.error(loc, message);
         if let Some(mend) = self.mend(value, written, want) {
-            self.hint(mend.hint());
+            self.mend_with(&mend, written);
+        }
+    }
+
+    /// Adds a mend to the diagnostic reported last.
+    pub(super) fn mend_with(&mut self, mend: &Mend, written: ast::ExprId) {
+        self.hint(mend.hint());
+        let edits = self.edits(mend, written);
+        self.fix((!edits.is_empty()).then(|| Fix::new(mend.title(), edits)));
+    }
+
+    /// Returns what has to be written for a mend; nothing where a macro brought the value in.
+    fn edits(&self, mend: &Mend, written: ast::ExprId) -> Vec<Edit> {
+        let Some(span) = self.written_at(self.ast[written].loc) else { return Vec::new() };
+        let before = |text: &str| Edit { span: Span { end: span.start, ..span }, text: text.to_owned() };
+        let behind = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
+        match mend.text.split_once("..") {
+            None if mend.text.is_empty() => vec![behind("u")],
+            None => vec![Edit { span, text: mend.text.clone() }],
+            // What is taken of a whole expression is taken behind its brackets.
+            Some(("", part)) => vec![before("("), behind(&format!("){part}"))],
+            Some((head, tail)) => vec![before(head), behind(tail)],
         }
     }
 
@@ -45,12 +69,14 @@ impl Checker<'_> {
         let message = message.replace("{}", &format!("`{}`", self.type_name(self.ty(first))));
         self.error(self.loc(first), message);
         let mut mends: Vec<Mend> = self.mend(first, written, want).into_iter().collect();
+        let mut edits = mends.first().map(|mend| self.edits(mend, written)).unwrap_or_default();
         for &(value, written, want) in &wrong[1..] {
             let message = format!("this must be {} too", self.a(want));
             if wrong.len() <= 4 {
                 self.also(self.loc(value), message);
             }
             let Some(mend) = self.mend(value, written, want) else { continue };
+            edits.extend(self.edits(&mend, written));
             match mends.iter_mut().find(|m| m.converts == mend.converts && m.is_plain() && mend.is_plain()) {
                 Some(known) => {
                     known.text.push_str("`, `");
@@ -60,6 +86,9 @@ impl Checker<'_> {
             }
         }
         mends.iter().for_each(|mend| self.hint(mend.hint()));
+        if let Some(mend) = mends.first().filter(|_| !edits.is_empty()) {
+            self.fix(Some(Fix::new(mend.title(), edits)));
+        }
     }
 
     pub(super) fn expect_bool(&mut self, value: ExprId, written: ast::ExprId, what: &str) -> bool {
@@ -167,7 +196,7 @@ impl Checker<'_> {
         if let Some((_, n)) = self.vector_shape(self.ty(value))
             && let Some(mend) = self.mend(value, written, TypeId::vector(to, n))
         {
-            self.hint(mend.hint());
+            self.mend_with(&mend, written);
         }
     }
 
@@ -205,6 +234,16 @@ impl Mend {
     /// Can stand in one line with others of its kind.
     fn is_plain(&self) -> bool {
         !self.text.is_empty() && !self.text.contains("..")
+    }
+
+    /// Returns what it does, in a menu.
+    fn title(&self) -> String {
+        match self.text.strip_prefix("..") {
+            _ if self.text.is_empty() => "Add `u`".to_owned(),
+            Some(part) => format!("Take `{part}`"),
+            None if self.text.contains("..") => format!("Wrap in `{}`", self.text),
+            None => format!("Replace with `{}`", self.text),
+        }
     }
 
     pub fn hint(&self) -> String {

@@ -106,6 +106,9 @@ pub(in crate::glsl) struct Entry {
     pub usage: &'static str,
 }
 
+/// The parameter that an entry point draws with, as [`Entry::usage`] calls it.
+pub(in crate::glsl) const OUTPUT: &str = "fragColor";
+
 pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
     use LocalKind::{In, Out};
     match kind {

@@ -9,9 +9,12 @@ use super::{
     scope::{self, Binding},
     types::Size,
 };
-use crate::glsl::{
-    ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
-    hir::{Builtin, FuncId, Function, Local, LocalKind, TypeId, VarFlags},
+use crate::{
+    diag::{Edit, Fix},
+    glsl::{
+        ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
+        hir::{Builtin, FuncId, Function, Local, LocalKind, TypeId, VarFlags},
+    },
 };
 
 /// A parameter as declared: name, type, direction, precision.
@@ -110,12 +113,24 @@ impl Checker<'_> {
             self.error(name, "Shadertoy's header already has `main`; a pass defines its own entry point");
             if let Env::Pass(kind) = self.env {
                 let entry = env::entry(kind);
-                self.hint(match self.header_entry.is_some_and(|id| self.module[id].body.is_some()) {
+                let is_there = self.header_entry.is_some_and(|id| self.module[id].body.is_some());
+                self.hint(match is_there {
                     true => format!("remove it: `{}` is called without it", entry.name),
                     false => format!("write `{}`", entry.usage),
                 });
+                // What `main` draws with is what the entry point does.
+                if !is_there && kind.draws_pixels() && decl.body.is_some() {
+                    self.fix_main(&decl);
+                    let at = self.diagnostics.len() - 1;
+                    let func = self.add_unnamed_function(&sign, decl.header, loc);
+                    self.foreign_main = Some((func, at));
+                    func
+                } else {
+                    self.add_unnamed_function(&sign, decl.header, loc)
+                }
+            } else {
+                self.add_unnamed_function(&sign, decl.header, loc)
             }
-            self.add_unnamed_function(&sign, decl.header, loc)
         } else {
             match self.scopes.here(name.symbol) {
                 None | Some(Binding::Poison) => self.add_function(sign, decl.header, loc),
@@ -141,6 +156,17 @@ impl Checker<'_> {
         if let Some(body) = decl.body {
             self.define(func, &decl, &params, body, loc);
         }
+    }
+
+    /// A `main` becomes the entry point.
+    fn fix_main(&mut self, decl: &ast::FunctionDecl) {
+        let Env::Pass(kind) = self.env else { return };
+        let header = env::entry(kind).usage.trim_end_matches(" { .. }");
+        let fix = self.written_at(decl.header).map(|span| {
+            let edit = Edit { span, text: header.to_owned() };
+            Fix::new(format!("Make it `{}`", env::entry(kind).name), vec![edit])
+        });
+        self.fix(fix);
     }
 
     fn result_type(&mut self, decl: &ast::FunctionDecl) -> TypeId {

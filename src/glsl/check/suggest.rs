@@ -1,11 +1,19 @@
 //! Guesses what was probably meant: names of other shading languages and old versions, and names spelled nearly like
 //! this one.
 
-use super::{checker::Checker, env::Env, scope::Binding};
-use crate::glsl::{
-    ast::{self, BasicType, List, Loc, Symbol, TokenId},
-    near,
-    parse::foreign_type,
+use super::{
+    checker::Checker,
+    env::{self, Env},
+    scope::Binding,
+};
+use crate::{
+    diag::Edit,
+    glsl::{
+        ast::{self, BasicType, List, Loc, Symbol, TokenId},
+        hir::LocalKind,
+        near,
+        parse::foreign_type,
+    },
 };
 
 /// Functions of HLSL, old and later GLSL and C, with what stands for them here.
@@ -79,6 +87,51 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ),
 ];
 
+/// Those of them that only are called otherwise here: what they take, they take in the same order.
+const RENAMED: &[(&str, &str)] = &[
+    ("lerp", "mix"),
+    ("frac", "fract"),
+    ("atan2", "atan"),
+    ("rsqrt", "inversesqrt"),
+    ("ddx", "dFdx"),
+    ("ddy", "dFdy"),
+    ("asfloat", "intBitsToFloat"),
+    ("asint", "floatBitsToInt"),
+    ("asuint", "floatBitsToUint"),
+    ("tex2D", "texture"),
+    ("texCUBE", "texture"),
+    ("texture2D", "texture"),
+    ("texture3D", "texture"),
+    ("textureCube", "texture"),
+    ("texture2DLod", "textureLod"),
+    ("texture2DLodEXT", "textureLod"),
+    ("textureCubeLod", "textureLod"),
+    ("textureCubeLodEXT", "textureLod"),
+    ("texture2DProj", "textureProj"),
+    ("texture2DGradEXT", "textureGrad"),
+    ("texture2DGrad", "textureGrad"),
+    ("fwidthFine", "fwidth"),
+    ("dFdxFine", "dFdx"),
+    ("dFdyFine", "dFdy"),
+    ("dFdxCoarse", "dFdx"),
+    ("dFdyCoarse", "dFdy"),
+    ("fabs", "abs"),
+    ("powf", "pow"),
+    ("sqrtf", "sqrt"),
+    ("u_time", "iTime"),
+    ("time", "iTime"),
+    ("iGlobalTime", "iTime"),
+    ("iGlobalDelta", "iTimeDelta"),
+    ("iGlobalFrame", "iFrame"),
+    ("u_resolution", "iResolution.xy"),
+    ("resolution", "iResolution.xy"),
+    ("u_mouse", "iMouse"),
+    ("mouse", "iMouse"),
+    ("PI", "3.14159265359"),
+    ("M_PI", "3.14159265359"),
+    ("TAU", "6.28318530718"),
+];
+
 /// Variables that other hosts give.
 const VARIABLES: &[(&str, &str)] = &[
     ("gl_FragColor", "`gl_FragColor` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
@@ -117,16 +170,20 @@ impl Checker<'_> {
 
     #[cold]
     pub(super) fn unknown_name(&mut self, symbol: Symbol, token: TokenId) {
-        if !self.say_once(symbol) {
+        let name = self.name(symbol);
+        if self.is_explained(symbol) || (name == "gl_FragColor" && self.wants_entry(token)) || !self.say_once(symbol) {
             return;
         }
-        let name = self.name(symbol);
         self.error(token, format!("`{name}` is not declared"));
         if let Some(hint) = find(VARIABLES, name) {
             self.hint(hint);
+            match find(RENAMED, name) {
+                Some(here) => self.fix_with(token, here),
+                None => self.fix_old_output(name, token),
+            }
         } else if self.env_explains(name) {
         } else if let Some((near, at)) = self.near(name, |binding| !is_function(binding)) {
-            self.hint(format!("did you mean `{near}`?"));
+            self.did_you_mean(token, &near);
             if let Some(at) = at {
                 self.also(at, format!("`{near}` is declared here"));
             }
@@ -136,6 +193,33 @@ impl Checker<'_> {
             self.hint(
                 "it is declared in another scope: move the declaration out of the braces, or pass it as a parameter",
             );
+        }
+    }
+
+    /// Returns whether an error says already why there is no such name.
+    fn is_explained(&self, symbol: Symbol) -> bool {
+        self.origins.unread.contains(&symbol)
+    }
+
+    /// Returns whether a name stands in a `main` that should be the entry point, which is told of already: the mend of
+    /// that mends it, too.
+    fn wants_entry(&mut self, token: TokenId) -> bool {
+        let Some((main, at)) = self.foreign_main.filter(|(main, _)| self.func == Some(*main)) else { return false };
+        let edit = self.written_at(token).map(|span| Edit { span, text: env::OUTPUT.into() });
+        if let Some(fix) = self.diagnostics.get_mut(at).and_then(|d| d.fixes.first_mut()) {
+            fix.edits.extend(edit);
+        }
+        self.func == Some(main)
+    }
+
+    /// `gl_FragColor` in the entry point is its output.
+    fn fix_old_output(&mut self, name: &str, token: TokenId) {
+        let is_entry = self.func.is_some() && self.func == self.header_entry;
+        let Some(entry) = self.func.filter(|_| name == "gl_FragColor" && is_entry) else { return };
+        let output = self.module.params(entry).iter().find(|p| p.kind == LocalKind::Out).and_then(|p| p.name);
+        if let Some(output) = output {
+            let text = self.name(output.symbol).to_owned();
+            self.fix_with(token, &text);
         }
     }
 
@@ -166,7 +250,7 @@ impl Checker<'_> {
             self.refuse_in_common(loc, name);
             return;
         }
-        if !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.say_once(symbol) {
             return;
         }
         self.error(loc.first, format!("there is no function `{name}`"));
@@ -176,6 +260,9 @@ impl Checker<'_> {
         let later = self.ast.functions.iter().find(|f| f.name.symbol == symbol).copied();
         if let Some(hint) = find(FUNCTIONS, name) {
             self.hint(hint);
+            if let Some(here) = find(RENAMED, name) {
+                self.fix_with(loc.first, here);
+            }
         } else if let Some(later) = later
             && later.name.token > loc.first
         {
@@ -184,20 +271,20 @@ impl Checker<'_> {
                 "a function must be declared before its first use: move it up, or write a prototype before this line",
             );
         } else if let Some((near, at)) = self.near(name, is_function) {
-            self.hint(format!("did you mean `{near}`?"));
+            self.did_you_mean(loc.first, &near);
             if let Some(at) = at {
                 self.also(at, format!("`{near}` is declared here"));
             }
         } else if args.len() == 1
             && let Some(near) = near::nearest_identifier(name, BasicType::ALL.iter().map(|b| b.name()))
         {
-            self.hint(format!("did you mean `{near}`?"));
+            self.did_you_mean(loc.first, near);
         }
     }
 
     #[cold]
     pub(super) fn unknown_type(&mut self, symbol: Symbol, token: TokenId) {
-        if !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.say_once(symbol) {
             return;
         }
         let name = self.name(symbol);
@@ -213,7 +300,7 @@ impl Checker<'_> {
             .collect();
         let all = BasicType::ALL.iter().map(|b| b.name()).chain(structs);
         if let Some(near) = near::nearest_identifier(name, all) {
-            self.hint(format!("did you mean `{near}`?"));
+            self.did_you_mean(token, near);
         } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
             let at = def.name.expect("just seen");
             self.also(at, "it is defined here");

@@ -108,7 +108,15 @@ impl Preprocessor<'_, '_> {
                 None => (format!("the character `{c}` (U+{:04X}) has no meaning in GLSL", u32::from(c)), None),
             },
         };
-        self.error(token, message, hint);
+        let meant = match character {
+            '\0' => Some(""),
+            c if c.is_whitespace() || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}') => {
+                Some(" ")
+            }
+            c if c.is_control() => Some(""),
+            _ => lookalike.map(|l| l.1),
+        };
+        self.error_with(token, message, hint, meant);
         lookalike.map(|l| (l.2, 0))
     }
 }

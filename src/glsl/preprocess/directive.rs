@@ -93,7 +93,7 @@ impl Preprocessor<'_, '_> {
     }
 
     /// Reads the rest of the directive's line.
-    fn line_tokens(&mut self) -> Vec<Token> {
+    pub(super) fn line_tokens(&mut self) -> Vec<Token> {
         let mut line = self.spare.pop().unwrap_or_default();
         loop {
             let token = self.raw();

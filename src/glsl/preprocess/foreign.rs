@@ -7,7 +7,7 @@ use super::{directive::DIRECTIVES, state::Preprocessor};
 use crate::glsl::{lex::Token, near::nearest_identifier};
 
 /// Directives of Eddy's, which lie in the texts that it reads and are gone where the compiler sees them in their form.
-const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+pub(super) const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];
 
 const CHANNEL_FORM: &str = "write #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"";
 
@@ -63,7 +63,9 @@ impl Preprocessor<'_, '_> {
                 near.map(|near| format!("did you mean `#{near}`?"))
             }
         };
-        self.error(name, message, hint);
+        let meant = hint.as_deref().and_then(|hint| hint.strip_prefix("did you mean `#")?.strip_suffix("`?"));
+        let meant = meant.map(str::to_owned);
+        self.error_with(name, message, hint, meant.as_deref());
     }
 
     /// Refuses a pragma that asks for another text. Any other means nothing here, as the specification has it.

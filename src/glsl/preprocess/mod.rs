@@ -17,6 +17,7 @@ mod expand;
 mod foreign;
 mod lines;
 mod macros;
+mod misplaced;
 mod preprocessed;
 mod state;
 mod tests;

@@ -7,7 +7,7 @@ use super::{
     unit::{LineCount, Unit},
 };
 use crate::{
-    diag::{Diagnostic, Severity, SourceId, Span},
+    diag::{Diagnostic, Edit, Fix, Severity, SourceId, Span},
     glsl::{
         ast::{Interner, MacroDef, MacroId, Origin, Origins},
         lex::{Kind, LINE_START, Lexer, Token, words},
@@ -67,6 +67,8 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub spare: Vec<Vec<Token>>,
     /// Names with foreign letters that were reported.
     pub foreign: Vec<u32>,
+    /// The diagnostic that tells of a Markdown fence.
+    pub fence: Option<usize>,
     pub line: LineCount,
 }
 
@@ -106,6 +108,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             is_cut: false,
             spare: Vec::new(),
             foreign: Vec::new(),
+            fence: None,
             line: LineCount::new(unit),
         };
         // A token for four bytes is what shaders have, comments included.
@@ -192,6 +195,8 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
                 Kind::Hash if token.has(LINE_START) => self.directive(token),
                 Kind::Eof if self.next_piece() => {}
                 Kind::OpenComment => self.open_comment(&token),
+                Kind::BadChar | Kind::Hash if self.is_misplaced(&token) => {}
+                _ if token.has(LINE_START) && self.hides_directive(&token) => {}
                 _ => return token,
             }
             if self.stopped {
@@ -232,6 +237,21 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     /// Returns where the author wrote what became this token.
     pub fn place(&self, token: &Token) -> Span {
         token.expansion.map_or(token.span, |id| self.origins[id].used_at)
+    }
+
+    /// Reports an error with the text that should stand there instead.
+    pub fn error_with(&mut self, token: &Token, message: String, hint: Option<String>, text: Option<&str>) {
+        let before = self.report.diagnostics.len();
+        self.error(token, message, hint);
+        if let (Some(text), None) = (text, token.expansion)
+            && let Some(new) = self.report.diagnostics.get_mut(before)
+        {
+            new.fixes.push(match text {
+                "" => Fix::new("Delete it", vec![Edit { span: token.span, text: String::new() }]),
+                " " => Fix::new("Replace with a space", vec![Edit { span: token.span, text: text.to_owned() }]),
+                text => Fix::replace(token.span, text),
+            });
+        }
     }
 
     pub fn diagnose(&mut self, severity: Severity, token: &Token, message: String, hint: Option<String>) {

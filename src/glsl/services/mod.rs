@@ -19,6 +19,7 @@ mod rank;
 mod scope;
 mod show;
 mod signature;
+mod stops;
 mod symbols;
 #[cfg(test)]
 mod tests;

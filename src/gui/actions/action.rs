@@ -59,6 +59,8 @@ pub enum Action {
     FindCase,
     FindRegex,
     ReplaceAll,
+    /// Finds in every text of the project, or in the one in front.
+    FindEverywhere,
     GoToLine,
     NextProblem,
     PreviousProblem,
@@ -66,6 +68,8 @@ pub enum Action {
     FontSmaller,
     FontReset,
     WordWrap,
+    /// Edits are compiled when they are saved, or while one types.
+    CompileOnSave,
     /// The value of the expression at the caret instead of the picture, or the picture again.
     Probe,
     /// The next click on the picture says which pixel is traced.

@@ -114,6 +114,8 @@ pub const ACTIONS: &[Entry] = &[
     time(TimeAction::LoopTo, "loop-to", "Set loop end", &["Alt+]"]).found_by("repeat range out"),
     time(TimeAction::LoopOff, "loop-off", "Clear loop", &[]),
     time(TimeAction::KeepInputs, "keep-inputs", "Toggle replay to this frame after an edit", &[]),
+    row(Action::CompileOnSave, "compile-on-save", "Toggle compile on save only", &[], Group::Picture)
+        .found_by("automatic live debounce"),
     row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture)
         .found_by("build run recompile"),
     row(
@@ -271,6 +273,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::WordWrap, "word-wrap", "Toggle word wrap", &["Alt+Z"], Group::Window).found_by("line soft"),
     row(Action::Find, "find", "Find", &["Ctrl+F"], Group::Search).found_by("search"),
     row(Action::Replace, "replace", "Find and replace", &["Ctrl+H"], Group::Search).found_by("substitute search"),
+    row(Action::FindEverywhere, "find-in-passes", "Find in all passes", &["Ctrl+Shift+F"], Group::Search)
+        .found_by("search project files"),
     row(Action::FindNext, "find-next", "Find next", &["F3"], Group::Search),
     row(Action::FindPrevious, "find-previous", "Find previous", &["Shift+F3"], Group::Search),
     row(Action::GoToLine, "go-to-line", "Go to line", &["Ctrl+G"], Group::Search),
@@ -296,6 +300,8 @@ pub const ACTIONS: &[Entry] = &[
     code(Code::Definition, "go-to-definition", "Go to definition (or Ctrl+click)", &["F12"])
         .found_by("declaration jump"),
     code(Code::Uses, "list-uses", "Find all references", &["Shift+F12"]).found_by("usages occurrences"),
+    code(Code::Rename, "rename", "Rename symbol", &["F2"]).found_by("refactor name"),
+    code(Code::QuickFix, "quick-fix", "Fix the problem at the caret", &["Ctrl+."]).found_by("repair correct lightbulb"),
     code(Code::Propose, "propose", "Show suggestions", &["Ctrl+Space"]),
     code(Code::Signature, "signature", "Show parameter hints", &["Ctrl+Shift+Space"]),
     code(Code::ToggleComment, "toggle-comment", "Toggle line comment", &["Ctrl+/"]).found_by("uncomment"),
@@ -325,6 +331,9 @@ pub const ACTIONS: &[Entry] = &[
         "Delete word right",
         or_mac(&["Ctrl+Delete"], &["Alt+Delete"]),
     ),
+    code(Code::Cut, "cut", "Cut", &[]),
+    code(Code::Copy, "copy", "Copy", &[]),
+    code(Code::Paste, "paste-code", "Paste", &[]),
     code(Code::Undo, "undo", "Undo", &["Ctrl+Z"]),
     code(Code::Redo, "redo", "Redo", &["Ctrl+Shift+Z", "Ctrl+Y"]),
     code(Code::Fold, "fold", "Fold block", &["Ctrl+Shift+["]).found_by("collapse"),

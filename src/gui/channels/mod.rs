@@ -37,7 +37,7 @@ pub fn title(session: &Session, tab: &Tab) -> String {
 fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
-        Tab::Common => None,
+        Tab::Common | Tab::Included(_) => None,
     }
 }
 
@@ -46,7 +46,10 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnai
     let rect = ui.available_rect_before_wrap();
     let mut swatches = Swatches { session, thumbnails, live };
     let Some(pass) = pass(session, tab) else {
-        let text = "Common is shared code; channels belong to passes";
+        let text = match tab {
+            Tab::Included(_) => "Passes include this file; channels belong to passes",
+            _ => "Common is shared code; channels belong to passes",
+        };
         let painter = ui.painter().with_clip_rect(rect);
         let font = FontId::proportional(12.0);
         painter.text(rect.center(), Align2::CENTER_CENTER, text, font, theme::of(ui).weak);

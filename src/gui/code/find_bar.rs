@@ -19,10 +19,23 @@ pub(super) struct FindBar {
     replaces: bool,
     query: Query,
     with: String,
+    /// In every text of the project.
+    everywhere: bool,
     takes_focus: bool,
     /// The tab, revision and query that `found` belongs to.
     made_for: Option<(Tab, u64, Query)>,
     found: Found,
+}
+
+/// The results of a frame of the bar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asked {
+    Nothing,
+    Close,
+    /// To the next match, or to the one before.
+    Step(bool),
+    Replace,
+    ReplaceAll,
 }
 
 /// The outcome of a query.
@@ -51,6 +64,23 @@ impl FindBar {
 
     pub fn is_open(&self) -> bool {
         self.is_open
+    }
+
+    pub fn is_everywhere(&self) -> bool {
+        self.everywhere
+    }
+
+    pub fn set_everywhere(&mut self, on: bool) {
+        self.everywhere = on;
+    }
+
+    pub fn query(&self) -> &Query {
+        &self.query
+    }
+
+    /// Returns what matches are replaced with.
+    pub fn with(&self) -> &str {
+        &self.with
     }
 
     /// There is nothing to look for.
@@ -87,13 +117,12 @@ impl FindBar {
         }
     }
 
-    /// Replaces the selected match if it is one, and goes to the next.
-    fn replace_one(&mut self, tab: &Tab, editor: &mut CodeEditor) {
+    /// Replaces the selected match if it is one.
+    pub fn replace_one(&mut self, tab: &Tab, editor: &mut CodeEditor) {
         self.refresh(tab, editor);
         if let Some(Ok(finder)) = &self.found.finder {
             editor.edit(|buffer| buffer.replace_match(finder, &self.found.matches, &self.with));
         }
-        self.step(tab, editor, true);
     }
 
     pub fn replace_all(&mut self, tab: &Tab, editor: &mut CodeEditor) {
@@ -104,10 +133,10 @@ impl FindBar {
         self.refresh(tab, editor);
     }
 
-    /// Shows it; true when it is to be closed.
-    pub fn show(&mut self, ui: &mut Ui, tab: &Tab, editor: &mut CodeEditor, out: &mut Outbox) -> bool {
+    /// Shows it. `everywhere`: the matches in all texts.
+    pub fn show(&mut self, ui: &mut Ui, tab: &Tab, editor: &CodeEditor, everywhere: usize, out: &mut Outbox) -> Asked {
         self.refresh(tab, editor);
-        let mut close = false;
+        let mut asked = Asked::Nothing;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
             let wrong = matches!(self.found.finder, Some(Err(_)));
@@ -121,7 +150,7 @@ impl FindBar {
                 field.request_focus();
             }
             if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
-                self.step(tab, editor, !ui.input(|i| i.modifiers.shift));
+                asked = Asked::Step(!ui.input(|i| i.modifiers.shift));
                 field.request_focus();
             }
             let mut switch = |ui: &mut Ui, on: &mut bool, name: &str, label: &str, tip: &str, action: Action| {
@@ -129,57 +158,67 @@ impl FindBar {
                 out.place(name, response.rect);
             };
             let (case, regex) = (&mut self.query.match_case, &mut self.query.is_regex);
+            let (all, tip) = (&mut self.everywhere, "Find in every text of the project");
+            switch(ui, all, "find:everywhere", "All passes", tip, Action::FindEverywhere);
             switch(ui, case, "find:case", "Aa", "Match case", Action::FindCase);
             switch(ui, regex, "find:regex", ".*", "Use regular expression; $1 in the replacement", Action::FindRegex);
             self.refresh(tab, editor);
             let at = self.found.matches.iter().position(|m| *m == editor.buffer().selection().range());
-            let (text, color) = match (&self.found.finder, self.found.matches.len(), at) {
+            let count = if self.everywhere { everywhere } else { self.found.matches.len() };
+            let at = at.filter(|_| !self.everywhere);
+            let (text, color) = match (&self.found.finder, count, at) {
                 (Some(Err(reason)), ..) => (reason.clone(), theme::of(ui).error),
                 (_, 0, _) if self.query.text.is_empty() => (String::new(), theme::of(ui).weak),
                 (_, 0, _) => ("none".into(), theme::of(ui).weak),
                 (_, n, Some(at)) => (format!("{} of {n}", at + 1), theme::of(ui).weak),
                 (_, n, None) => (n.to_string(), theme::of(ui).weak),
             };
-            let count = ui.colored_label(color, text);
-            out.place("find:count", count.rect);
+            // An empty text has no place in a row that wraps.
+            if !text.is_empty() {
+                let label = ui.colored_label(color, text);
+                out.place("find:count", label.rect);
+            }
             for (icon, label, forward, action) in [
                 (Icon::Previous, "Find previous", false, Action::FindPrevious),
                 (Icon::Next, "Find next", true, Action::FindNext),
             ] {
-                if icons::button(ui, icon, label).on_hover_text(out.keys.tip(label, action)).clicked() {
-                    self.step(tab, editor, forward);
+                let step = icons::button(ui, icon, label).on_hover_text(out.keys.tip(label, action));
+                if out.clicked(if forward { "find:next" } else { "find:previous" }, &step) {
+                    asked = Asked::Step(forward);
                 }
             }
             if self.replaces {
-                self.replacing(ui, tab, editor, out);
+                self.replacing(ui, count, &mut asked, out);
             } else {
                 let tip = out.keys.tip("Show replace", Action::Replace);
                 if ui.button("Replace…").on_hover_text(tip).clicked() {
                     self.replaces = true;
                 }
             }
-            close = icons::button(ui, Icon::Close, "Close").on_hover_text("Close (Esc)").clicked();
+            if icons::button(ui, Icon::Close, "Close").on_hover_text("Close (Esc)").clicked() {
+                asked = Asked::Close;
+            }
         });
-        close
+        asked
     }
 
-    fn replacing(&mut self, ui: &mut Ui, tab: &Tab, editor: &mut CodeEditor, out: &mut Outbox) {
+    fn replacing(&mut self, ui: &mut Ui, count: usize, asked: &mut Asked, out: &mut Outbox) {
         let field = ui.add(TextEdit::singleline(&mut self.with).hint_text("Replace with").desired_width(150.0));
         out.place("field:replace", field.rect);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         if entered {
             field.request_focus();
         }
-        let some = !self.found.matches.is_empty();
+        let some = count > 0;
         let one =
             ui.add_enabled(some, Button::new("Replace")).on_hover_text("Replace this match and find the next (Enter)");
         if out.clicked("find:replace", &one) || (entered && some) {
-            self.replace_one(tab, editor);
+            *asked = Asked::Replace;
         }
         let all = ui.add_enabled(some, Button::new("All"));
         let all = all.on_hover_text(out.keys.tip("Replace all matches", Action::ReplaceAll));
         if out.clicked("find:replace-all", &all) {
-            self.replace_all(tab, editor);
+            *asked = Asked::ReplaceAll;
         }
     }
 }

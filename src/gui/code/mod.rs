@@ -1,27 +1,43 @@
 //! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
 
+mod asks;
+mod bars;
+mod everywhere;
 mod find_bar;
+mod fixes;
+mod matches;
+mod menu;
 mod places;
+mod rename_bar;
+mod several;
 
 use super::{
-    accessible,
     actions::{Action, Keymap, Listening},
-    editor::{Ask, Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
+    editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
     outbox::{Outbox, Wish},
-    problems, tabs, theme, toasts,
+    problems,
+    tabs::{self, OpenFile},
+    theme, toasts,
     uses::Uses,
 };
 use crate::{
     project::{Origin, PassId, Tab},
     session::{Command, Session, probe::ProbePlace},
 };
-use egui::{Frame, Id, Key, Margin, Panel, TextEdit, Ui};
+use egui::{Frame, Id, Margin, Panel, Ui};
 use find_bar::FindBar;
+use fixes::{Chosen, Fixes};
+use matches::Everywhere;
+use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
 pub struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
+    /// The included files that are open as tabs.
+    files: Vec<OpenFile>,
+    /// A compile was under way: who includes them may be others then.
+    was_compiling: bool,
     /// The session's text generation that the editors hold.
     generation: Option<u64>,
     /// Says which project they are of: another one's undo must not lead back here.
@@ -29,6 +45,11 @@ pub struct CodePanel {
     font_size: f32,
     wraps: bool,
     find: FindBar,
+    everywhere: Everywhere,
+    fixes: Option<Fixes>,
+    rename: Option<RenameBar>,
+    /// The session's tabs.
+    order: Vec<Tab>,
     go_to_line: Option<String>,
     bar_takes_focus: bool,
     /// The text takes the keyboard as soon as it is shown.
@@ -53,11 +74,17 @@ impl CodePanel {
         Self {
             editors: HashMap::new(),
             current: Tab::Pass(PassId::Image),
+            files: Vec::new(),
+            was_compiling: false,
             generation: None,
             project: (String::new(), Origin::Unsaved),
             font_size: 13.0,
             wraps: false,
             find: FindBar::default(),
+            everywhere: Everywhere::default(),
+            fixes: None,
+            rename: None,
+            order: Vec::new(),
             go_to_line: None,
             bar_takes_focus: false,
             takes_focus: false,
@@ -92,7 +119,7 @@ impl CodePanel {
     pub fn reveal_line(&mut self, tab: Tab, line: usize) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.reveal_line(line);
-            self.current = tab;
+            self.bring(tab);
         }
     }
 
@@ -119,11 +146,31 @@ impl CodePanel {
         {
             editor.go_to(line, column);
         }
+        self.bring(tab);
+    }
+
+    /// Brings a tab to the front. An included file has one from then on.
+    fn bring(&mut self, tab: Tab) {
+        if let Tab::Included(_) = tab
+            && !self.files.iter().any(|file| file.tab == tab)
+        {
+            self.files.push(OpenFile { tab: tab.clone(), users: Vec::new() });
+            // Who includes it is looked up in the next frame.
+            self.was_compiling = true;
+        }
         self.current = tab;
     }
 
+    /// Closes the tab of an included file.
+    pub fn close_file(&mut self, tab: &Tab) {
+        self.files.retain(|file| file.tab != *tab);
+        if self.current == *tab {
+            self.current = Tab::Pass(PassId::Image);
+        }
+    }
+
     pub fn go_aside(&mut self, session: &Session, by: isize) {
-        let tabs = session.tabs();
+        let tabs = tabs::shown(session, &self.files);
         if let Some(at) = tabs.iter().position(|t| *t == self.current) {
             let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
             self.current = tabs[to].clone();
@@ -165,6 +212,7 @@ impl CodePanel {
         let selected = self.editors.get(&self.current).map(|e| e.buffer().selected_text()).unwrap_or_default();
         self.find.open(selected, replaces);
         self.go_to_line = None;
+        self.rename = None;
     }
 
     pub fn is_finding(&self) -> bool {
@@ -176,6 +224,9 @@ impl CodePanel {
         if self.find.is_empty() {
             self.open_find(false);
         }
+        if self.find.is_open() && self.find.is_everywhere() {
+            return self.step_everywhere(forward);
+        }
         if let Some(editor) = self.editors.get_mut(&self.current) {
             self.find.step(&self.current, editor, forward);
         }
@@ -186,6 +237,9 @@ impl CodePanel {
     }
 
     pub fn replace_all(&mut self, out: &mut Outbox) {
+        if self.find.is_everywhere() {
+            return self.replace_everywhere(out);
+        }
         if let Some(editor) = self.editors.get_mut(&self.current) {
             self.find.replace_all(&self.current, editor);
         }
@@ -201,19 +255,10 @@ impl CodePanel {
         self.tell_changed(out);
     }
 
-    /// Tells the session of the text in front if it has changed.
-    fn tell_changed(&mut self, out: &mut Outbox) {
-        if let Some(text) = self.editors.get_mut(&self.current).and_then(CodeEditor::take_changed) {
-            out.ask(Command::EditText { tab: self.current.clone(), text: text.to_owned() });
-            self.problem = None;
-            // Its places are of the old text.
-            self.uses = None;
-        }
-    }
-
     pub fn open_go_to_line(&mut self) {
         self.go_to_line = Some(String::new());
         self.find.close();
+        self.rename = None;
         self.bar_takes_focus = true;
     }
 
@@ -229,17 +274,23 @@ impl CodePanel {
             let kept = moved && self.editors.iter().all(|(tab, e)| session.text(tab) == e.buffer().text());
             if !kept {
                 self.editors.clear();
+                self.files.clear();
                 self.problem = None;
                 self.uses = None;
+                (self.rename, self.fixes) = (None, None);
                 self.current = Tab::Pass(PassId::Image);
             }
             self.project = (project.name.clone(), project.origin.clone());
         }
         self.follow_renames(session);
         let tabs = session.tabs();
-        if self.generation != Some(session.text_generation()) || tabs.len() != self.editors.len() {
+        self.order.clone_from(&tabs);
+        // An included file's undo stays while its line is being rewritten.
+        let is_kept = |tab: &Tab| tabs.contains(tab) || matches!(tab, Tab::Included(_));
+        let is_complete = tabs.iter().all(|tab| self.editors.contains_key(tab)) && self.editors.keys().all(is_kept);
+        if self.generation != Some(session.text_generation()) || !is_complete {
             self.generation = Some(session.text_generation());
-            self.editors.retain(|tab, _| tabs.contains(tab));
+            self.editors.retain(|tab, _| is_kept(tab));
             for tab in &tabs {
                 let text = session.text(tab);
                 match self.editors.get_mut(tab) {
@@ -248,8 +299,14 @@ impl CodePanel {
                 }
             }
         }
-        if !self.editors.contains_key(&self.current) {
+        if !tabs.contains(&self.current) {
             self.current = Tab::Pass(PassId::Image);
+        }
+        let is_compiling = session.compile_state().compiling;
+        if std::mem::replace(&mut self.was_compiling, is_compiling) && !is_compiling {
+            for file in &mut self.files {
+                file.users = session.project().tabs_that_include(&file.tab);
+            }
         }
     }
 
@@ -273,18 +330,30 @@ impl CodePanel {
     /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
     pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) -> bool {
         ui.spacing_mut().item_spacing.y = 0.0;
-        let is_dragged = tabs::show(ui, session, &self.current, out);
+        let is_dragged = tabs::show(ui, session, &self.current, &self.files, out);
         let bar = Frame::NONE.fill(theme::of(ui).raised).inner_margin(Margin::symmetric(8, 5));
         if self.find.is_open() {
             bar.show(ui, |ui| {
                 ui.set_width(ui.available_width());
                 self.find_bar(ui, out);
             });
+        } else if self.rename.is_some() {
+            bar.show(ui, |ui| {
+                ui.set_width(ui.available_width());
+                self.rename_bar(ui, session, out);
+            });
         } else if self.go_to_line.is_some() {
             bar.show(ui, |ui| {
                 ui.set_width(ui.available_width());
-                self.go_to_bar(ui);
+                self.go_to_bar(ui, out);
             });
+        }
+        self.look_everywhere(session);
+        if let Some(fixes) = &mut self.fixes
+            && Self::has_focus(ui, &self.current)
+        {
+            let chosen = fixes.take_keys(ui);
+            self.choose_fix(chosen, out);
         }
         let room = ui.available_height();
         Panel::bottom("problems")
@@ -342,17 +411,18 @@ impl CodePanel {
         for (name, rect) in shown.placed {
             out.place(name, rect);
         }
+        let has_fix = self.caret_line().is_some_and(|(_, line)| marks.iter().any(|m| m.line == line && m.has_fix));
+        if let Some(response) = &shown.response {
+            menu::show(response, session, has_fix, out);
+        }
         for ask in shown.asks {
-            let (Some(analysis), Some(help)) = (analysis, help) else { break };
-            match ask {
-                Ask::GoTo(span) => {
-                    if let Some(tab) = analysis.tab_of(span.source) {
-                        self.show_range(tab, span.range());
-                    }
-                }
-                Ask::ListUses(at) => self.uses = Uses::new(session, session.uses(analysis, help.source, at)),
-            }
+            self.answer(session, ask, out);
             ui.ctx().request_repaint();
+        }
+        let (here, has_keys) = (self.fixed_at(), self.has_keys(ui.ctx()));
+        if let (Some(fixes), Some(now)) = (&self.fixes, here) {
+            let chosen = if has_keys { fixes.show(ui, shown.caret, &now, out) } else { Chosen::Closed };
+            self.choose_fix(chosen, out);
         }
     }
 
@@ -370,7 +440,7 @@ impl CodePanel {
     fn show_range(&mut self, tab: Tab, range: Range<usize>) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.show_range(range);
-            self.current = tab;
+            self.bring(tab);
         }
     }
 
@@ -393,18 +463,6 @@ impl CodePanel {
         }
     }
 
-    fn find_bar(&mut self, ui: &mut Ui, out: &mut Outbox) {
-        let Some(editor) = self.editors.get_mut(&self.current) else { return };
-        let closes = self.find.show(ui, &self.current, editor, out);
-        // While one types, Escape first goes back to one caret.
-        let is_for_code = self.has_keys(ui.ctx()) && self.buffer().is_some_and(|b| b.carets().list().len() > 1);
-        self.tell_changed(out);
-        if closes || (ui.input(|i| i.key_pressed(Key::Escape)) && !is_for_code) {
-            self.find.close();
-            self.focus();
-        }
-    }
-
     fn buffer(&self) -> Option<&Buffer> {
         self.editors.get(&self.current).map(CodeEditor::buffer)
     }
@@ -413,31 +471,6 @@ impl CodePanel {
     fn caret_line(&self) -> Option<(&Tab, usize)> {
         let buffer = self.buffer()?;
         Some((&self.current, buffer.line_of(buffer.selection().head)))
-    }
-
-    fn go_to_bar(&mut self, ui: &mut Ui) {
-        let take_focus = std::mem::take(&mut self.bar_takes_focus);
-        let Some(text) = &mut self.go_to_line else { return };
-        let mut done = false;
-        ui.horizontal(|ui| {
-            ui.label("Line");
-            let field = ui.add(TextEdit::singleline(text).hint_text("12 or 12:5").desired_width(90.0));
-            accessible::name(&field, egui::Role::TextInput, "Line");
-            if take_focus {
-                field.request_focus();
-            }
-            let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-            done = entered || ui.button("Go").clicked();
-        });
-        let place = places::parse(text);
-        let closed = ui.input(|i| i.key_pressed(Key::Escape));
-        if done || closed {
-            self.go_to_line = None;
-            match place.filter(|_| done) {
-                Some(place) => self.go_to(self.current.clone(), Some(place)),
-                None => self.focus(),
-            }
-        }
     }
 }
 

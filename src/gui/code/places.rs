@@ -25,6 +25,7 @@ pub(super) fn marks(session: &Session, tab: &Tab) -> Vec<Mark> {
             severity: d.severity,
             message: d.message.clone(),
             hints: labels.chain(d.hints.iter().cloned()).collect(),
+            has_fix: !d.fixes.is_empty(),
         })
     };
     session.diagnostics().iter().filter_map(mark).collect()

@@ -36,11 +36,17 @@ pub enum EditorAction {
     Signature,
     Definition,
     Uses,
+    /// The mends for the problem at the caret.
+    QuickFix,
+    Rename,
+    Cut,
+    Copy,
+    Paste,
 }
 
 impl EditorAction {
     /// Asks for help beside the text: what is open stays open.
     pub(super) fn is_help(self) -> bool {
-        matches!(self, Self::Propose | Self::Signature | Self::Definition | Self::Uses)
+        matches!(self, Self::Propose | Self::Signature | Self::Definition | Self::Uses | Self::QuickFix | Self::Rename)
     }
 }

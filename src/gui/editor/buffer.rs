@@ -163,6 +163,28 @@ impl Buffer {
         self.change(vec![(range, with.to_owned())], kind, |_| Carets::one(caret));
     }
 
+    /// Returns whether the line of a byte includes a file.
+    pub fn names_file(&self, at: usize) -> bool {
+        let line = &self.text[self.line_range(self.line_of(at))];
+        let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
+        directive.is_some_and(|directive| directive.starts_with("include") && directive.contains('"'))
+    }
+
+    /// Replaces parts of the text, which are in order and apart, as one step of undo. Carets stay where they are.
+    pub fn replace_parts(&mut self, parts: Vec<(Range<usize>, String)>) {
+        let changes: Vec<Change> = parts
+            .iter()
+            .map(|(range, with)| Change {
+                at: range.start,
+                removed: self.text[range.clone()].to_owned(),
+                inserted: with.clone(),
+            })
+            .collect();
+        let after = self.carets.map(|s| s.map(|at| moved(&changes, at)));
+        self.change(parts, Kind::Other, |_| after);
+        self.set_carets(self.carets.clone());
+    }
+
     /// Replaces a part of the text for each caret, as one edit. Parts that overlap are cut off where the one before
     /// ends.
     pub(super) fn replace_at_carets(&mut self, kind: Kind, part: impl Fn(&Self, Selection) -> Replacement) {

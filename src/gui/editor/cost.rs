@@ -110,6 +110,7 @@ fn a_frame_typing_in_a_text_that_is_known() {
         severity: crate::diag::Severity::Warning,
         message: "what is wrong in this line, and how to mend it".into(),
         hints: Vec::new(),
+        has_fix: false,
     };
     for step in [17_000, 170, 17] {
         let marks: Vec<Mark> = (0..17_000).step_by(step).map(mark).collect();

@@ -1,4 +1,4 @@
-//! The strip left of the text: line numbers, a dot where there is a mark, a sign where a block can be folded.
+//! The strip left of the text: line numbers, a sign where there is a mark, another where a block can be folded.
 
 use super::{
     buffer::Buffer,
@@ -7,7 +7,10 @@ use super::{
     nesting::Bracket,
     rows::Rows,
 };
-use crate::gui::theme::{self, Palette};
+use crate::{
+    diag::Severity,
+    gui::theme::{self, Palette},
+};
 use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 /// Says how wide it is beside its digits.
@@ -61,12 +64,14 @@ impl Gutter<'_> {
                 None => theme::of(ui).code.numbers,
             };
             painter.text(pos2(rect.right() - 18.0, middle), Align2::RIGHT_CENTER, line + 1, font.clone(), tint);
-            if worst.is_some() {
-                painter.circle_filled(pos2(rect.left() + 8.0, middle), 3.5, tint);
-            }
             let line_area = Rect::from_center_size(pos2(rect.center().x, middle), vec2(rect.width(), row_height));
             let is_over = pointer.is_some_and(|p| line_area.contains(p));
-            debugged(&painter, pos2(rect.left() + 8.0, middle), line, look.debug, is_over, p);
+            let sign = pos2(rect.left() + 8.0, middle);
+            debugged(&painter, sign, line, look.debug, is_over && worst.is_none(), p);
+            if let Some(severity) = worst {
+                let is_on_breakpoint = look.debug.breakpoints.iter().any(|(of, ..)| *of == line);
+                marked(&painter, sign, severity, if is_on_breakpoint { p.background.to_opaque() } else { tint });
+            }
             if response.clicked() && is_over {
                 clicked = Some(Clicked::Line(line));
             }
@@ -86,6 +91,22 @@ impl Gutter<'_> {
             painter.vline(rect.right() - 1.0, rect.y_range(), Stroke::new(1.0, p.raised));
         }
         clicked
+    }
+}
+
+/// The sign of a problem: a cross for an error, a triangle for a warning, a bar for a note. Breakpoints are round.
+fn marked(painter: &egui::Painter, at: Pos2, severity: Severity, color: Color32) {
+    let stroke = Stroke::new(2.0, color);
+    match severity {
+        Severity::Error => {
+            painter.line_segment([at - vec2(3.0, 3.0), at + vec2(3.0, 3.0)], stroke);
+            painter.line_segment([at + vec2(-3.0, 3.0), at + vec2(3.0, -3.0)], stroke);
+        }
+        Severity::Warning => {
+            let points = [vec2(0.0, -3.5), vec2(4.0, 3.0), vec2(-4.0, 3.0)].map(|v| at + v);
+            painter.add(Shape::convex_polygon(points.to_vec(), color, Stroke::NONE));
+        }
+        Severity::Note => drop(painter.line_segment([at - vec2(0.0, 3.5), at + vec2(0.0, 3.5)], stroke)),
     }
 }
 
@@ -118,4 +139,63 @@ fn arrow(painter: &egui::Painter, area: Rect, is_folded: bool, color: Color32) {
         false => [vec2(-3.5, -1.5), vec2(0.0, 2.0), vec2(3.5, -1.5)],
     };
     painter.add(Shape::line(points.iter().map(|v| c + *v).collect(), Stroke::new(1.5, color)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{
+        CodeEditor,
+        look::{Mark, NO_DEBUG},
+    };
+    use super::*;
+    use egui::{Context, RawInput};
+
+    /// The round and the other signs in the strip: how many of each.
+    fn signs(marks: &[Mark], debug: &Debug) -> (usize, usize) {
+        let ctx = Context::default();
+        let mut editor = CodeEditor::new("a\nb\nc\nd\n");
+        let look =
+            Look { name: "Code", font_size: 13.0, wraps: false, marks, matches: &[], shared: "", help: None, debug };
+        let screen = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 200.0)));
+        let mut output = Default::default();
+        for _ in 0..2 {
+            let input = RawInput { screen_rect: screen, ..RawInput::default() };
+            output = ctx.run_ui(input, |ui| {
+                editor.show(ui, Id::unique("editor"), look, &|_| None);
+            });
+            output.textures_delta.clear();
+        }
+        let at = |p: Pos2| p.x < 20.0;
+        let (mut round, mut other) = (0, 0);
+        for clipped in &output.shapes {
+            match &clipped.shape {
+                Shape::Circle(circle) if at(circle.center) => round += 1,
+                Shape::LineSegment { points, .. } if at(points[0]) => other += 1,
+                Shape::Path(path) if path.points.first().is_some_and(|p| at(*p)) => other += 1,
+                _ => {}
+            }
+        }
+        (round, other)
+    }
+
+    #[test]
+    fn what_is_wrong_in_a_line_looks_like_no_breakpoint() {
+        let mark = |severity| Mark {
+            line: 1,
+            range: 2..3,
+            severity,
+            message: "wrong".into(),
+            hints: Vec::new(),
+            has_fix: false,
+        };
+        for severity in [Severity::Error, Severity::Warning, Severity::Note] {
+            let (round, other) = signs(&[mark(severity)], &NO_DEBUG);
+            assert!(round == 0 && other > 0, "{severity:?}: {round} round, {other} others");
+        }
+        let debug = Debug { breakpoints: vec![(1, true, false)], ..NO_DEBUG };
+        assert_eq!(signs(&[], &debug), (1, 0));
+        // Both in one line are both to be seen.
+        let (round, other) = signs(&[mark(Severity::Error)], &debug);
+        assert!(round == 1 && other > 0);
+    }
 }

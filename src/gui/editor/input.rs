@@ -96,7 +96,12 @@ pub(super) fn act(buffer: &mut Buffer, action: Action) -> bool {
         | Action::Propose
         | Action::Signature
         | Action::Definition
-        | Action::Uses => return false,
+        | Action::Uses
+        | Action::QuickFix
+        | Action::Rename
+        | Action::Cut
+        | Action::Copy
+        | Action::Paste => return false,
     }
     true
 }

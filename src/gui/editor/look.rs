@@ -16,6 +16,8 @@ pub struct Mark {
     pub severity: Severity,
     pub message: String,
     pub hints: Vec<String>,
+    /// It can be mended at once.
+    pub has_fix: bool,
 }
 
 /// Says how a text is shown; not a part of it.

@@ -34,6 +34,12 @@ impl CodeEditor {
             self.drag = Some(Drag { from: from..from, granularity: Granularity::Letter, others });
             self.drag_to(at);
         }
+        // A menu is about what is selected, or about the place that was clicked.
+        if response.secondary_clicked() && !self.buffer.carets().list().iter().any(|s| s.range().contains(&at)) {
+            self.assist.close_all();
+            self.buffer.select(at, at);
+            response.request_focus();
+        }
         let grown = if response.triple_clicked() {
             Some(Granularity::Line)
         } else if response.double_clicked() {
@@ -52,7 +58,7 @@ impl CodeEditor {
         }
         if modifiers.command
             && response.hovered()
-            && help.is_some_and(|h| h.analysis.definition(h.source, at).is_some())
+            && (self.buffer.names_file(at) || help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()))
         {
             ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
         }

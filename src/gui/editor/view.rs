@@ -18,7 +18,9 @@ use super::{
     semantic::Semantic,
 };
 use crate::gui::theme;
-use egui::{Event, EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
+use egui::{
+    Event, EventFilter, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2,
+};
 use std::ops::Range;
 
 /// Says what a key asks of the code.
@@ -41,6 +43,9 @@ pub struct EditorOutput {
     pub clicked_line: Option<usize>,
     /// The byte under the pointer, while Ctrl and Alt are held.
     pub pointed: Option<usize>,
+    /// The widget that takes the keyboard.
+    pub response: Option<Response>,
+    pub caret: Rect,
 }
 
 /// A text being edited, with all that outlives a frame.
@@ -65,6 +70,8 @@ pub struct CodeEditor {
     brackets_of: Option<(u64, usize)>,
     /// To be pasted in the next frame.
     pub(super) pasted: Option<String>,
+    /// To be put on the clipboard.
+    copied: Option<String>,
     /// The revision of the text that others have.
     told: u64,
     pub(super) work: Work,
@@ -100,6 +107,7 @@ impl CodeEditor {
             brackets: None,
             brackets_of: None,
             pasted: None,
+            copied: None,
             told: 0,
             work: Work::default(),
             sight: (0.0, false),
@@ -135,6 +143,15 @@ impl CodeEditor {
             EditorAction::Signature => self.assist.show_signature(),
             EditorAction::Definition => self.assist.go_to_definition(),
             EditorAction::Uses => self.assist.list_uses(),
+            EditorAction::QuickFix => self.assist.asks.push(Ask::Fix(self.buffer.selection().head)),
+            EditorAction::Rename => self.assist.asks.push(Ask::Rename(self.buffer.selection().head)),
+            EditorAction::Paste => self.assist.asks.push(Ask::Paste),
+            EditorAction::Copy => self.copied = Some(self.buffer.copied_text()),
+            EditorAction::Cut => {
+                self.copied = Some(self.buffer.copied_text());
+                self.buffer.cut();
+                self.follow_caret = true;
+            }
             EditorAction::OtherBracket => {
                 let caret = self.buffer.selection().head;
                 if let Some([open, close]) = brackets::pair_at(&self.highlight, &self.buffer, caret) {
@@ -145,6 +162,11 @@ impl CodeEditor {
             }
             action => self.follow_caret |= self.act_on_rows(action) || input::act(&mut self.buffer, action),
         }
+    }
+
+    /// Pastes in the next frame.
+    pub fn paste(&mut self, text: String) {
+        self.pasted = Some(text);
     }
 
     /// Brings the caret into sight in the next frame.
@@ -189,6 +211,9 @@ impl CodeEditor {
         if let Some(text) = self.pasted.take() {
             self.buffer.paste(&text);
         }
+        if let Some(text) = self.copied.take().filter(|text| !text.is_empty()) {
+            ui.ctx().copy_text(text);
+        }
         if has_focus {
             self.take_keys(ui, id, &look, keys);
         } else {
@@ -220,7 +245,7 @@ impl CodeEditor {
         let columns = if wrap.is_some() { 0.0 } else { self.highlight.columns() + 4.0 };
         let row_count = self.rows.len(&self.buffer);
         let size = vec2(columns * glyph + 12.0, row_count as f32 * row_height);
-        let (mut painted, mut pointed) = (None, None);
+        let (mut painted, mut pointed, mut widget) = (None, None, None);
         // Lines in sight are shown by it while the editor goes on.
         let index = std::mem::take(&mut self.highlight);
         let folding = std::mem::take(&mut self.rows);
@@ -296,10 +321,12 @@ impl CodeEditor {
                 if has_focus {
                     self.tell_input_method(ui, id, text_rect, p.caret);
                 }
-                if !ui.input(|i| i.modifiers.command) {
-                    response.on_hover_cursor(egui::CursorIcon::Text);
-                }
+                let response = match ui.input(|i| i.modifiers.command) {
+                    true => response,
+                    false => response.on_hover_cursor(egui::CursorIcon::Text),
+                };
                 painted = Some(p);
+                widget = Some(response);
             },
         );
         self.highlight = index;
@@ -337,6 +364,8 @@ impl CodeEditor {
             placed: std::mem::take(&mut self.assist.placed),
             clicked_line,
             pointed,
+            caret: painted.caret,
+            response: widget,
         }
     }
 

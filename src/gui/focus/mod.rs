@@ -10,10 +10,20 @@ use super::{
     theme,
 };
 use egui::{
-    Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Rect, Ui, WidgetRect, WidgetRects,
+    Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Pos2, Rect, Ui, WidgetRect, WidgetRects,
     accesskit,
 };
 use std::collections::HashMap;
+
+/// A field that a press took the keyboard from.
+struct Left {
+    field: Id,
+    /// The place of the field, and the part of the window that it was in.
+    rect: Rect,
+    stop: Option<&'static str>,
+    /// The place that was pressed.
+    at: Pos2,
+}
 
 #[derive(Default)]
 pub struct Focus {
@@ -26,6 +36,9 @@ pub struct Focus {
     had: Option<Id>,
     /// F6 is on its way, and nothing has been done where it came by: a home that is passed is not gone back to.
     walks: bool,
+    /// The field that had the keyboard when the pointer was pressed, and where that was: a press takes the keyboard from
+    /// it, and what is beside it takes none.
+    pressed_from: Option<Left>,
     /// A popup was open in the frame before, opened by this widget.
     popup_of: Option<Option<Id>>,
     /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
@@ -41,17 +54,25 @@ impl Focus {
         if let Some(id) = self.brings_into_sight.take() {
             bring_into_sight(ui, id);
         }
+        let mut pressed = None;
         ui.input(|i| {
             for event in &i.events {
                 match event {
                     // Shift+F6 begins with a press of Shift.
                     Event::Key { key, .. } if is_modifier(*key) => {}
                     Event::Key { pressed: true, .. } => (self.by_key, self.walks) = (true, false),
-                    Event::PointerButton { pressed: true, .. } => (self.by_key, self.walks) = (false, false),
+                    Event::PointerButton { pressed: true, pos, .. } => {
+                        (self.by_key, self.walks) = (false, false);
+                        pressed = Some(*pos);
+                    }
                     _ => {}
                 }
             }
         });
+        let field = ui.memory(|m| m.focused()).filter(|_| ui.ctx().text_edit_focused());
+        if let Some(at) = pressed {
+            self.pressed_from = field.map(|field| self.leaving(ui, field, at));
+        }
         // It closes what is open, and means nothing to what lies below.
         let is_escape = |e: &Event| matches!(e, Event::Key { key: Key::Escape, pressed: true, .. });
         if Popup::is_any_open(ui.ctx()) && ui.input(|i| i.events.iter().any(is_escape)) {
@@ -139,8 +160,10 @@ impl Focus {
         let is_popup_open = Popup::is_any_open(ui.ctx());
         self.place = None;
         let had = std::mem::replace(&mut self.had, ui.memory(|m| m.focused()));
+        let is_held = ui.input(|i| i.pointer.any_down());
+        let field = if is_held { None } else { self.pressed_from.take().and_then(|from| self.field_beside(ui, from)) };
         match (is_popup_open, self.popup_of) {
-            (true, None) => self.popup_of = Some(had),
+            (true, None) => self.popup_of = Some(field.or(had)),
             (false, Some(opener)) => {
                 self.popup_of = None;
                 if let (None, Some(opener)) = (self.had, opener) {
@@ -150,7 +173,10 @@ impl Focus {
             _ => {}
         }
         let Some(id) = self.had else {
-            let is_held = ui.input(|i| i.pointer.any_down());
+            let is_of_popup = |id: &Id| !is_popup_open || layer_of(ui, *id) == open_popup(ui.ctx());
+            if let Some(field) = field.filter(is_of_popup) {
+                return self.give(ui, field);
+            }
             let home = self.home.filter(|id| self.stops.iter().any(|p| p.home == Some(*id)));
             let home = home.or_else(|| self.stops.iter().find_map(|p| p.home));
             if let (Some(home), false) = (home, is_covered || is_popup_open || is_held) {
@@ -196,6 +222,34 @@ impl Focus {
         }
     }
 
+    fn leaving(&self, ui: &Ui, field: Id, at: Pos2) -> Left {
+        ui.ctx().viewport(|v| {
+            let widgets = &v.prev_pass.widgets;
+            let rect = widgets.get(field).map_or(Rect::NOTHING, |w| w.rect);
+            Left { field, rect, stop: self.stop_of(widgets, field).map(|stop| stop.name), at }
+        })
+    }
+
+    /// Returns the field that a press took the keyboard from, if what was pressed lies in the same panel or window. Where
+    /// the panel has been laid out anew, the field that is nearest to where it was.
+    fn field_beside(&self, ui: &Ui, left: Left) -> Option<Id> {
+        let stop = left.stop.and_then(|name| self.stops.iter().find(|stop| stop.name == name));
+        if left.stop.is_some() && stop.is_none_or(|stop| !stop.rect.contains(left.at)) {
+            return None;
+        }
+        if let Some(layer) = layer_of(ui, left.field) {
+            return (ui.ctx().layer_id_at(left.at) == Some(layer)).then_some(left.field);
+        }
+        let inside = ui.ctx().viewport(|v| {
+            let widgets = &v.this_pass.widgets;
+            let place = |id: Id| Some((id, widgets.get(id)?.rect.center().distance(left.rect.center())));
+            self.inside(widgets, stop?).into_iter().map(place).collect::<Option<Vec<_>>>()
+        });
+        let is_field = |id: Id| egui::text_edit::TextEditState::load(ui.ctx(), id).is_some();
+        let fields = inside?.into_iter().filter(|(id, _)| is_field(*id));
+        fields.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
+    }
+
     /// The innermost panel that a widget lies in.
     fn stop_of(&self, widgets: &WidgetRects, id: Id) -> Option<&Stop> {
         let mut at = widgets.get(id)?;
@@ -228,6 +282,10 @@ const THIN: f32 = 14.0;
 fn focusable(widgets: &WidgetRects, layer: LayerId) -> impl Iterator<Item = &WidgetRect> {
     let takes_keys = |w: &&WidgetRect| w.enabled && w.visible && w.sense.is_focusable();
     widgets.get_layer(layer).filter(takes_keys).filter(|w| w.rect.size().min_elem() >= THIN)
+}
+
+fn layer_of(ui: &Ui, id: Id) -> Option<LayerId> {
+    ui.ctx().viewport(|v| v.this_pass.widgets.get(id).map(|w| w.layer_id))
 }
 
 /// The layer of the menu or list that is open.

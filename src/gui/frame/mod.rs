@@ -50,9 +50,13 @@ pub fn run(
 #[cfg(test)]
 mod contrast;
 #[cfg(test)]
+mod fields;
+#[cfg(test)]
 mod harness;
 #[cfg(test)]
 mod looks;
+#[cfg(test)]
+mod mends;
 #[cfg(test)]
 mod names;
 #[cfg(test)]

@@ -91,6 +91,7 @@ mod tests {
             zoom: 2.0,
             code_size: 15.5,
             code_font: Some("/a/b.ttf".into()),
+            compile_on_save: false,
             word_wrap: true,
             frame_timeout: Duration::from_millis(500),
         };
@@ -100,7 +101,7 @@ mod tests {
         let (settings, mistakes) = read(text);
         assert_eq!(settings, Settings::default());
         let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
-        let all = "theme, zoom, code-size, code-font, word-wrap, frame-timeout";
+        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),

@@ -44,6 +44,8 @@ pub struct Settings {
     /// The file of a font for code; none: Eddy's own.
     pub code_font: Option<String>,
     pub word_wrap: bool,
+    /// Edits are compiled when they are saved, and not while one types.
+    pub compile_on_save: bool,
     /// A frame that takes longer pauses the picture.
     pub frame_timeout: Duration,
 }
@@ -60,6 +62,7 @@ impl Default for Settings {
             code_size: 13.0,
             code_font: None,
             word_wrap: false,
+            compile_on_save: false,
             frame_timeout: Duration::from_secs(2),
         }
     }
@@ -72,6 +75,7 @@ pub enum Change {
     Zoom(f32),
     CodeSize(f32),
     WordWrap(bool),
+    CompileOnSave(bool),
 }
 
 impl Change {
@@ -84,6 +88,7 @@ impl Change {
             Change::Zoom(zoom) => ("zoom", number(zoom)),
             Change::CodeSize(size) => ("code-size", number(size)),
             Change::WordWrap(on) => ("word-wrap", on.into()),
+            Change::CompileOnSave(on) => ("compile-on-save", on.into()),
         }
     }
 
@@ -93,6 +98,7 @@ impl Change {
             Change::Zoom(zoom) => settings.zoom = zoom.clamp(*ZOOMS.start(), *ZOOMS.end()),
             Change::CodeSize(size) => settings.code_size = size.clamp(*CODE_SIZES.start(), *CODE_SIZES.end()),
             Change::WordWrap(on) => settings.word_wrap = on,
+            Change::CompileOnSave(on) => settings.compile_on_save = on,
         }
     }
 }
@@ -153,6 +159,15 @@ pub(super) const KEYS: &[Key] = &[
         usual: "false",
         read: |settings, value| {
             settings.word_wrap = value.as_bool().ok_or("must be true or false")?;
+            Ok(())
+        },
+    },
+    Key {
+        name: "compile-on-save",
+        about: "Compile edits when they are saved and not while typing: true or false",
+        usual: "false",
+        read: |settings, value| {
+            settings.compile_on_save = value.as_bool().ok_or("must be true or false")?;
             Ok(())
         },
     },

@@ -97,6 +97,7 @@ impl Shell {
             Action::KeyFile => out.ask(told("The keyboard shortcuts are", self.keys.write_if_missing())),
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
+            Action::FindEverywhere => self.code.open_find_everywhere(),
             Action::FindNext => self.code.find_on(true),
             Action::FindPrevious => self.code.find_on(false),
             Action::FindCase => self.code.switch_find(|query| query.match_case = !query.match_case),
@@ -108,6 +109,10 @@ impl Shell {
             Action::WordWrap => {
                 let wraps = self.settings.settings().word_wrap;
                 self.change(Change::WordWrap(!wraps), out);
+            }
+            Action::CompileOnSave => {
+                let on = self.settings.settings().compile_on_save;
+                self.change(Change::CompileOnSave(!on), out);
             }
             Action::Code(action) => self.code.act(action, out),
             Action::FontLarger => self.scale_code(Some(1.0), out),
@@ -123,7 +128,9 @@ impl Shell {
             }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
-                self.kept.debugger.act(session, action, caret);
+                if let Err(why) = self.kept.debugger.act(session, action, caret) {
+                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                }
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
             Action::Picture(action) => self.act_on_picture(session, action, out),

@@ -14,7 +14,9 @@ impl Shell {
     pub fn take_clipboard_wish(&mut self) -> bool {
         let wants = std::mem::take(&mut self.wants_clipboard);
         self.takes_paste |= wants;
-        wants
+        let pastes = std::mem::take(&mut self.wants_code_paste);
+        self.pastes_into_code |= pastes;
+        wants || pastes
     }
 
     /// Takes files that are dropped and texts that are pasted where nothing is typed.
@@ -28,7 +30,7 @@ impl Shell {
             self.bring(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
         }
         let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.palette.is_open();
-        if types && !self.takes_paste {
+        if types && !self.takes_paste && !self.pastes_into_code {
             return;
         }
         let mut pasted = None;
@@ -42,6 +44,9 @@ impl Shell {
             });
         });
         if let Some(text) = pasted {
+            if std::mem::take(&mut self.pastes_into_code) && !self.takes_paste {
+                return self.code.paste(text);
+            }
             self.takes_paste = false;
             out.ask(Command::Paste(text));
         }

@@ -2,6 +2,7 @@
 
 mod act;
 mod arrivals;
+mod keys;
 mod of_project;
 mod panels;
 mod report;
@@ -70,12 +71,14 @@ pub struct Shell {
     /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
     wants_clipboard: bool,
     takes_paste: bool,
+    /// The code asked for what is on the clipboard.
+    wants_code_paste: bool,
+    pastes_into_code: bool,
     /// The projects that the session has opened so far.
     opened: u64,
     /// The window had the keyboard in the frame before.
     was_focused: bool,
-    /// A key with Alt was an action: the letter that it also types is not for the text.
-    drops_text: bool,
+    pressed: keys::Keys,
     /// Wanted by the frame before: done when the session has done what went with it.
     wishes: Vec<Wish>,
     places: Outbox,
@@ -116,9 +119,11 @@ impl Shell {
             focus: Focus::default(),
             wants_clipboard: false,
             takes_paste: false,
+            wants_code_paste: false,
+            pastes_into_code: false,
             opened: 0,
             was_focused: false,
-            drops_text: false,
+            pressed: keys::Keys::default(),
             wishes: Vec::new(),
             places: Outbox::default(),
             reported_notice: None,
@@ -156,9 +161,9 @@ impl Shell {
         !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
     }
 
-    /// A key press means something to the window wherever the keyboard is.
-    pub fn is_action(&self, event: &egui::Event) -> bool {
-        self.keys.keymap().pressed(event, Listening::default()).is_some()
+    /// A key press means something to the window as things stand: it is not the shader's.
+    pub fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
+        self.keys.keymap().pressed(event, self.listening(ctx)).is_some()
     }
 
     pub fn ask_save_as(&mut self, name: &str) {
@@ -288,6 +293,7 @@ impl Shell {
         {
             commands.push(Command::Notify { level: Level::Error, text, path: None });
         }
+        commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));
         }
@@ -303,9 +309,9 @@ impl Shell {
     }
 
     /// Returns whose keys are listened to.
-    fn listening(&self, ui: &Ui) -> Listening {
+    fn listening(&self, ctx: &egui::Context) -> Listening {
         Listening {
-            code: self.code.has_keys(ui.ctx()),
+            code: self.code.has_keys(ctx),
             find_bar: self.code.is_finding(),
             trace: !self.gallery && self.dock.is_seen(Panel::Trace),
         }
@@ -314,29 +320,10 @@ impl Shell {
     /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
     /// what is typed.
     fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
-        let listening = self.listening(ui);
+        let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
         let keymap = self.keys.keymap().clone();
-        let drops_text = &mut self.drops_text;
-        // A field for a name has an undo of its own.
-        let types = ui.ctx().text_edit_focused();
-        ui.input_mut(|i| {
-            i.events.retain(|event| {
-                if let egui::Event::Text(_) = event {
-                    return !std::mem::take(drops_text);
-                }
-                let egui::Event::Key { key, modifiers, pressed: true, repeat, .. } = event else { return true };
-                let found = keymap.pressed(event, listening);
-                *drops_text = found.is_some() && modifiers.alt && key.name().len() == 1;
-                let Some(entry) = found.filter(|e| !(types && is_of_texts(e.action))) else { return true };
-                if matches!(entry.action, Action::Code(_)) {
-                    return true;
-                }
-                if !repeat || entry.repeats() {
-                    out.wishes.push(Wish::Act(entry.action));
-                }
-                false
-            });
-        });
+        let actions = ui.input_mut(|i| self.pressed.take(&mut i.events, &keymap, keyboard));
+        out.wishes.extend(actions.into_iter().map(Wish::Act));
         if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
@@ -363,6 +350,29 @@ impl Shell {
     #[cfg(test)]
     pub fn places(&self) -> impl Iterator<Item = (&str, egui::Rect)> {
         self.places.places.iter().map(|(name, rect)| (name.as_str(), *rect))
+    }
+
+    /// Returns the innermost part of the window at a place, by its name.
+    #[cfg(test)]
+    pub fn stop_at(&self, at: egui::Pos2) -> Option<&'static str> {
+        let here = self.places.stops.iter().filter(|stop| stop.rect.contains(at));
+        here.min_by(|a, b| a.rect.area().total_cmp(&b.rect.area())).map(|stop| stop.name)
+    }
+
+    /// Returns the breakpoints: tabs and lines from 0.
+    #[cfg(test)]
+    pub fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
+        self.kept.debugger.lines()
+    }
+
+    #[cfg(test)]
+    pub fn ask_fix(&mut self, fix: crate::session::TabFix) {
+        self.wishes.push(Wish::Fix(fix));
+    }
+
+    #[cfg(test)]
+    pub fn focus_code(&mut self) {
+        self.code.focus();
     }
 
     /// Has no dialogs of the desktop's.
@@ -393,8 +403,19 @@ impl Shell {
         match wish {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
+            Wish::PasteCode => self.wants_code_paste = true,
+            Wish::Fix(fix) => {
+                if let Err(why) = self.code.apply_fix(&fix, out) {
+                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                }
+            }
+            Wish::CloseFile(tab) => self.code.close_file(&tab),
             Wish::Set(change) => self.change(change, out),
-            Wish::Breakpoint(tab, line) => self.kept.debugger.toggle(session, &tab, line),
+            Wish::Breakpoint(tab, line) => {
+                if let Err(why) = self.kept.debugger.toggle(session, &tab, line) {
+                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                }
+            }
             Wish::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
                 out.ask(Command::Trace(Some(at)));
@@ -449,11 +470,6 @@ impl Shell {
             Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
         }
     }
-}
-
-/// Returns whether a field that is typed in does the same with its own text.
-fn is_of_texts(action: Action) -> bool {
-    matches!(action, Action::UndoPasses | Action::RedoPasses)
 }
 
 /// Returns where a file dialog begins: beside the project.

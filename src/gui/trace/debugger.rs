@@ -84,6 +84,12 @@ impl Debugger {
         }
     }
 
+    /// Returns the breakpoints: tabs and lines from 0.
+    #[cfg(test)]
+    pub fn lines(&self) -> Vec<(Tab, usize)> {
+        self.breakpoints.iter().map(|b| (b.tab.clone(), b.line)).collect()
+    }
+
     /// There is a way to go.
     pub fn is_on(&self) -> bool {
         self.examiner.is_some()
@@ -107,27 +113,40 @@ impl Debugger {
         }
     }
 
-    /// Sets a breakpoint at a line from 0, or takes it away.
-    pub fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) {
+    /// Sets a breakpoint at a line from 0, or takes it away. A line without a statement has none: the next that has one
+    /// gets it. Fails where there is none.
+    pub fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) -> Result<(), &'static str> {
         self.forget();
-        let there = self.breakpoints.iter().position(|b| b.tab == *tab && b.line == line);
-        match there {
+        let at = |line: usize| self.breakpoints.iter().position(|b| b.tab == *tab && b.line == line);
+        match at(line) {
             Some(at) => drop(self.breakpoints.remove(at)),
             None => {
+                let line =
+                    session.stop_line(tab, line).ok_or("No statement stands here or below: no breakpoint is set")?;
+                if at(line).is_some() {
+                    return Ok(());
+                }
                 self.texts.entry(tab.clone()).or_insert_with(|| session.text(tab).to_owned());
                 let (tab, condition) = (tab.clone(), String::new());
                 self.breakpoints.push(Breakpoint { tab, line, condition, is_on: true });
                 self.breakpoints.sort_by_key(|b| (b.tab.title(), b.line));
             }
         }
+        Ok(())
     }
 
     /// Does what a key or a button asks for. `caret`: the tab and line from 0 where it is.
-    pub fn act(&mut self, session: &Session, action: TraceAction, caret: Option<(Tab, usize)>) {
+    /// Fails as [`Debugger::toggle`] does.
+    pub fn act(
+        &mut self,
+        session: &Session,
+        action: TraceAction,
+        caret: Option<(Tab, usize)>,
+    ) -> Result<(), &'static str> {
         if let (TraceAction::Breakpoint, Some((tab, line))) = (action, &caret) {
             return self.toggle(session, tab, *line);
         }
-        let Some(examiner) = &mut self.examiner else { return };
+        let Some(examiner) = &mut self.examiner else { return Ok(()) };
         let traced = examiner.traced.clone();
         let end = |direction| travel::end(&traced.history, direction);
         let found = match action {
@@ -153,6 +172,7 @@ impl Debugger {
         if let Some(at) = found {
             self.go_to(at);
         }
+        Ok(())
     }
 
     /// Goes to a moment.

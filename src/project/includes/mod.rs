@@ -8,7 +8,7 @@
 //! text that comes of it ([`Project::inlined`]).
 
 use super::{
-    Included, Project, Source,
+    Included, Project, Source, Tab,
     confine::{self, Reason},
     embedded,
     files::{Files, Read},
@@ -77,10 +77,18 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
         tab_sources(project).map(|s| (s.name.clone(), s.text.clone())).collect();
     let mut known = tabs.clone();
     let mut found: Vec<Included> = Vec::new();
+    // What was edited is nowhere else: it stays, also while no text includes it.
+    let edited: BTreeMap<String, Source> =
+        project.includes.iter().filter(|i| i.is_edited).map(|i| (i.source.name.clone(), i.source.clone())).collect();
     'texts: while let Some((from, text)) = queue.pop_front() {
         for line in hash_lines(&text).iter().filter(|l| is_include(l)) {
             let Some(name) = named(line).and_then(|path| confine::relative(&from, path.trim()).ok()) else { continue };
             if !known.insert(name.clone()) {
+                continue;
+            }
+            if let Some(source) = edited.get(&name) {
+                queue.push_back((name, source.text.clone()));
+                found.push(Included { source: source.clone(), trouble: None, is_limit: false, is_edited: true });
                 continue;
             }
             let content = match known.len() > limits::TEXTS {
@@ -100,13 +108,17 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
             let path = files.and_then(|f| f.path(&name));
             let source = Source { name: name.clone(), path, text: text.into() };
             queue.push_back((name, source.text.clone()));
-            found.push(Included { source, trouble: trouble.map(|t| t.why), is_limit });
+            found.push(Included { source, trouble: trouble.map(|t| t.why), is_limit, is_edited: false });
             if is_limit {
                 break 'texts;
             }
         }
     }
-    project.includes = found;
+    let is_left = |name: &String| !found.iter().any(|i| i.source.name == *name) && !tabs.contains(name);
+    let left: Vec<Source> = edited.into_iter().filter(|(name, _)| is_left(name)).map(|(_, source)| source).collect();
+    let left = left.into_iter().map(|source| Included { source, trouble: None, is_limit: false, is_edited: true });
+    // A limit is told by the last.
+    project.includes = left.chain(found).collect();
 }
 
 /// Files that are not there for which a like name is looked for: looking for one reads the folder.
@@ -149,6 +161,27 @@ impl Project {
             other => {
                 let base = other.base_dir().map(Path::to_owned);
                 read(self, base.as_deref().map(Files::on_disk).as_ref());
+            }
+        }
+    }
+
+    /// Reads these files, which some text includes that is not this project's, and adds them to those that are included.
+    /// One that cannot be read is left out.
+    pub fn read_included(&mut self, names: impl IntoIterator<Item = String>) {
+        let base = self.origin.base_dir().map(Path::to_owned);
+        let files = match &self.origin {
+            super::Origin::Preset(name) => embedded::folder(name).map(Files::embedded),
+            _ => base.as_deref().map(Files::on_disk),
+        };
+        let Some(files) = files else { return };
+        for name in names {
+            self.includes.retain(|i| i.source.name != name || i.trouble.is_none());
+            if self.includes.iter().any(|i| i.source.name == name) {
+                continue;
+            }
+            if let Ok(text) = content(Some(&files), &name, false) {
+                let source = Source { path: files.path(&name), name, text: text.into() };
+                self.includes.insert(0, Included { source, trouble: None, is_limit: false, is_edited: false });
             }
         }
     }
@@ -265,6 +298,23 @@ impl Project {
             );
             found.lines.clear();
         }
+    }
+
+    /// Returns the tabs whose texts have an included file in them, directly or by way of others: Common, passes, stages.
+    pub fn tabs_that_include(&self, included: &Tab) -> Vec<Tab> {
+        let Some(id) = self.id_of(included) else { return Vec::new() };
+        let lines = self.include_lines();
+        let has_it = |tab: &Tab| self.id_of(tab).is_some_and(|of| lines.reach(of).contains(&id));
+        self.tabs().into_iter().filter(|tab| !matches!(tab, Tab::Included(_)) && has_it(tab)).collect()
+    }
+
+    /// Returns the tab that the `#include` line at a byte of a tab's text leads to.
+    pub fn included_at(&self, tab: &Tab, at: usize) -> Option<Tab> {
+        let text = &self.source(tab)?.text;
+        let line =
+            hash_lines(text).into_iter().find(|l| is_include(l) && (l.range.start..=l.range.end).contains(&at))?;
+        let name = confine::relative(&self.source(tab)?.name, named(&line)?.trim()).ok()?;
+        self.tabs().into_iter().find(|tab| self.source(tab).is_some_and(|s| s.name == name))
     }
 
     /// A text with every file it includes in the place of its line.

@@ -229,6 +229,7 @@ impl Project {
         match tab {
             Tab::Pass(PassId::Image) => return Err(PassEditError::Image),
             Tab::Stage(_, file) => return Err(PassEditError::Stage(file.clone())),
+            Tab::Included(file) => return Err(PassEditError::Included(file.clone())),
             Tab::Common if self.common.is_none() => return Err(PassEditError::NoSuchPass(tab.title())),
             Tab::Common => self.common = None,
             Tab::Pass(id) => {

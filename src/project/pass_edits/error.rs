@@ -17,6 +17,8 @@ pub enum PassEditError {
     Image,
     #[error("{0} is used by a draw; remove it in eddy.toml instead")]
     Stage(String),
+    #[error("{0} is included by passes; remove its #include line instead")]
+    Included(String),
     #[error("{pass} has no {what}; set it on a buffer and show that buffer")]
     NotHere { pass: String, what: &'static str },
     #[error("a size needs a factor above 0, or at least one texel in each direction")]

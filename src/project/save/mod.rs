@@ -111,12 +111,19 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut owned: BTreeSet<String> = others.iter().map(|p| p.source.name.clone()).collect();
     owned.extend(own.then(|| name.clone()));
+    if own {
+        owned.extend(edited_includes(project));
+    }
     let mut writes = Writes::into(base, owned);
     writes.add_named(name.clone(), Content::Bytes(image.source.text.as_bytes().to_vec()));
     for other in others {
         writes.add(&other.source.name, Content::Bytes(other.source.text.as_bytes().to_vec()))?;
     }
+    for included in project.includes.iter().filter(|i| i.is_edited) {
+        writes.add(&included.source.name, Content::Bytes(included.source.text.as_bytes().to_vec()))?;
+    }
     writes.write(overwrite)?;
+    saved.includes.iter_mut().for_each(|i| i.is_edited = false);
     saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     saved.sampler_rules = SamplerRules::PerChannel;
     saved.origin = Origin::File(target.to_owned());
@@ -140,6 +147,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
         let texts = texts.map(|s| s.renamed_from().unwrap_or_else(|| s.name.clone()));
         own.extend(texts.filter_map(|name| confine::relative("", &name).ok()));
         own.extend(had_manifest.then(|| MANIFEST.to_owned()));
+        own.extend(edited_includes(project));
     }
     let mut writes = Writes::into(target, own);
     if let Some(common) = &mut saved.common {
@@ -155,12 +163,12 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
             place(stage, name, is_home, target, &mut writes)?;
         }
     }
+    // Under their own names, which the lines that include them say.
+    for included in project.includes.iter().filter(|i| i.is_edited || (!is_home && i.trouble.is_none())) {
+        let text = included.source.text.as_bytes().to_vec();
+        writes.add(&included.source.name, Content::Bytes(text))?;
+    }
     if !is_home {
-        // Under their own names, which the lines that include them say.
-        for included in project.includes.iter().filter(|i| i.trouble.is_none()) {
-            let text = included.source.text.as_bytes().to_vec();
-            writes.add(&included.source.name, Content::Bytes(text))?;
-        }
         copy_media(&saved, &mut writes)?;
     }
     picked::copy_in(&mut saved, target, &mut writes)?;
@@ -179,6 +187,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
         writes.add(MANIFEST, Content::Bytes(text.into_bytes()))?;
     }
     writes.write(overwrite)?;
+    saved.includes.iter_mut().for_each(|i| i.is_edited = false);
     saved.read_includes();
     Ok(saved)
 }
@@ -203,6 +212,11 @@ pub fn remove_renamed(before: &Project, renamed: &Project, after: &Project) -> V
     let gone = moved.filter(|path| !used(path) && is_as_read(path));
     gone.filter(|path| std::fs::remove_file(path).inspect_err(|e| log::warn!("{}: {e}", path.display())).is_ok())
         .collect()
+}
+
+/// The files that others include and that were edited: they were read from the project's folder, and are its own.
+fn edited_includes(project: &Project) -> impl Iterator<Item = String> {
+    project.includes.iter().filter(|i| i.is_edited).filter_map(|i| confine::relative("", &i.source.name).ok())
 }
 
 /// Writes the one file that a project is.

@@ -1,13 +1,13 @@
 //! A snapshot is a whole project in one text, with everything that is not on disk yet.
 //!
 //! Owns the text's form, both ways: JSON with the project's place, an `eddy.toml` for all that is not text, and each
-//! tab's text under the tab's own name, so that two passes of one file may differ while they are edited. What the texts
-//! include is not in it, as it cannot be edited here; of a fill that is in memory alone (see
+//! tab's text under the tab's own name, so that two passes of one file may differ while they are edited. Of the files that
+//! the texts include those are in it that were edited; of a fill that is in memory alone (see
 //! [`super::FillValue::Held`]) only the name is.
 
 use super::{
-    Channel, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, file_names::pass_of_stem,
-    files::Files, manifest,
+    Channel, Included, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, confine,
+    file_names::pass_of_stem, files::Files, manifest,
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -34,6 +34,9 @@ struct Form {
     /// The project as `eddy.toml` says it.
     manifest: String,
     texts: Vec<Text>,
+    /// Files that others include, as they were edited.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    included: Vec<IncludedText>,
     /// Channels that read a picture from anywhere on this machine, which no `eddy.toml` names.
     picked: Vec<Picked>,
     /// Draws of a model from anywhere on this machine, likewise.
@@ -56,6 +59,14 @@ struct Text {
     /// `None`: Common.
     pass: Option<String>,
     stage: Option<String>,
+    name: String,
+    path: Option<PathBuf>,
+    text: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct IncludedText {
+    /// From the project's folder.
     name: String,
     path: Option<PathBuf>,
     text: String,
@@ -93,8 +104,19 @@ pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
         texts: project
             .tabs()
             .into_iter()
+            .filter(|tab| !matches!(tab, Tab::Included(_)))
             .filter_map(|tab| Some((tab.clone(), project.source(&tab)?)))
             .map(text)
+            .collect(),
+        included: project
+            .includes
+            .iter()
+            .filter(|i| i.is_edited)
+            .map(|i| IncludedText {
+                name: i.source.name.clone(),
+                path: i.source.path.clone().map(absolute),
+                text: i.source.text.to_string(),
+            })
             .collect(),
         picked: picked(project),
         picked_models: picked_models(project),
@@ -102,7 +124,8 @@ pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     Ok(serde_json::to_string(&form)?)
 }
 
-/// Returns the project that [`write_snapshot`] was given. Its includes are not read yet.
+/// Returns the project that [`write_snapshot`] was given. Of the files that it includes only those are there that were
+/// edited.
 pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
     #[derive(Deserialize)]
     struct Version {
@@ -148,7 +171,15 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
             draw.mesh = MeshSource::Picked(path);
         }
     }
-    project.includes.clear();
+    // A name may come from anywhere.
+    let is_inside = |text: &IncludedText| confine::relative("", &text.name).is_ok_and(|name| name == text.name);
+    let included = form.included.into_iter().filter(is_inside).map(|text| Included {
+        source: Source { name: text.name, path: text.path, text: text.text.into() },
+        trouble: None,
+        is_limit: false,
+        is_edited: true,
+    });
+    project.includes = included.collect();
     Ok(project)
 }
 

@@ -4,7 +4,7 @@
 //! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
-use crate::project::{Origin, Pass, Project, Source, Tab};
+use crate::project::{Included, Origin, Pass, Project, Source, Tab};
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
@@ -61,7 +61,11 @@ impl Documents {
     /// A project with unsaved work, and what of it is on disk now.
     pub fn restored(mut current: Project, saved: Project) -> Self {
         current.origin = saved.origin.clone();
-        current.includes = saved.includes.clone();
+        let mut saved = saved;
+        let edited: Vec<Included> = current.includes.iter().filter(|i| i.is_edited).cloned().collect();
+        saved.read_included(edited.iter().map(|i| i.source.name.clone()));
+        let is_other = |i: &&Included| !edited.iter().any(|e| e.source.name == i.source.name);
+        current.includes = edited.iter().chain(saved.includes.iter().filter(is_other)).cloned().collect();
         for tab in current.tabs() {
             let Some(mine) = current.source_mut(&tab) else { continue };
             mine.path = None;
@@ -69,7 +73,9 @@ impl Documents {
                 (mine.name, mine.path) = (theirs.name.clone(), theirs.path.clone());
             }
         }
-        Self { current, saved, missing: BTreeSet::new(), revision: 0 }
+        let mut documents = Self { current, saved, missing: BTreeSet::new(), revision: 0 };
+        documents.note_edited();
+        documents
     }
 
     /// Grows with every change, of texts and of what is known of the disk.
@@ -89,6 +95,59 @@ impl Documents {
     pub fn current_mut(&mut self) -> &mut Project {
         self.revision += 1;
         &mut self.current
+    }
+
+    /// Gives a tab another text.
+    pub fn set_text(&mut self, tab: &Tab, text: &str) {
+        if let Some(source) = self.current_mut().source_mut(tab) {
+            source.text = text.into();
+        }
+        if let Tab::Included(_) = tab {
+            self.note_edited();
+        }
+    }
+
+    /// Takes the files that the texts include as they were just read. What was edited meanwhile stands. Returns whether a
+    /// text that was there before is another now.
+    pub fn take_includes(&mut self, read: Vec<Included>) -> bool {
+        self.revision += 1;
+        let (before, saved) = (std::mem::take(&mut self.current.includes), std::mem::take(&mut self.saved.includes));
+        let of = |list: &[Included], name: &str| list.iter().find(|i| i.source.name == name).cloned();
+        let mut is_other = false;
+        for new in &read {
+            let name = &new.source.name;
+            // What was edited when the reading began is not what the disk has.
+            let base = if new.is_edited { of(&saved, name) } else { Some(new.clone()) };
+            let now = match (of(&before, name).filter(|i| i.is_edited), &base) {
+                (Some(edited), _) => edited,
+                (None, Some(base)) => base.clone(),
+                // It was edited when the reading began, and has been saved or left since.
+                (None, None) => continue,
+            };
+            is_other |= of(&before, name).is_some_and(|before| before.source.text != now.source.text);
+            self.current.includes.push(now);
+            self.saved.includes.extend(base.map(|base| Included { is_edited: false, ..base }));
+        }
+        // Edited since, and in no text that was read.
+        for left in before.iter().filter(|i| i.is_edited && of(&read, &i.source.name).is_none()) {
+            self.current.includes.insert(0, left.clone());
+            self.saved.includes.extend(of(&saved, &left.source.name));
+        }
+        is_other
+    }
+
+    /// Notes of the included files which of them were edited.
+    fn note_edited(&mut self) {
+        let edited: BTreeSet<String> = self
+            .current
+            .includes
+            .iter()
+            .filter(|i| i.trouble.is_none() && self.is_tab_dirty(&Tab::Included(i.source.name.clone())))
+            .map(|i| i.source.name.clone())
+            .collect();
+        for included in &mut self.current.includes {
+            included.is_edited = edited.contains(&included.source.name);
+        }
     }
 
     /// The project as it now lies on disk.
@@ -134,6 +193,7 @@ impl Documents {
     pub fn is_dirty(&self) -> bool {
         self.is_structure_dirty()
             || !structure::has_same_texts(&self.current, &self.saved)
+            || self.current.includes.iter().any(|i| i.is_edited)
             || self.missing.iter().any(|tab| self.current.source(tab).is_some())
     }
 
@@ -142,6 +202,8 @@ impl Documents {
     pub fn merge(&mut self, mut disk: Project) -> Merge {
         self.revision += 1;
         let mut merge = Merge::default();
+        // Those that only a text here includes.
+        disk.read_included(self.current.includes.iter().filter(|i| i.is_edited).map(|i| i.source.name.clone()));
         self.keep_gone(&mut disk, &mut merge);
         if !structure::is_same(&disk, &self.saved) {
             if !self.is_structure_dirty() {
@@ -176,6 +238,7 @@ impl Documents {
             }
         }
         self.saved = disk;
+        self.note_edited();
         merge
     }
 
@@ -193,6 +256,7 @@ impl Documents {
         if let (Some(text), Some(mine)) = (text, self.current.source_mut(tab)) {
             mine.text = text;
         }
+        self.note_edited();
     }
 
     /// A tab's text on disk, also where its pass has another name there.
@@ -216,7 +280,9 @@ impl Documents {
     fn keep_gone(&mut self, disk: &mut Project, merge: &mut Merge) {
         let is_listed = matches!(disk.origin, Origin::Folder { has_manifest: true, .. });
         for tab in self.saved.tabs() {
-            if disk.source(&tab).is_some() {
+            // A file that nothing includes any more is not gone.
+            let is_left = matches!(tab, Tab::Included(_)) && !self.is_tab_dirty(&tab);
+            if is_left || disk.source(&tab).is_some() {
                 self.missing.remove(&tab);
             } else if self.current.source(&tab).is_some() && (!is_listed || self.is_tab_dirty(&tab)) {
                 reinsert(disk, &self.saved, &tab);
@@ -250,6 +316,8 @@ impl Documents {
                 reinsert(&mut next, &self.current, &tab);
             }
         }
+        // Which files are included is read anew.
+        next.includes = std::mem::take(&mut self.current.includes);
         self.current = next;
     }
 }
@@ -258,6 +326,11 @@ impl Documents {
 fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     match tab {
         Tab::Common => to.common = from.common.clone(),
+        Tab::Included(file) => {
+            to.includes.retain(|i| i.source.name != *file);
+            let there = from.includes.iter().find(|i| i.source.name == *file);
+            to.includes.splice(0..0, there.cloned());
+        }
         // With the draws that name it, or nothing would be drawn with it.
         Tab::Stage(id, _) => {
             if let (Some(from), Some(to)) = (from.pass(id), to.pass_mut(id)) {

@@ -1,7 +1,7 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, CustomUniformValue, Input, PassBody, PassId, Sampler, SamplerRules, Source};
+use crate::project::{Channel, CustomUniformValue, Included, Input, PassBody, PassId, Sampler, SamplerRules, Source};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project::new("p", Vec::new(), Origin::Folder { path: "/p".into(), has_manifest });
@@ -202,4 +202,39 @@ fn a_diff_names_each_side() {
     let lines = diff("a\nb\nc\n", "a\nB\nc\r\n");
     assert!(lines.contains(&DiffLine::Both("a".into())));
     assert!(lines.contains(&DiffLine::Disk("b".into())) && lines.contains(&DiffLine::Mine("B".into())));
+}
+
+/// A reading of files that was begun before a save comes back after it.
+#[test]
+fn included_files_that_were_read_before_a_save_change_nothing_after_it() {
+    let included = |text: &str, is_edited: bool| Included {
+        source: Source { name: "lib.glsl".into(), path: None, text: text.into() },
+        trouble: None,
+        is_limit: false,
+        is_edited,
+    };
+    let lib = Tab::Included("lib.glsl".into());
+    let mut project = Project::of_image("p".into(), "".into());
+    project.includes = vec![included("old", false)];
+    let mut documents = Documents::new(project.clone());
+    documents.set_text(&lib, "new");
+    assert!(documents.is_dirty() && documents.current().includes[0].is_edited);
+    let late = documents.current().includes.clone();
+    documents.take_includes(late.clone());
+    assert!(documents.is_tab_dirty(&lib), "nothing has changed");
+    documents.take_includes(Vec::new());
+    assert!(documents.is_tab_dirty(&lib), "what is edited stays though nothing includes it");
+    // Saved, and nothing includes it any more.
+    project.includes.clear();
+    documents.set_saved(project.clone());
+    documents.take_includes(late.clone());
+    assert!(!documents.is_dirty() && documents.current().source(&lib).is_none());
+    // Saved, and included still.
+    project.includes = vec![included("new", false)];
+    documents.set_saved(project);
+    documents.take_includes(late);
+    assert!(!documents.is_dirty() && !documents.current().includes[0].is_edited);
+    documents.set_text(&lib, "newer");
+    documents.set_text(&lib, "new");
+    assert!(!documents.is_dirty());
 }

@@ -156,8 +156,7 @@ impl Session {
                 let has_new_files = self.disk.media_files != files || includes.is_some();
                 self.disk.media_files = files;
                 if let Some((edit, includes)) = includes {
-                    self.documents.current_mut().includes = includes;
-                    self.compile.includes_read = edit;
+                    self.take_includes(includes, edit);
                 }
                 if has_new_files {
                     self.watch_what_is_read();

@@ -220,6 +220,12 @@ pub(super) fn options(
     let pass = match &place.tab {
         Tab::Pass(pass) => pass.clone(),
         Tab::Common => shown.clone(),
+        Tab::Included(_) => {
+            let users = project.tabs_that_include(&place.tab);
+            let is_shown = |user: &&Tab| matches!(user, Tab::Common) || user.pass() == Some(shown);
+            let user = users.iter().find(is_shown).or(users.iter().find(|user| matches!(user, Tab::Pass(_))));
+            user.and_then(Tab::pass).unwrap_or(shown).clone()
+        }
         Tab::Stage(..) => return Err("passes that draw meshes cannot be probed".into()),
     };
     let gone = || "the probed expression is gone: showing the picture".to_owned();
@@ -228,8 +234,8 @@ pub(super) fn options(
     }
     let index = project.passes.iter().position(|p| p.id == pass).ok_or_else(gone)?;
     let source = match &place.tab {
-        Tab::Common => Project::COMMON_ID,
-        _ => Project::pass_id(index),
+        Tab::Pass(_) => Project::pass_id(index),
+        tab => project.id_of(tab).ok_or_else(gone)?,
     };
     let probe = Probe { source, at: place.at as u32, visit: place.visit };
     let ProbedExpression { span, type_text, components, is_whole } =

@@ -178,6 +178,7 @@ impl Traced {
         match tab {
             Tab::Common => Some(Project::COMMON_ID),
             tab if *tab == self.tab => Some(self.text_id),
+            Tab::Included(_) => self.project.id_of(tab),
             _ => None,
         }
     }

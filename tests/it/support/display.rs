@@ -67,6 +67,16 @@ impl Display {
         self.manager.is_some()
     }
 
+    /// Gives the keyboard a layout, as `de`. False after saying so where the machine cannot.
+    pub fn layout(&self, name: &str) -> bool {
+        let set = Command::new("setxkbmap").env("DISPLAY", &self.name).arg(name).status();
+        let is_set = set.is_ok_and(|status| status.success());
+        if !is_set {
+            skipped("no setxkbmap");
+        }
+        is_set
+    }
+
     pub fn tool(&self, arguments: &[&str]) -> String {
         let output = Command::new("xdotool").env("DISPLAY", &self.name).args(arguments).output().unwrap();
         String::from_utf8_lossy(&output.stdout).trim().to_owned()

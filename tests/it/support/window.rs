@@ -313,6 +313,11 @@ impl<'a> Window<'a> {
         }
     }
 
+    /// Does the same beside what is held down.
+    pub fn keys_as_held(&self, keys: &[&str]) {
+        keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
+    }
+
     pub fn type_text(&self, text: &str) {
         self.display.tool(&["type", "--delay", "15", text]);
     }

@@ -19,8 +19,16 @@ use std::ops::Range;
 pub enum Ask {
     /// To a place of some text of the analysis.
     GoTo(Span),
+    /// To the file that the `#include` line at this byte names.
+    OpenIncluded(usize),
     /// A list of all uses of what is named at this byte.
     ListUses(usize),
+    /// The mends for what is wrong at this byte.
+    Fix(usize),
+    /// Another name for what is named at this byte.
+    Rename(usize),
+    /// The clipboard's text, in the place of what is selected.
+    Paste,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -198,7 +206,9 @@ impl Assist {
         let caret = buffer.selection().head;
         match self.question.take() {
             Some(Question::Definition) => {
-                self.asks.extend(help.analysis.definition(help.source, caret).map(Ask::GoTo));
+                let declared = help.analysis.definition(help.source, caret).map(Ask::GoTo);
+                let included = buffer.names_file(caret).then_some(Ask::OpenIncluded(caret));
+                self.asks.extend(declared.or(included));
             }
             Some(Question::Uses) => self.asks.push(Ask::ListUses(caret)),
             None => {}

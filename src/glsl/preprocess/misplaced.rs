@@ -1,0 +1,126 @@
+//! Lines that were brought along or slipped: a Markdown fence round the text, a directive that something stands before.
+//!
+//! Each is one mistake, and told once. What the parser would say of the rest of such a line, and of the names that it
+//! would have declared, would be a consequence.
+
+use super::{directive::DIRECTIVES, foreign::OWN, state::Preprocessor};
+use crate::{
+    diag::{Diagnostic, Edit, Fix, Span},
+    glsl::{
+        ast::Symbol,
+        lex::{Kind, LINE_START, Token},
+    },
+};
+
+/// Directives without which the rest of a text is another one.
+const ESSENTIAL: [&str; 7] = ["include", "if", "ifdef", "ifndef", "elif", "else", "endif"];
+
+impl Preprocessor<'_, '_> {
+    /// Tells of a fence, or of a directive within its line. False for anything else, of which nothing is read then.
+    #[cold]
+    pub(super) fn is_misplaced(&mut self, token: &Token) -> bool {
+        match token.kind {
+            Kind::BadChar => token.value == u32::from('`') && token.has(LINE_START) && self.fence(token),
+            _ => self.directive_within(token),
+        }
+    }
+
+    /// Tells of a directive that a word stands before, as `x#define N 3`. `first`: the first token of a line. False where
+    /// there is none, and nothing is read then.
+    #[inline]
+    pub(super) fn hides_directive(&mut self, first: &Token) -> bool {
+        let text = self.pieces[self.current].text.text.as_bytes();
+        let mut at = first.span.end as usize;
+        while matches!(text.get(at), Some(b' ' | b'\t')) {
+            at += 1;
+        }
+        text.get(at) == Some(&b'#') && self.word_before(first, at)
+    }
+
+    #[cold]
+    fn word_before(&mut self, first: &Token, hash: usize) -> bool {
+        let is_word = matches!(first.kind, Kind::Ident | Kind::BadName | Kind::BadNumber | Kind::BadChar | Kind::Text)
+            || self.text(first.span).starts_with(|c: char| c.is_ascii_digit());
+        let Some(name) = self.directive_at(hash).filter(|_| is_word) else { return false };
+        let word = self.text(first.span).to_owned();
+        let edit = Edit { span: Span { end: hash as u32, ..first.span }, text: String::new() };
+        self.report.add(
+            Diagnostic::error(first.span, format!("`{word}` stands before `#{name}`, which must begin its line"))
+                .hint(format!("delete `{word}`"))
+                .fix(Fix::new(format!("Delete `{word}`"), vec![edit])),
+        );
+        self.leave_line(&name);
+        true
+    }
+
+    fn directive_within(&mut self, hash: &Token) -> bool {
+        let Some(name) = self.directive_at(hash.span.start as usize) else { return false };
+        let edit = Edit { span: Span { end: hash.span.start, ..hash.span }, text: "\n".to_owned() };
+        self.report.add(
+            Diagnostic::error(hash.span, format!("`#{name}` must begin its line"))
+                .hint("move it into a line of its own")
+                .fix(Fix::new(format!("Move `#{name}` into its own line"), vec![edit])),
+        );
+        self.leave_line(&name);
+        true
+    }
+
+    /// Returns the name of the directive whose `#` is at a byte of the text that is being read.
+    fn directive_at(&self, hash: usize) -> Option<String> {
+        let rest = self.pieces[self.current].text.text.get(hash..)?.strip_prefix('#')?.trim_start_matches([' ', '\t']);
+        let name = &rest[..rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len())];
+        DIRECTIVES.into_iter().chain(OWN).any(|known| known == name).then(|| name.to_owned())
+    }
+
+    /// Reads the rest of a line, of which nothing is done.
+    fn leave_line(&mut self, name: &str) {
+        self.lexer.begin_directive();
+        let line = self.line_tokens();
+        let names = line.iter().filter(|t| t.kind == Kind::Ident).map(|t| Symbol(t.value));
+        self.origins.unread.extend(names);
+        self.stopped |= ESSENTIAL.contains(&name);
+    }
+
+    /// Tells of the ``` that Markdown puts round a text: once, with a mend that takes all of them away.
+    fn fence(&mut self, token: &Token) -> bool {
+        let text = self.pieces[self.current].text.text;
+        let start = token.span.start as usize;
+        let Some(rest) = text.get(start..) else { return false };
+        let ticks = rest.len() - rest.trim_start_matches('`').len();
+        if ticks < 3 {
+            return false;
+        }
+        let line = rest.lines().next().unwrap_or_default();
+        let behind = line[ticks..].trim();
+        let is_alone = !behind.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
+        let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
+        let told = span;
+        if is_alone {
+            self.lexer.begin_directive();
+            self.lexer.rest_of_line();
+            self.line_tokens();
+            // With its end.
+            let begin = text[..start].rfind('\n').map_or(0, |at| at + 1);
+            let end = rest.find('\n').map_or(text.len(), |at| start + at + 1);
+            span = Span::new(span.source, begin..end);
+        } else {
+            for _ in 1..ticks {
+                self.raw();
+            }
+        }
+        let edit = Edit { span, text: String::new() };
+        let first = self.fence.and_then(|at| self.report.diagnostics.get_mut(at)?.fixes.first_mut());
+        match first {
+            Some(fix) => fix.edits.push(edit),
+            None => {
+                self.fence = Some(self.report.diagnostics.len());
+                self.report.add(
+                    Diagnostic::error(told, "a Markdown fence has no meaning in GLSL")
+                        .hint("delete the lines with ```")
+                        .fix(Fix::new("Remove the Markdown fence", vec![edit])),
+                );
+            }
+        }
+        true
+    }
+}

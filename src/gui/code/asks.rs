@@ -1,0 +1,74 @@
+//! Answers what the editor asks of those who know the other texts, and owns the quick fixes at its caret.
+
+use super::{
+    CodePanel,
+    fixes::{Chosen, Fixes},
+    rename_bar::RenameBar,
+};
+use crate::{
+    gui::{
+        editor::Ask,
+        outbox::{Outbox, Wish},
+        uses::Uses,
+    },
+    project::Tab,
+    session::{Command, Level, Session},
+};
+use egui::Ui;
+
+impl CodePanel {
+    /// Does what the editor asks of those who know the other texts.
+    pub(super) fn answer(&mut self, session: &Session, ask: Ask, out: &mut Outbox) {
+        let tab = self.current.clone();
+        let of_tab = session.analysis().filter(|a| a.front == tab).and_then(|a| Some((a, a.source_of(&tab)?)));
+        match (ask, of_tab) {
+            (Ask::OpenIncluded(at), _) => {
+                if let Some(tab) = session.project().included_at(&tab, at) {
+                    self.bring(tab);
+                    self.focus();
+                }
+            }
+            (Ask::GoTo(span), Some((analysis, _))) => {
+                if let Some(tab) = analysis.tab_of(span.source) {
+                    self.show_range(tab, span.range());
+                }
+            }
+            (Ask::ListUses(at), Some((analysis, source))) => {
+                self.uses = Uses::new(session, session.uses(analysis, source, at));
+            }
+            (Ask::Fix(at), _) => {
+                let line = self.buffer().map_or(0, |buffer| buffer.line_of(at));
+                self.fixes = self.fixed_at().map(|now| Fixes::new(session, now, line));
+            }
+            (Ask::Rename(at), _) => match RenameBar::new(session, tab, at) {
+                Ok(bar) => {
+                    self.rename = Some(bar);
+                    self.go_to_line = None;
+                    self.find.close();
+                }
+                Err(text) => out.ask(Command::Notify { level: Level::Info, text, path: None }),
+            },
+            (Ask::Paste, _) => out.wishes.push(Wish::PasteCode),
+            (Ask::GoTo(_) | Ask::ListUses(_), None) => {}
+        }
+    }
+
+    /// The caret that a list of fixes is for.
+    pub(super) fn fixed_at(&self) -> Option<(Tab, usize, u64)> {
+        let buffer = self.buffer()?;
+        Some((self.current.clone(), buffer.selection().head, buffer.revision()))
+    }
+
+    pub(super) fn choose_fix(&mut self, chosen: Chosen, out: &mut Outbox) {
+        match chosen {
+            Chosen::Nothing => return,
+            Chosen::Closed => {}
+            Chosen::Fix(fix) => out.wishes.push(Wish::Fix(fix)),
+        }
+        self.fixes = None;
+    }
+
+    pub(super) fn has_focus(ui: &Ui, tab: &Tab) -> bool {
+        ui.memory(|m| m.has_focus(Self::id(tab)))
+    }
+}

@@ -1,0 +1,85 @@
+//! Finding and replacing in every text of the project.
+
+use super::{CodePanel, matches::Everywhere};
+use crate::{
+    gui::{outbox::Outbox, uses::Uses},
+    project::Tab,
+    session::{Command, Level, Session},
+};
+use std::ops::Range;
+
+impl CodePanel {
+    /// Opens the bar for finding in all texts, or in the one in front again.
+    pub fn open_find_everywhere(&mut self) {
+        let is_on = self.find.is_open() && self.find.is_everywhere();
+        self.open_find(false);
+        self.find.set_everywhere(!is_on);
+    }
+
+    /// Looks again where the query or a text is another, and lists what is found.
+    pub(super) fn look_everywhere(&mut self, session: &Session) {
+        if !self.find.is_open() || !self.find.is_everywhere() {
+            if std::mem::take(&mut self.everywhere.is_listed) {
+                self.uses = None;
+            }
+            self.everywhere.of = None;
+            self.everywhere.places.clear();
+            return;
+        }
+        let tabs = &self.order;
+        let revision = |tab: &Tab| Some((tab.clone(), self.editors.get(tab)?.buffer().revision()));
+        let now = (self.find.query().clone(), tabs.iter().filter_map(revision).collect::<Vec<_>>());
+        if self.everywhere.of.as_ref() == Some(&now) {
+            return;
+        }
+        let finder = now.0.finder().ok();
+        let mut places = Vec::new();
+        for tab in tabs {
+            let (Some(finder), Some(editor)) = (&finder, self.editors.get(tab)) else { continue };
+            places.extend(finder.matches(editor.buffer().text()).into_iter().map(|m| (tab.clone(), m)));
+        }
+        self.uses = Uses::found(session, &now.0.text, places.clone());
+        self.everywhere = Everywhere { of: Some(now), places, is_listed: true };
+    }
+
+    /// Selects the next match, or the one before, in whichever text it is. The keyboard stays where it is.
+    pub(super) fn step_everywhere(&mut self, forward: bool) {
+        let rank = |tab: &Tab| self.order.iter().position(|other| other == tab).unwrap_or(usize::MAX);
+        let Some(buffer) = self.buffer() else { return };
+        let selected = buffer.selection().range();
+        let here = (rank(&self.current), selected.start);
+        let places = &self.everywhere.places;
+        let key = |place: &(Tab, Range<usize>)| (rank(&place.0), place.1.start);
+        let is_here = |place: &&(Tab, Range<usize>)| key(place) == here && place.1 == selected;
+        let found = if forward {
+            places.iter().find(|p| key(p) >= here && !is_here(p)).or(places.first())
+        } else {
+            places.iter().rev().find(|p| key(p) < here).or(places.last())
+        };
+        let Some((tab, range)) = found.cloned() else { return };
+        if let Some(editor) = self.editors.get_mut(&tab) {
+            editor.edit(|buffer| buffer.select(range.start, range.end));
+            editor.reveal();
+        }
+        self.bring(tab);
+    }
+
+    /// Replaces every match in every text: each takes its own back by one step of undo.
+    pub(super) fn replace_everywhere(&mut self, out: &mut Outbox) {
+        let Ok(finder) = self.find.query().finder() else { return };
+        let (mut count, mut texts) = (0, 0);
+        for tab in &self.order {
+            let Some(editor) = self.editors.get_mut(tab) else { continue };
+            let matches = finder.matches(editor.buffer().text());
+            if !matches.is_empty() {
+                (count, texts) = (count + matches.len(), texts + 1);
+                editor.edit(|buffer| buffer.replace_all(&finder, &matches, self.find.with()));
+            }
+        }
+        self.tell_changed(out);
+        if count > 0 {
+            let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
+            out.ask(Command::Notify { level: Level::Info, text, path: None });
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Changes of several texts at once: a quick fix, a rename, a replacement in all passes. Each text takes its own back by
+//! its own undo.
+
+use super::CodePanel;
+use crate::{
+    gui::{editor::CodeEditor, outbox::Outbox},
+    project::Tab,
+    session::{Command, TabEdit, TabFix},
+};
+use std::{collections::BTreeMap, ops::Range};
+
+impl CodePanel {
+    /// Makes all edits of a fix. Fails where one of the texts is another by now, and then changes none.
+    pub fn apply_fix(&mut self, fix: &TabFix, out: &mut Outbox) -> Result<(), &'static str> {
+        let mut parts: BTreeMap<Tab, Vec<(Range<usize>, String)>> = BTreeMap::new();
+        for TabEdit { tab, range, replaced, text } in &fix.edits {
+            let there = self.editors.get(tab).and_then(|editor| editor.buffer().text().get(range.clone()));
+            if there != Some(replaced) {
+                return Err("The text has changed since: compile it and try again");
+            }
+            parts.entry(tab.clone()).or_default().push((range.clone(), text.clone()));
+        }
+        for (tab, mut parts) in parts {
+            parts.sort_by_key(|(range, _)| (range.start, range.end));
+            if let Some(editor) = self.editors.get_mut(&tab) {
+                editor.edit(|buffer| buffer.replace_parts(parts));
+            }
+        }
+        if let Some(tab) = fix.edits.first().map(|edit| edit.tab.clone()) {
+            self.bring(tab);
+            self.focus();
+        }
+        self.tell_changed(out);
+        Ok(())
+    }
+
+    /// Pastes over what is selected in the text in front.
+    pub fn paste(&mut self, text: String) {
+        if let Some(editor) = self.editors.get_mut(&self.current) {
+            editor.paste(text);
+        }
+    }
+
+    /// Tells the session of the texts that have changed.
+    pub(super) fn tell_changed(&mut self, out: &mut Outbox) {
+        for (tab, editor) in &mut self.editors {
+            if let Some(text) = CodeEditor::take_changed(editor) {
+                out.ask(Command::EditText { tab: tab.clone(), text: text.to_owned() });
+                self.problem = None;
+                // Its places are of the old text.
+                self.uses = None;
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! A click on a button beside a field leaves the keyboard with the field, in every panel that has both.
+
+use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
+use crate::{
+    gui::dock::Panel,
+    session::{
+        Command,
+        comparing::{Against, Compared},
+        probe::ProbePlace,
+    },
+};
+use egui::{
+    Event, Id, Key, Modifiers, Pos2, Rect,
+    accesskit::{Action, Role},
+    pos2,
+};
+use egui_kittest::kittest::NodeT as _;
+
+const MARK: &str = "§";
+
+/// A widget that takes text or can be clicked: its place, its name, and its id.
+struct Widget {
+    rect: Rect,
+    name: String,
+    id: u64,
+}
+
+fn widgets(stage: &Stage, roles: &[Role]) -> Vec<Widget> {
+    let mut found = Vec::new();
+    for node in stage.root().children_recursive() {
+        let node = node.accesskit_node();
+        let (data, is_of_code) = (node.data(), node.label().is_some_and(|label| label.starts_with("Code of")));
+        if data.is_hidden()
+            || data.is_disabled()
+            || is_of_code
+            || !roles.contains(&data.role())
+            || !data.supports_action(Action::Focus)
+        {
+            continue;
+        }
+        let Some(b) = node.raw_bounds() else { continue };
+        let rect = Rect::from_min_max(pos2(b.x0 as f32, b.y0 as f32), pos2(b.x1 as f32, b.y1 as f32));
+        let own = [node.label(), node.value(), data.placeholder().map(str::to_owned)];
+        let name = own.into_iter().flatten().find(|name| !name.trim().is_empty()).unwrap_or_default();
+        let is_seen = stage.ctx.content_rect().shrink(2.0).contains_rect(rect);
+        if is_seen && rect.is_positive() {
+            found.push(Widget { rect, name, id: node.locate().0.0 });
+        }
+    }
+    found
+}
+
+fn click_at(stage: &mut Stage, at: Pos2) {
+    stage.hover_at(at);
+    stage.drag_at(at);
+    stage.drop_at(at);
+    stage.run_steps(4);
+}
+
+fn focused(stage: &Stage) -> Option<u64> {
+    stage.ctx.memory(|m| m.focused()).map(|id: Id| id.value())
+}
+
+/// Buttons that lead to another place of the window, and take the keyboard there.
+const LEADING: [&str; 5] = ["Edit its text", "Show its picture", "Image:8", "Go", "Start"];
+
+/// Clicks the buttons that stand next to each field in its panel, and types. Returns the pairs that were tried.
+fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize {
+    let fields = [Role::TextInput, Role::SpinButton, Role::MultilineTextInput, Role::SearchInput];
+    let buttons = [Role::Button, Role::CheckBox, Role::RadioButton, Role::Switch];
+    set_up(stage);
+    let mut pairs = Vec::new();
+    for field in widgets(stage, &fields).into_iter().take(8) {
+        let group = |stage: &Stage, at: Pos2| {
+            let layer = stage.ctx.layer_id_at(at);
+            // What lies over the panels is a group of its own.
+            let is_over = layer.is_some_and(|layer| layer.order != egui::Order::Background);
+            (layer, stage.state().shell.stop_at(at).filter(|_| !is_over))
+        };
+        let here = group(stage, field.rect.center());
+        let mut beside: Vec<Widget> = widgets(stage, &buttons);
+        beside.retain(|b| b.id != field.id && group(stage, b.rect.center()) == here);
+        let far = |b: &Widget| b.rect.center().distance(field.rect.center());
+        beside.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        pairs.extend(beside.into_iter().take(5).map(|b| (field.name.clone(), field.rect, b.name, b.rect)));
+    }
+    let count = pairs.len();
+    for (field_name, field_rect, button_name, button_rect) in pairs {
+        press(stage, Modifiers::NONE, Key::Escape);
+        set_up(stage);
+        let here = |stage: &Stage| {
+            let near = |w: &Widget| w.rect.center().distance(field_rect.center()) < 12.0;
+            widgets(stage, &fields).into_iter().find(near)
+        };
+        let Some(field) = here(stage) else { continue };
+        click_at(stage, field.rect.center());
+        if focused(stage) != Some(field.id) {
+            // A number is edited by a click, a field by a press.
+            continue;
+        }
+        let pair = format!("{state}: {field_name:?} beside {button_name:?}");
+        let texts = |stage: &Stage| -> Vec<String> {
+            let session = &stage.state().session;
+            session.tabs().iter().map(|tab| session.text(tab).to_owned()).collect()
+        };
+        let before = texts(stage);
+        click_at(stage, button_rect.center());
+        let is_led_away = LEADING.contains(&button_name.as_str());
+        if let (Some(_), false) = (here(stage), is_led_away) {
+            let popup = egui::Popup::is_any_open(&stage.ctx);
+            let is_of_field = widgets(stage, &fields).iter().any(|w| focused(stage) == Some(w.id));
+            assert!(popup || is_of_field, "{pair}: the keyboard is at {:?}", focused(stage));
+            stage.event(Event::Text(MARK.into()));
+            stage.run_steps(2);
+            assert!(!texts(stage).iter().any(|text| text.contains(MARK)), "{pair}: what is typed goes into the code");
+            assert!(popup || texts(stage).len() >= before.len());
+        }
+    }
+    count
+}
+
+#[test]
+fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
+    let Some(mut stage) = open(false) else { return };
+    let open_panel = |panel: Panel| {
+        move |stage: &mut Stage| {
+            for other in Panel::ALL {
+                stage
+                    .state_mut()
+                    .shell
+                    .set_open(other, matches!(other, Panel::Code | Panel::Picture) || other == panel);
+            }
+            stage.run_steps(4);
+        }
+    };
+    let by_keys = |modifiers: Modifiers, key: Key, field: &'static str| {
+        move |stage: &mut Stage| {
+            if stage.state().shell.place(field).is_none() {
+                press(stage, modifiers, key);
+            }
+        }
+    };
+    stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.state_mut().shell.set_open(Panel::Trace, true);
+    until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
+    stage.state_mut().session.apply(Command::Compare(Some(Against::LastSave)));
+    until(&mut stage, "a comparison", |stage| {
+        matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
+    });
+    let mut tried = Vec::new();
+    let mut all = |stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)| {
+        let count = try_all(stage, state, set_up);
+        eprintln!("{state}: {count} pairs");
+        tried.push((state.to_owned(), count));
+        press(stage, Modifiers::NONE, Key::Escape);
+        press(stage, Modifiers::NONE, Key::Escape);
+    };
+    all(&mut stage, "trace", &|stage| {
+        if stage.state().session.trace().traced.is_none() {
+            stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+            until(stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
+        }
+        open_panel(Panel::Trace)(stage);
+    });
+    for panel in [Panel::Compare, Panel::Buffers, Panel::Uniforms, Panel::Measurements, Panel::Costs, Panel::Lab] {
+        all(&mut stage, panel.title(), &open_panel(panel));
+    }
+    all(&mut stage, "find and replace", &by_keys(CTRL, Key::H, "field:replace"));
+    all(&mut stage, "a line", &by_keys(CTRL, Key::G, "field:line"));
+    all(&mut stage, "palette", &by_keys(CTRL_SHIFT, Key::P, "palette"));
+    all(&mut stage, "passes", &|stage| {
+        by_keys(CTRL_SHIFT, Key::B, "passes:row:Buffer A")(stage);
+        click(stage, "passes:row:Buffer A");
+    });
+    press(&mut stage, CTRL_SHIFT, Key::B);
+    all(&mut stage, "help", &by_keys(Modifiers::NONE, Key::F1, "field:help"));
+    all(&mut stage, "time", &|stage| {
+        if !egui::Popup::is_any_open(&stage.ctx) {
+            click(stage, "button:time");
+        }
+    });
+    all(&mut stage, "a colour", &|stage| {
+        open_panel(Panel::Uniforms)(stage);
+        if !egui::Popup::is_any_open(&stage.ctx) {
+            click(stage, "uniform:tint");
+        }
+    });
+    all(&mut stage, "probe", &|stage| {
+        if stage.state().session.probe().is_none() {
+            let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
+            let at = stage.state().session.text(&tab).find("red * at").unwrap();
+            stage.state_mut().session.apply(Command::Probe(Some(ProbePlace { tab, at, visit: 0 })));
+        }
+        until(stage, "a probe", |stage| stage.state().shell.place("probe:close").is_some());
+    });
+    all(&mut stage, "gallery", &|stage| {
+        if stage.state().shell.place("gallery:search").is_none() {
+            press(stage, CTRL_SHIFT, Key::G);
+        }
+    });
+    let pairs: usize = tried.iter().map(|(_, count)| count).sum();
+    assert!(pairs > 40, "{tried:?}");
+    for state in ["find and replace", "trace", "passes", "probe"] {
+        assert!(tried.iter().any(|(name, count)| name == state && *count > 0), "{state}: {tried:?}");
+    }
+}

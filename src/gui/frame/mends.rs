@@ -1,0 +1,312 @@
+//! Quick fixes, renaming, finding in all passes, the code's menu, breakpoints and compiling on save, by keys and clicks.
+
+use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
+use crate::{
+    gui::dock::Panel,
+    project::{PassId, Tab},
+    session::Command,
+};
+use egui::{Event, Key, Modifiers, PointerButton};
+
+const IMAGE: Tab = Tab::Pass(PassId::Image);
+
+fn buffer() -> Tab {
+    Tab::Pass(PassId::Buffer("A".into()))
+}
+
+fn text(stage: &Stage, tab: &Tab) -> String {
+    stage.state().session.text(tab).to_owned()
+}
+
+fn settle(stage: &mut Stage) {
+    stage.run_steps(2);
+    until(stage, "compiled", |stage| !stage.state().session.compile_state().compiling);
+    stage.run_steps(3);
+}
+
+/// Types into the code, as a hand does.
+fn write(stage: &mut Stage, new: &str) {
+    focus_code(stage);
+    press(stage, CTRL, Key::A);
+    stage.event(Event::Paste(new.into()));
+    stage.run_steps(2);
+    stage.state_mut().session.apply(Command::CompileNow);
+    settle(stage);
+}
+
+fn focus_code(stage: &mut Stage) {
+    let at = stage.state().shell.place("code").unwrap().center();
+    stage.hover_at(at);
+    stage.drag_at(at);
+    stage.drop_at(at);
+    stage.run_steps(3);
+    assert!(stage.state().shell.has_keys(&stage.ctx));
+}
+
+fn key(stage: &mut Stage, key: Key) {
+    press(stage, Modifiers::NONE, key);
+}
+
+fn type_text(stage: &mut Stage, text: &str) {
+    stage.event(Event::Text(text.into()));
+    stage.run_steps(2);
+}
+
+const OLD: &str = "void main() {\n    vec4 a = texture2D(iChannel0, vec2(1));\n    gl_FragColor = a;\n}\n";
+
+#[test]
+fn a_problem_is_fixed_by_keys_at_the_caret_and_by_its_row() {
+    let Some(mut stage) = open(false) else { return };
+    write(&mut stage, OLD);
+    assert_eq!(stage.state().session.diagnostics().iter().filter(|d| d.tab() == Some(&IMAGE)).count(), 2);
+    // Ctrl+. at the first line, and Enter.
+    press(&mut stage, CTRL, Key::Home);
+    press(&mut stage, CTRL, Key::Period);
+    assert!(stage.state().shell.place("fixes").is_some(), "{:?}", texts(&stage));
+    has(&named(&stage, "fixes"), &["Make it `mainImage`"]);
+    key(&mut stage, Key::Escape);
+    assert!(stage.state().shell.place("fixes").is_none() && text(&stage, &IMAGE) == OLD);
+    press(&mut stage, CTRL, Key::Period);
+    key(&mut stage, Key::Enter);
+    let mended = text(&stage, &IMAGE);
+    assert!(mended.starts_with("void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"), "{mended}");
+    assert!(mended.contains("    fragColor = a;\n"), "{mended}");
+    // One step of undo takes it back, and redo does it again.
+    press(&mut stage, CTRL, Key::Z);
+    assert_eq!(text(&stage, &IMAGE), OLD);
+    press(&mut stage, CTRL_SHIFT, Key::Z);
+    assert_eq!(text(&stage, &IMAGE), mended);
+    settle(&mut stage);
+    // The next by the button in the list.
+    click(&mut stage, "problem:0:fix");
+    assert!(text(&stage, &IMAGE).contains("texture(iChannel0"), "{}", text(&stage, &IMAGE));
+    settle(&mut stage);
+    assert!(stage.state().session.diagnostics().iter().all(|d| d.tab() != Some(&IMAGE)));
+    // Where nothing is wrong the list says so, and another key goes to the code.
+    press(&mut stage, CTRL, Key::Period);
+    assert!(texts(&stage).iter().any(|text| text == "No quick fix for this line"));
+    key(&mut stage, Key::Escape);
+    type_text(&mut stage, "/");
+    assert!(stage.state().shell.place("fixes").is_none());
+}
+
+#[test]
+fn a_fix_of_a_text_that_is_another_by_now_changes_nothing() {
+    let Some(mut stage) = open(false) else { return };
+    write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(p.x * 2); }");
+    let problem = stage.state().session.diagnostics().iter().find(|d| !d.fixes.is_empty()).cloned().unwrap();
+    let other = "void mainImage(out vec4 o, in vec2 p) { /* other */ o = vec4(p.x * 2); }";
+    write(&mut stage, other);
+    stage.state_mut().shell.ask_fix(problem.fixes[0].clone());
+    stage.run_steps(3);
+    assert_eq!(text(&stage, &IMAGE), other);
+    assert!(stage.state().session.notices().last().unwrap().text.contains("changed since"));
+}
+
+const SHARED: &str = "float glow(float x) {\n    return 0.5 * x;\n}\n";
+const USES: &str = "#include \"lib/glow.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) {\n    float glare = 1.0;\n    o = vec4(glow(glare)); // glow\n}\n";
+
+fn with_shared() -> Option<Stage> {
+    let mut stage = open(false)?;
+    let folder = stage.state().folder.path().to_owned();
+    std::fs::create_dir(folder.join("lib")).unwrap();
+    std::fs::write(folder.join("lib/glow.glsl"), SHARED).unwrap();
+    for tab in ["image.glsl", "buffer_a.glsl"] {
+        std::fs::write(folder.join(tab), USES).unwrap();
+    }
+    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
+    stage.state_mut().session.apply(Command::Pause);
+    until(&mut stage, "compiled", |stage| {
+        let state = stage.state().session.compile_state();
+        !state.compiling && state.last.is_some() && stage.state().session.tabs().len() == 3
+    });
+    stage.run_steps(4);
+    Some(stage)
+}
+
+fn shared() -> Tab {
+    Tab::Included("lib/glow.glsl".into())
+}
+
+#[test]
+fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
+    let Some(mut stage) = with_shared() else { return };
+    focus_code(&mut stage);
+    // To the call, by its name.
+    press(&mut stage, CTRL, Key::Home);
+    (0..3).for_each(|_| key(&mut stage, Key::ArrowDown));
+    (0..15).for_each(|_| key(&mut stage, Key::ArrowRight));
+    key(&mut stage, Key::F2);
+    assert!(stage.state().shell.place("field:rename").is_some(), "{:?}", texts(&stage));
+    // A name that is taken here keeps the bar open, and says why.
+    type_text(&mut stage, "glare");
+    key(&mut stage, Key::Enter);
+    assert!(stage.state().shell.place("rename:wrong").is_some());
+    press(&mut stage, CTRL, Key::A);
+    type_text(&mut stage, "mix");
+    key(&mut stage, Key::Enter);
+    assert!(stage.state().shell.place("rename:wrong").is_some());
+    assert_eq!(text(&stage, &IMAGE), USES);
+    press(&mut stage, CTRL, Key::A);
+    type_text(&mut stage, "shine");
+    key(&mut stage, Key::Enter);
+    let renamed = USES.replace("glow(", "shine(");
+    for tab in [IMAGE, buffer()] {
+        assert_eq!(text(&stage, &tab), renamed, "{tab:?}");
+    }
+    assert_eq!(text(&stage, &shared()), SHARED.replace("glow", "shine"));
+    settle(&mut stage);
+    assert!(stage.state().session.diagnostics().is_empty(), "{:?}", stage.state().session.diagnostics());
+    // Each text by its own undo.
+    press(&mut stage, CTRL, Key::Z);
+    let now: Vec<bool> = [IMAGE, buffer(), shared()].iter().map(|tab| text(&stage, tab).contains("shine")).collect();
+    assert_eq!(now.iter().filter(|has| **has).count(), 2, "{now:?}");
+    // What is the language's own has no other name.
+    write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
+    press(&mut stage, CTRL, Key::Home);
+    (0..8).for_each(|_| key(&mut stage, Key::ArrowRight));
+    key(&mut stage, Key::F2);
+    assert!(stage.state().shell.place("field:rename").is_none());
+}
+
+#[test]
+fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
+    let Some(mut stage) = with_shared() else { return };
+    focus_code(&mut stage);
+    press(&mut stage, CTRL_SHIFT, Key::F);
+    press(&mut stage, CTRL, Key::H);
+    click(&mut stage, "field:find");
+    press(&mut stage, CTRL, Key::A);
+    type_text(&mut stage, "glow");
+    stage.run_steps(2);
+    // In the line that includes, the call and the comment of two passes, and in the included file.
+    assert!(texts(&stage).iter().any(|text| text == "7"), "{:?}", texts(&stage));
+    assert!(texts(&stage).iter().any(|text| text == "7 places"));
+    // Enter goes on to the next text, and the field keeps the keyboard.
+    let mut seen = std::collections::BTreeSet::new();
+    for _ in 0..7 {
+        key(&mut stage, Key::Enter);
+        seen.insert(stage.state().shell.caret().0.title());
+    }
+    assert_eq!(seen.len(), 3, "{seen:?}");
+    press(&mut stage, CTRL, Key::A);
+    type_text(&mut stage, "float");
+    click(&mut stage, "field:replace");
+    type_text(&mut stage, "highp float");
+    click(&mut stage, "find:replace-all");
+    for (tab, old) in [(IMAGE, USES), (buffer(), USES), (shared(), SHARED)] {
+        assert_eq!(text(&stage, &tab), old.replace("float", "highp float"), "{tab:?}");
+    }
+    assert!(stage.state().session.notices().last().unwrap().text.starts_with("Replaced 4 in 3 texts"));
+    key(&mut stage, Key::Escape);
+    for (tab, old) in [("tab:Image", USES), ("tab:Buffer A", USES)] {
+        click(&mut stage, tab);
+        press(&mut stage, CTRL, Key::Z);
+        let current = stage.state().shell.caret().0;
+        assert_eq!(text(&stage, &current), old);
+    }
+    // The bar is of one text again when it is switched.
+    press(&mut stage, CTRL_SHIFT, Key::F);
+    press(&mut stage, CTRL_SHIFT, Key::F);
+    type_text(&mut stage, "glow");
+    assert!(!texts(&stage).iter().any(|text| text.ends_with("places")));
+}
+
+#[test]
+fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
+    let Some(mut stage) = with_shared() else { return };
+    focus_code(&mut stage);
+    press(&mut stage, CTRL, Key::Home);
+    press(&mut stage, Modifiers::SHIFT, Key::F10);
+    let wanted = ["Cut", "Copy", "Paste", "Go to definition", "Find references", "Rename symbol…", "Toggle breakpoint"];
+    let names = named(&stage, "the code's menu");
+    wanted.iter().for_each(|name| assert!(names.iter().any(|n| n.starts_with(name)), "{name}: {names:?}"));
+    click(&mut stage, "code-menu:definition");
+    stage.run_steps(3);
+    assert_eq!(stage.state().shell.caret().0, shared(), "the line that includes it leads there");
+    // A right click is about the place that was clicked.
+    click(&mut stage, "tab:Image");
+    let at = stage.state().shell.place("code").unwrap().center();
+    stage.event(Event::PointerMoved(at));
+    for pressed in [true, false] {
+        stage.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        stage.run_steps(2);
+    }
+    assert!(stage.state().shell.place("code-menu:rename").is_some());
+    key(&mut stage, Key::Escape);
+    // Cut takes the line, which undo brings back.
+    focus_code(&mut stage);
+    press(&mut stage, CTRL, Key::Home);
+    press(&mut stage, Modifiers::SHIFT, Key::F10);
+    click(&mut stage, "code-menu:cut");
+    stage.run_steps(3);
+    assert_eq!(text(&stage, &IMAGE), USES.split_once('\n').unwrap().1);
+    stage.state_mut().shell.focus_code();
+    stage.run_steps(2);
+    press(&mut stage, CTRL, Key::Z);
+    assert_eq!(text(&stage, &IMAGE), USES);
+}
+
+#[test]
+fn a_breakpoint_moves_to_a_statement_or_is_refused_aloud() {
+    let Some(mut stage) = open(false) else { return };
+    write(
+        &mut stage,
+        "// About.\nvoid mainImage(out vec4 o, in vec2 p) {\n    // More.\n\n    o = vec4(1.0);\n}\n// End.\n",
+    );
+    stage.state_mut().shell.set_open(Panel::Trace, true);
+    stage.run_steps(3);
+    focus_code(&mut stage);
+    let go = |stage: &mut Stage, line: usize| {
+        press(stage, CTRL, Key::Home);
+        (0..line).for_each(|_| key(stage, Key::ArrowDown));
+        key(stage, Key::F9);
+    };
+    for line in [0, 2, 3] {
+        go(&mut stage, line);
+        assert_eq!(stage.state().shell.breakpoints(), [(IMAGE, 4)], "line {line}");
+    }
+    go(&mut stage, 4);
+    assert_eq!(stage.state().shell.breakpoints(), []);
+    go(&mut stage, 6);
+    assert_eq!(stage.state().shell.breakpoints(), []);
+    assert!(stage.state().session.notices().last().unwrap().text.starts_with("No statement stands here"));
+}
+
+#[test]
+fn edits_wait_for_a_save_where_a_person_wants_it() {
+    let Some(mut stage) = open(false) else { return };
+    choose(&mut stage, "toggle compile on save");
+    stage.run_steps(2);
+    focus_code(&mut stage);
+    press(&mut stage, CTRL, Key::A);
+    stage.event(Event::Paste("void mainImage(out vec4 o, in vec2 p) { o = none; }".into()));
+    stage.run_steps(3);
+    let session = &stage.state().session;
+    assert!(session.waits_for_save() && !session.compile_state().compiling);
+    std::thread::sleep(2 * session.edit_debounce());
+    stage.run_steps(5);
+    assert!(stage.state().session.diagnostics().iter().all(|d| !d.message.contains("none")));
+    assert!(
+        texts(&stage).iter().any(|text| text == "Edited: save to compile") || stage.state().session.waits_for_save()
+    );
+    press(&mut stage, CTRL, Key::S);
+    until(&mut stage, "an error", |stage| {
+        stage.state().session.diagnostics().iter().any(|d| d.message.contains("none"))
+    });
+    assert!(!stage.state().session.waits_for_save());
+    // Switched off, what waits is compiled at once.
+    press(&mut stage, CTRL, Key::A);
+    stage.event(Event::Paste("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }".into()));
+    stage.run_steps(3);
+    assert!(stage.state().session.waits_for_save());
+    choose(&mut stage, "toggle compile on save");
+    until(&mut stage, "a good compile", |stage| {
+        stage.state().session.diagnostics().is_empty() && !stage.state().session.compile_state().compiling
+    });
+}
