@@ -87,9 +87,9 @@ pub(super) fn text(
             painter.rect_filled(area, 0.0, theme::of(ui).code.caret_line);
         }
         if look.debug.line == Some(line) {
-            painter.rect_filled(area, 0.0, theme::of(ui).warning.gamma_multiply(0.1));
+            painter.rect_filled(area, 0.0, theme::of(ui).warning.gamma_multiply(0.08));
             if let Some(range) = &look.debug.range {
-                fill_range(ui, lines, buffer, row, range, theme::of(ui).warning.gamma_multiply(0.08));
+                fill_range(ui, lines, buffer, row, range, theme::of(ui).warning.gamma_multiply(0.06));
             }
         }
         let in_sight = laid_out.bytes().unwrap_or(0..0);
