@@ -246,8 +246,12 @@ impl Focus {
             self.inside(widgets, stop?).into_iter().map(place).collect::<Option<Vec<_>>>()
         });
         let is_field = |id: Id| egui::text_edit::TextEditState::load(ui.ctx(), id).is_some();
-        let fields = inside?.into_iter().filter(|(id, _)| is_field(*id));
-        fields.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
+        let nearest = |of: &dyn Fn(Id) -> bool| {
+            let all = inside.as_ref()?.iter().filter(|(id, _)| of(*id));
+            all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| *id)
+        };
+        // A number that is not being typed is no field yet.
+        nearest(&is_field).or_else(|| nearest(&|_| true))
     }
 
     /// The innermost panel that a widget lies in.

@@ -181,7 +181,7 @@ fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
     stage.run_steps(2);
     // In the line that includes, the call and the comment of two passes, and in the included file.
     assert!(texts(&stage).iter().any(|text| text == "7"), "{:?}", texts(&stage));
-    assert!(texts(&stage).iter().any(|text| text == "7 places"));
+    assert!(texts(&stage).iter().any(|text| text == "7 references"));
     // Enter goes on to the next text, and the field keeps the keyboard.
     let mut seen = std::collections::BTreeSet::new();
     for _ in 0..7 {
