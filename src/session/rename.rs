@@ -32,7 +32,7 @@ impl Session {
         let to = to.trim();
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if to.is_empty() || !to.chars().all(is_name) || to.starts_with(|c: char| c.is_ascii_digit()) {
-            return Err(format!("\"{to}\" is no name: use letters, digits and _, a letter first"));
+            return Err(format!("\"{to}\" is not a name: use letters, digits and _, a letter first"));
         }
         if let Some(why) = glsl::taken(to) {
             return Err(format!("`{to}` cannot be declared: {why}"));
@@ -49,7 +49,7 @@ impl Session {
                 Some((here, tab)) if here == name => {
                     edits.push(TabEdit { tab, range, replaced: name.clone(), text: to.to_owned() });
                 }
-                _ => return Err(format!("`{name}` stands somewhere that cannot be edited here")),
+                _ => return Err(format!("`{name}` is used somewhere that cannot be edited here")),
             }
         }
         let mut renamed = project.clone();
@@ -87,7 +87,7 @@ impl Session {
             return Err(nothing());
         }
         if glsl::taken(&name).is_some() {
-            return Err(format!("`{name}` is given by the language or the site: it keeps its name"));
+            return Err(format!("`{name}` is defined by GLSL or Shadertoy and cannot be renamed"));
         }
         let project = self.project();
         let id = project.id_of(tab).ok_or_else(nothing)?;

@@ -199,10 +199,10 @@ fn notices_end_with_what_they_are_about() {
     // Files that make no project, until they do.
     stage.write("eddy.toml", "eddy = ");
     stage.session.apply(Command::Focus(true));
-    stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("stay as they are")));
+    stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("are unchanged")));
     stage.write("eddy.toml", MANIFEST);
     stage.session.apply(Command::Focus(true));
-    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("stay as they are")));
+    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("are unchanged")));
     // A file that is gone, until it is back.
     fs::remove_file(stage.path("image.glsl")).unwrap();
     stage.session.apply(Command::Focus(true));

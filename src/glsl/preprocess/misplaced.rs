@@ -45,7 +45,7 @@ impl Preprocessor<'_, '_> {
         let word = self.text(first.span).to_owned();
         let edit = Edit { span: Span { end: hash as u32, ..first.span }, text: String::new() };
         self.report.add(
-            Diagnostic::error(first.span, format!("`{word}` stands before `#{name}`, which must begin its line"))
+            Diagnostic::error(first.span, format!("`{word}` comes before `#{name}`, which must begin its line"))
                 .hint(format!("delete `{word}`"))
                 .fix(Fix::new(format!("Delete `{word}`"), vec![edit])),
         );

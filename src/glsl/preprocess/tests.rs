@@ -273,7 +273,7 @@ fn other_directives() {
     gives("#if 0\n#include <a>\n#import \"a\"\n#pragma include \"a\"\n#endif\nx", "x");
     refuses("#foo", "no directive");
     refuses("#1", "name of a directive");
-    refuses("a #define B", "`a` stands before `#define`");
+    refuses("a #define B", "`a` comes before `#define`");
     refuses("a #b", "no meaning here");
 }
 

@@ -39,6 +39,8 @@ pub struct Focus {
     /// The field that had the keyboard when the pointer was pressed, and where that was: a press takes the keyboard from
     /// it, and what is beside it takes none.
     pressed_from: Option<Left>,
+    /// The same in the frame after: what was pressed may have laid the panel out anew, and the field is another one then.
+    settling: Option<Left>,
     /// A popup was open in the frame before, opened by this widget.
     popup_of: Option<Option<Id>>,
     /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
@@ -161,7 +163,9 @@ impl Focus {
         self.place = None;
         let had = std::mem::replace(&mut self.had, ui.memory(|m| m.focused()));
         let is_held = ui.input(|i| i.pointer.any_down());
-        let field = if is_held { None } else { self.pressed_from.take().and_then(|from| self.field_beside(ui, from)) };
+        let left = if is_held { None } else { self.pressed_from.take() };
+        let field = left.as_ref().or(self.settling.as_ref()).and_then(|left| self.field_beside(ui, left));
+        self.settling = left;
         match (is_popup_open, self.popup_of) {
             (true, None) => self.popup_of = Some(field.or(had)),
             (false, Some(opener)) => {
@@ -232,7 +236,7 @@ impl Focus {
 
     /// Returns the field that a press took the keyboard from, if what was pressed lies in the same panel or window. Where
     /// the panel has been laid out anew, the field that is nearest to where it was.
-    fn field_beside(&self, ui: &Ui, left: Left) -> Option<Id> {
+    fn field_beside(&self, ui: &Ui, left: &Left) -> Option<Id> {
         let stop = left.stop.and_then(|name| self.stops.iter().find(|stop| stop.name == name));
         if left.stop.is_some() && stop.is_none_or(|stop| !stop.rect.contains(left.at)) {
             return None;

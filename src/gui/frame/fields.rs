@@ -61,8 +61,9 @@ fn focused(stage: &Stage) -> Option<u64> {
     stage.ctx.memory(|m| m.focused()).map(|id: Id| id.value())
 }
 
-/// Buttons that lead to another place of the window, and take the keyboard there.
-const LEADING: [&str; 5] = ["Edit its text", "Show its picture", "Image:8", "Go", "Start"];
+/// Buttons that lead to another place of the window, and take the keyboard there; the last one lays its panel out anew,
+/// without the number that had the keyboard.
+const LEADING: [&str; 6] = ["Edit its text", "Show its picture", "Image:8", "Go", "Start", "draw only a region"];
 
 /// Clicks the buttons that stand next to each field in its panel, and types. Returns the pairs that were tried.
 fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize {

@@ -275,7 +275,7 @@ fn a_breakpoint_moves_to_a_statement_or_is_refused_aloud() {
     assert_eq!(stage.state().shell.breakpoints(), []);
     go(&mut stage, 6);
     assert_eq!(stage.state().shell.breakpoints(), []);
-    assert!(stage.state().session.notices().last().unwrap().text.starts_with("No statement stands here"));
+    assert!(stage.state().session.notices().last().unwrap().text.starts_with("No statement here"));
 }
 
 #[test]

@@ -121,8 +121,7 @@ impl Debugger {
         match at(line) {
             Some(at) => drop(self.breakpoints.remove(at)),
             None => {
-                let line =
-                    session.stop_line(tab, line).ok_or("No statement stands here or below: no breakpoint is set")?;
+                let line = session.stop_line(tab, line).ok_or("No statement here or below: no breakpoint is set")?;
                 if at(line).is_some() {
                     return Ok(());
                 }

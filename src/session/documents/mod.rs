@@ -203,7 +203,7 @@ impl Documents {
         self.revision += 1;
         let mut merge = Merge::default();
         // Those that only a text here includes.
-        disk.read_included(self.current.includes.iter().filter(|i| i.is_edited).map(|i| i.source.name.clone()));
+        disk.read_included(self.current.includes.iter().map(|i| i.source.name.clone()));
         self.keep_gone(&mut disk, &mut merge);
         if !structure::is_same(&disk, &self.saved) {
             if !self.is_structure_dirty() {
