@@ -194,7 +194,7 @@ fn sizes(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
     ui.colored_label(theme::of(ui).weak, "Scale");
     for scale in SCALES {
         let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
-        if ui.selectable_label(on, scale.name()).clicked() {
+        if out.clicked(&format!("scale:{}", scale.name()), &ui.selectable_label(on, scale.name())) {
             out.act(Action::Picture(PictureAction::Scale(scale)));
         }
     }

@@ -38,6 +38,11 @@ impl Session {
             Ok(told) => told,
             Err(why) => return self.not_checked(&why),
         };
+        // A frame of another size was drawn meanwhile, and is the picture that is shown.
+        if !self.auditing.is_of(self.frames_drawn) && !self.is_playing() {
+            self.auditing.is_due = true;
+            return;
+        }
         let count = match findings.len() {
             0 => "no undefined behaviour and no operation with large errors".to_owned(),
             1 => "one finding is in the list of problems".to_owned(),

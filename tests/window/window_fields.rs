@@ -129,7 +129,7 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     window.wait_until("an error", "compiled", |e| e["compiling"] == false && e["ok"] == false);
     window.click_on("tab:Image");
     window.click_on("problem:0");
-    window.keys(&["ctrl+z"]);
+    window.keys(&["ctrl+End", "shift+Home", "BackSpace"]);
     window.type_text("// end");
     let text = saved(&mut window, home.path(), "lib/tone.glsl");
     assert_eq!(text, format!("// by hand\n{TONE}// end"));

@@ -43,7 +43,7 @@ fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
     window.type_text("// ");
     window.keys(&["ctrl+shift+p"]);
     window.shows("field:palette");
-    window.type_text("copy below");
+    window.type_text("copy down");
     window.shows("palette:copy-lines-down");
     window.keys(&["Return"]);
     window.hides("palette");

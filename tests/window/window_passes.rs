@@ -218,7 +218,6 @@ fn a_pass_of_any_name_is_added_and_typed_into() {
     display.shot("add-pass.png");
     window.keys(&["Return"]);
     window.shows("tab:Buffer velocity");
-    window.shows("passes:row:Buffer velocity");
     window.keys(&["ctrl+s"]);
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     assert!(folder.join("buffer_velocity.glsl").exists());

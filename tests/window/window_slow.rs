@@ -187,7 +187,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     fs::write(&loss, "").unwrap();
     window.move_to((away.0 + 1, away.1));
     window.wait_for("the word of it", |e| {
-        e["event"] == "notice" && e["text"].as_str().unwrap().contains("the window has another now")
+        e["event"] == "notice" && e["text"].as_str().unwrap().contains("the window has switched to a new one")
     });
     std::thread::sleep(Duration::from_millis(500));
     let after = shot("after.png");

@@ -202,6 +202,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
+    window.wait_until("the larger picture", "layout", |e| e["canvas"][0].as_u64() > Some(500));
     // The action, then a click.
     window.keys(&["ctrl+t"]);
     let middle = window.picture_point(0.5, 0.5);
