@@ -251,8 +251,8 @@ fn small_arrays_are_chosen_from() {
         format!("{three} a[n % 3] = p; o.xy = a[n % 2];"),
         format!("{three} a[1].x = 4.0; o.xy = a[n % 3];"),
         format!("{three} change(a); o.xy = a[n % 3];"),
-        format!("vec2 a[3]; for (int i = 0; i < n; i++) {{ o.xy += a[i % 3]; a = vec2[](p, p * 2.0, p + 1.0); }}"),
-        format!("vec2 a[3]; if (n > 2) a = vec2[](p, p * 2.0, p + 1.0); o.xy = a[n % 3];"),
+        "vec2 a[3]; for (int i = 0; i < n; i++) { o.xy += a[i % 3]; a = vec2[](p, p * 2.0, p + 1.0); }".to_owned(),
+        "vec2 a[3]; if (n > 2) a = vec2[](p, p * 2.0, p + 1.0); o.xy = a[n % 3];".to_owned(),
         "float a[9] = float[](p.x, 1., 2., 3., 4., 5., 6., 7., p.y); o.x = a[n % 9];".to_owned(),
     ];
     for body in &chosen {

@@ -221,7 +221,7 @@ fn what_was_done_to_a_project_is_not_done_to_the_next() {
     window.keys(&["Escape"]);
     // A breakpoint, a traced pixel, a watch, a value, a notice.
     window.click_on("editor");
-    window.keys(&["ctrl+shift+d", "F9"]);
+    window.keys(&["ctrl+Home", "Down", "ctrl+shift+d", "F9"]);
     window.wait_until("the breakpoint", "trace", |e| e["breakpoints"].as_array().is_some_and(|list| list.len() == 1));
     let middle = window.picture_point(0.5, 0.5);
     window.click_holding(&["ctrl", "shift"], middle);
