@@ -134,5 +134,5 @@ fn the_command_line_says_bytes_beside_milliseconds() {
     let sum: u64 = passes.iter().map(|p| p["moved_bytes"].as_u64().unwrap()).sum();
     assert_eq!((line["moved_bytes"].as_u64(), line["clock"].as_str()), (Some(sum), Some("timestamps")));
     let words = bench(&[]);
-    assert!(words.contains("all passes") && words.contains("MiB held") && words.contains("MiB traffic"), "{words}");
+    assert!(words.contains("all passes") && words.contains("MiB memory") && words.contains("MiB traffic"), "{words}");
 }
