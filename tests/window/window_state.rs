@@ -275,6 +275,8 @@ fn the_question_of_recovered_work_stands_where_it_came() {
         assert!(Instant::now() < end, "no recovery file");
         std::thread::sleep(Duration::from_millis(20));
     }
+    // A file that is being written has another name until it is whole.
+    std::thread::sleep(Duration::from_millis(500));
     window.kill();
     for (size, arguments) in [("760x440", vec![]), ("1280x860", vec![folder.to_str().unwrap()])] {
         let mut window = Window::open_as(&display, home.path(), Some(size), &[], &arguments);
