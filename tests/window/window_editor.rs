@@ -27,7 +27,7 @@ fn go_to(window: &mut Window, line: usize, column: usize) {
 }
 
 /// Saves, and gives a file's text.
-fn saved(window: &mut Window, home: &Path, file: &str) -> String {
+pub fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
     window.keys(&["ctrl+s"]);
     window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);

@@ -1,7 +1,10 @@
 //! End to end: one key is one thing, a field keeps the keyboard beside its buttons, and included files are tabs. By real
 //! keys and mouse, judged by files.
 
-use crate::support::window::{Display, Window};
+use crate::{
+    support::window::{Display, Window},
+    window_editor::saved,
+};
 use std::{fs, path::Path};
 
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p)\n{\n    o = vec4(0.5);\n}\n";
@@ -17,13 +20,6 @@ fn open<'a>(display: &'a Display, home: &Path, files: &[(&str, &str)]) -> Window
     window.click_on("editor");
     window.keys(&["ctrl+Home"]);
     window
-}
-
-fn saved(window: &mut Window, home: &Path, file: &str) -> String {
-    window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
-    fs::read_to_string(home.join("project").join(file)).unwrap()
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! `discard` ends a shader (GLSL ES 3.00, 6.4), and [`Stmt::Discard`] has that meaning. Mesa's gallivm takes the
 //! fragment out of what is drawn and goes on with it (`discard` in `lp_bld_nir_soa.c`), as long as a loop has rounds to
 //! run: a pass that discards what it does not need takes the time of the whole picture. Mesa's GLSL compiler
-//! therefore ends loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; of SPIR-V nothing does.
+//! therefore ends loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; nothing does so for SPIR-V.
 
 use crate::glsl::{
     ast::Loc,
@@ -36,19 +36,24 @@ pub(super) fn run(program: &mut Module) {
 
 /// Returns for each function whether it, or one that it calls, may discard.
 fn discards(program: &Module) -> Vec<bool> {
-    fn has_discard(block: &Block) -> bool {
-        block.iter().any(|stmt| {
-            let mut found = matches!(stmt, Stmt::Discard);
-            stmt.blocks(|block| found |= has_discard(block));
-            found
-        })
-    }
     let mut discards = Vec::with_capacity(program.functions.len());
     for f in &program.functions {
-        let calls_one = f.values().any(|(_, op)| matches!(op, Op::Call { function, .. } if discards[function.index()]));
-        discards.push(calls_one || has_discard(&f.body));
+        discards.push(may_discard(f, &f.body, &discards));
     }
     discards
+}
+
+/// Says whether a block may discard; `discards`: the functions that do.
+fn may_discard(f: &Function, block: &Block, discards: &[bool]) -> bool {
+    block.iter().any(|stmt| {
+        let mut may = match stmt {
+            Stmt::Discard => true,
+            Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if discards[function.index()]),
+            _ => false,
+        };
+        stmt.blocks(|block| may |= may_discard(f, block, discards));
+        may
+    })
 }
 
 /// The loops that a discarded fragment may come to.
@@ -86,7 +91,7 @@ impl Marked<'_> {
                 Stmt::Loop { body, continuing, .. } => {
                     let number = self.loops[index].len();
                     self.loops[index].push(false);
-                    is_discarded |= self.may_discard(f, body) || self.may_discard(f, continuing);
+                    is_discarded |= may_discard(f, body, self.discards) || may_discard(f, continuing, self.discards);
                     self.loops[index][number] = is_discarded;
                     self.block(f, index, body, is_discarded);
                     self.block(f, index, continuing, is_discarded);
@@ -98,18 +103,6 @@ impl Marked<'_> {
             }
         }
         is_discarded
-    }
-
-    fn may_discard(&self, f: &Function, block: &Block) -> bool {
-        block.iter().any(|stmt| {
-            let mut may = match stmt {
-                Stmt::Discard => true,
-                Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if self.discards[function.index()]),
-                _ => false,
-            };
-            stmt.blocks(|block| may |= self.may_discard(f, block));
-            may
-        })
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! Mesa's gallivm keeps an array that is indexed in memory, and stores to it pixel by pixel, with a branch for each
 //! (`emit_mask_scatter` in `lp_bld_nir_soa.c`): six elements of two floats are 96 branches. Comparing the index with
-//! each place takes a tenth of that. Mesa's GLSL compiler makes if-ladders or uniforms of such arrays
-//! (`lower_const_arrays_to_uniforms.cpp`); of SPIR-V nothing does.
+//! each place needs none. Mesa's GLSL compiler makes if-ladders or uniforms of such arrays
+//! (`lower_const_arrays_to_uniforms.cpp`); nothing does so for SPIR-V.
 
 use rustc_hash::FxHashMap;
 
@@ -19,7 +19,7 @@ use crate::glsl::{
 /// The most elements of such an array.
 const MOST_ELEMENTS: usize = 8;
 
-/// The most choices that the reads of an array may take together: about what filling the largest one costs.
+/// The most choices that the reads of an array may take together, so that the code does not grow out of proportion.
 const MOST_CHOICES: usize = 64;
 
 pub(super) fn run(program: &mut Module) {

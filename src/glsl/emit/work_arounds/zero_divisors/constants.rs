@@ -11,6 +11,7 @@
 use super::{
     exposed::exposed,
     known::Known,
+    leaves,
     same::is_same,
     state::{
         Held,
@@ -440,7 +441,7 @@ impl Walk<'_> {
                     State::Known(Known::literal(scalar(base), self.program[id].words[index as usize]))
                 }
                 Op::Param(param) => {
-                    let components = self.constants.components.get(param as usize).filter(|_| self.constants.is_found);
+                    let components = self.constants.components.get(param as usize);
                     components.and_then(|all| all.get(index as usize).copied()).unwrap_or_else(|| self.state(base))
                 }
                 _ => self.state(base),
@@ -535,11 +536,6 @@ fn is_zero_of_zero(op: Binary) -> (bool, bool) {
         Binary::Divide | Binary::Modulo | Binary::ShiftLeft | Binary::ShiftRight => (true, false),
         _ => (false, false),
     }
-}
-
-/// Says whether no way leads behind a block.
-fn leaves(block: &Block) -> bool {
-    matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))
 }
 
 /// Variables that a block writes.
