@@ -9,9 +9,8 @@
 //! structures have one interval, that of all their parts.
 
 use super::{
-    exposed::exposed,
+    exposed::{exposed, leaves},
     known::Known,
-    leaves,
     same::is_same,
     state::{
         Held,

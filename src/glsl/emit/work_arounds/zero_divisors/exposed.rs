@@ -3,7 +3,6 @@
 //! Most are set at the beginning of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
 //! sees that the zero that such a variable begins with gets nowhere.
 
-use super::leaves;
 use crate::glsl::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
 
 /// Returns for each variable of the module whether something may read it before it is written as a whole.
@@ -110,4 +109,9 @@ impl Walk<'_> {
             }
         }
     }
+}
+
+/// Says whether no way leads behind a block.
+pub(super) fn leaves(block: &Block) -> bool {
+    matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))
 }

@@ -16,7 +16,7 @@ mod state;
 use self::constants::Constants;
 use crate::glsl::{
     ir::{
-        Binary, Block, Function, Module, Op, Stmt, Value,
+        Binary, Function, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
     },
     types::Scalar,
@@ -62,9 +62,4 @@ impl Rule for HiddenDivisors {
         let right = r.opaque(right);
         Some(r.add(Op::Binary { op, left, right }))
     }
-}
-
-/// Says whether no way leads behind a block.
-fn leaves(block: &Block) -> bool {
-    matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))
 }
