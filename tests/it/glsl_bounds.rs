@@ -104,6 +104,25 @@ fn loops_within_loops() {
     ]);
 }
 
+/// A limit of which nothing is known bounds the counter on one side only, and only where the step cannot wrap.
+#[test]
+fn limits_that_are_not_known() {
+    check_guarded(&[
+        bounds("int n = I + 9; for (int i = 2; i < n; i++) a[i] = 7;", 7700.),
+        bounds(
+            "int n = I + 2147483647; for (int i = 2147483640; i <= n; i += 3) { a[i & 1] = 5; a[i] = 7; if (I == 0) break; }",
+            7005.,
+        ),
+        bounds(
+            "int n = I + 2147483647; for (int i = 2147483640; i < n; i += 5) { a[i] = i < 0 ? 4 : 7; if (i < 0) break; }",
+            7004.,
+        ),
+        bounds("int n = I - 9; for (int i = 1; i > n; i--) a[i] = 7;", 77.),
+        bounds("uint n = uint(I + 3); for (uint i = 1u; i < n; i++) a[i] = 7;", 770.),
+        bounds("uint n = uint(I); int k = 0; for (uint i = 3u; i >= n; i--) { a[i] = 7; if (++k > 5) break; }", 7777.),
+    ]);
+}
+
 #[test]
 fn loops_of_other_kinds() {
     check_guarded(&[

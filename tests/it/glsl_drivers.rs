@@ -4,7 +4,7 @@
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
 use crate::support::{compute::*, ir, *};
-use eddy::glsl::Driver;
+use eddy::glsl::{self, Driver, PassSource};
 
 /// Drivers take a quotient by a zero they can see for anything.
 #[test]
@@ -322,4 +322,41 @@ fn short_loops_around_arrays_are_written_out() {
             [-11. + 11. + 12., 13., 3., 2.],
         ),
     ]);
+}
+
+/// Only what a loop changes counts down to a limit; the counter of another loop is left to the driver as it is, which
+/// knows its rounds then.
+#[test]
+fn limits_are_hidden_only_where_something_counts_down_to_them() {
+    let module = |body: &str, opaque_limits: bool| {
+        let code = format!(
+            "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \
+             if (p.y > 9.0) n = 5; g = m; {body} }}"
+        );
+        let driver = Driver { opaque_limits, ..Driver::default() };
+        let compiled = glsl::compile(&PassSource { driver, ..PassSource::image(&code) });
+        format!("{:?}", compiled.unwrap_or_else(|errors| panic!("{code}: {errors:?}")).module)
+    };
+    let is_hidden = |body: &str| module(body, true) != module(body, false);
+    for body in [
+        "for (int i = 0; i < n; i++) o += sin(p.x + float(i));",
+        "for (int i = 0; i < m; i++) o += sin(p.x + float(i));",
+        "for (int i = 0; i < g; i++) o += sin(p.x + float(i));",
+        "for (int i = 0; i <= n - m; i++) o += sin(p.x + float(i));",
+        "for (int j = 0; j < 3; j++) { n = j; for (int i = 0; i < n; i++) o += sin(p.x + float(i)); }",
+        "for (int i = 0;; i++) { if (i >= n) break; o += sin(p.x + float(i)); }",
+        "for (int i = 9; i > 2; i--) o += sin(p.x + float(i));",
+    ] {
+        assert!(!is_hidden(body), "{body}");
+    }
+    for body in [
+        "for (int i = 9; i > n; i--) o += sin(p.x + float(i));",
+        "for (int i = 9; n < i; i--) o += sin(p.x + float(i));",
+        "for (int i = m; i < n; n--) o += sin(p.x + float(i));",
+        "for (int i = 0; i < g; i++) { f(); o += sin(p.x + float(i)); }",
+        "while (g > m) { f(); o += sin(p.x); }",
+        "for (int i = 9;; i--) { for (int j = 0; j < 2; j++) if (i <= m) return; o += sin(p.x); }",
+    ] {
+        assert!(is_hidden(body), "{body}");
+    }
 }

@@ -3,12 +3,13 @@
 //! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were
 //! `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The
 //! comparison may lie in any exit of the loop, and the `min` in a variable, so each limit that is no constant is
-//! hidden.
+//! hidden. What the loop does not change is no counter: in `i < n` nothing counts down to `i`, and a hidden `i` would keep
+//! drivers from knowing the rounds.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::glsl::ir::{
-    Binary, Block, Function, Module, Op, Stmt, Unary, Value, VarId,
+    Binary, Block, Function, GlobalId, Module, Op, Stmt, Unary, Value, VarId,
     rewrite::{self, Rewriter, Rule},
 };
 
@@ -17,7 +18,7 @@ pub(super) fn run(program: &mut Module) {
         let f = &program.functions[index];
         let mut limits = Limits::default();
         limits.note_stores(f, &f.body);
-        limits.block(f, &f.body, false);
+        limits.block(f, &f.body, &[]);
         if !limits.found.is_empty() {
             rewrite::function(program, index, &mut limits);
         }
@@ -47,35 +48,50 @@ impl Limits {
         }
     }
 
-    fn block(&mut self, f: &Function, block: &Block, in_loop: bool) {
+    /// `loops`: what each loop around changes, the outermost first.
+    fn block(&mut self, f: &Function, block: &Block, loops: &[&Written]) {
         for stmt in block {
-            if let (true, Stmt::If { condition, accept, reject }) = (in_loop, stmt) {
-                if leaves(accept) {
-                    self.compared(f, *condition, false);
-                }
-                if leaves(reject) {
-                    self.compared(f, *condition, true);
+            if let (Some(innermost), Stmt::If { condition, accept, reject }) = (loops.last(), stmt) {
+                for (jump, goes_on) in [(accept.last(), false), (reject.last(), true)] {
+                    let left = match jump {
+                        Some(Stmt::Break) => innermost,
+                        // It leaves all of them.
+                        Some(Stmt::Return(_)) => loops[0],
+                        _ => continue,
+                    };
+                    self.followed.clear();
+                    self.compared(f, *condition, goes_on, left);
                 }
             }
-            if let Stmt::Loop { break_if: Some(condition), .. } = stmt {
-                self.compared(f, *condition, false);
+            if let Stmt::Loop { body, continuing, break_if } = stmt {
+                let mut written = Written::default();
+                written.block(f, body);
+                written.block(f, continuing);
+                if let Some(condition) = break_if {
+                    self.followed.clear();
+                    self.compared(f, *condition, false, &written);
+                }
+                let mut loops = loops.to_vec();
+                loops.push(&written);
+                self.block(f, body, &loops);
+                self.block(f, continuing, &loops);
+            } else {
+                stmt.blocks(|block| self.block(f, block, loops));
             }
-            let in_loop = in_loop || matches!(stmt, Stmt::Loop { .. });
-            stmt.blocks(|block| self.block(f, block, in_loop));
         }
     }
 
-    /// Notes the limits in a condition; `goes_on`: the loop goes on where it holds.
-    fn compared(&mut self, f: &Function, condition: Value, goes_on: bool) {
+    /// Notes the limits in a condition of a loop; `goes_on`: the loop goes on where it holds.
+    fn compared(&mut self, f: &Function, condition: Value, goes_on: bool, written: &Written) {
         match f[condition] {
-            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on),
+            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on, written),
             // Of `&&` and `||`, whose sides are stored one after the other, or a test that the author keeps.
             Op::Load { place } => {
                 let Op::Var(var) = f[place] else { return };
                 // A variable may be computed from itself.
                 if self.followed.insert((var, goes_on)) {
                     for value in self.stores.get(&var).cloned().unwrap_or_default() {
-                        self.compared(f, value, goes_on);
+                        self.compared(f, value, goes_on, written);
                     }
                 }
             }
@@ -86,7 +102,7 @@ impl Limits {
                     _ => return,
                 };
                 let (counter, limit) = if is_greater { (left, right) } else { (right, left) };
-                if is_counted(f, counter) && !matches!(f[limit], Op::Literal(..) | Op::Zero(_)) {
+                if !matches!(f[limit], Op::Literal(..) | Op::Zero(_)) && is_counted(f, counter, written) {
                     self.found.entry(condition).or_default()[usize::from(is_greater)] = true;
                 }
             }
@@ -95,18 +111,65 @@ impl Limits {
     }
 }
 
-/// Returns whether a value is read from a variable, or has just been stepped.
-fn is_counted(f: &Function, value: Value) -> bool {
-    let is_load = |value: Value| matches!(f[value], Op::Load { .. });
-    match f[value] {
-        Op::Binary { op: Binary::Add | Binary::Subtract, left, right } => is_load(left) || is_load(right),
-        _ => is_load(value),
+/// The variables that a loop writes.
+#[derive(Default)]
+struct Written {
+    /// Those that are stored to or given to calls.
+    roots: FxHashSet<Root>,
+    /// Functions may write global variables.
+    has_call: bool,
+}
+
+#[derive(PartialEq, Eq, Hash)]
+enum Root {
+    Var(VarId),
+    Global(GlobalId),
+    Param(u32),
+}
+
+impl Root {
+    fn of(f: &Function, place: Value) -> Option<Root> {
+        match f[f.root(place)] {
+            Op::Var(var) => Some(Root::Var(var)),
+            Op::Global(global) => Some(Root::Global(global)),
+            Op::Param(index) => Some(Root::Param(index)),
+            _ => None,
+        }
     }
 }
 
-/// Returns whether a block ends with leaving the loop, or the function.
-fn leaves(block: &Block) -> bool {
-    matches!(block.last(), Some(Stmt::Break | Stmt::Return(_)))
+impl Written {
+    fn block(&mut self, f: &Function, block: &Block) {
+        for stmt in block {
+            match stmt {
+                Stmt::Store { place, .. } => {
+                    self.roots.extend(Root::of(f, *place));
+                }
+                Stmt::Let(value) => {
+                    if let Op::Call { args, .. } = &f[*value] {
+                        self.has_call = true;
+                        let places = args.iter().filter(|arg| f.is_place(**arg));
+                        self.roots.extend(places.filter_map(|place| Root::of(f, *place)));
+                    }
+                }
+                _ => stmt.blocks(|block| self.block(f, block)),
+            }
+        }
+    }
+
+    fn contains(&self, f: &Function, place: Value) -> bool {
+        Root::of(f, place)
+            .is_some_and(|root| self.has_call && matches!(root, Root::Global(_)) || self.roots.contains(&root))
+    }
+}
+
+/// Returns whether a value is read from a variable that the loop writes, or has just been stepped.
+fn is_counted(f: &Function, value: Value, written: &Written) -> bool {
+    let is_counter = |value: Value| matches!(f[value], Op::Load { place } if written.contains(f, place));
+    match f[value] {
+        Op::Binary { op: Binary::Add | Binary::Subtract, left, right } => is_counter(left) || is_counter(right),
+        _ => is_counter(value),
+    }
 }
 
 impl Rule for Limits {

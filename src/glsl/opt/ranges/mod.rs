@@ -272,7 +272,9 @@ impl Ranges {
         let (test, bound) = self.counters.test(var)?;
         let (body, all) = match by {
             Step::Int(by) => {
-                let (limits, start, bound) = (limits(ty)?, self.first_stored[var]?, self.of(r, r.value(bound))?);
+                let (limits, start) = (limits(ty)?, self.first_stored[var]?);
+                // `i < n` holds of no greatest number, whatever is known of n: so `i + 1` does not wrap.
+                let bound = self.of(r, r.value(bound)).unwrap_or(limits);
                 match test {
                     Binary::Less | Binary::LessEqual if by >= 0 => {
                         let last = bound.1 - i64::from(test == Binary::Less);
