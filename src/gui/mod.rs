@@ -43,6 +43,7 @@ mod questions;
 mod recent;
 mod report;
 mod rescue;
+mod resolution;
 mod settings;
 mod shell;
 mod steps;

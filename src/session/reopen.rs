@@ -1,4 +1,4 @@
-//! Owns where the time of a project stands when it is closed and opened again.
+//! Owns where the time of a project stands when it is closed and opened again, and how large its picture is.
 //!
 //! The rule: a project without a state goes on at the time and the frame where it was. One whose passes read what the
 //! last frame left begins at frame 0, as its buffers do; where it was closed while paused, the frames that led to what
@@ -11,6 +11,7 @@ use super::{
     drawing::{Job, Run},
     recent::{Left, RecentProject},
     seeking::Goal,
+    state::CanvasSize,
     view::{About, Level},
 };
 use std::time::{Duration, Instant};
@@ -39,7 +40,14 @@ impl Session {
         let clock = &self.run.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
         let is_paused = !self.is_playing() && !self.halting.resumes;
-        let left = Left { time_secs: clock.time_secs(), frame: clock.next_frame_number() - 1, is_paused };
+        let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
+        let left = Left {
+            time_secs: clock.time_secs(),
+            frame: clock.next_frame_number() - 1,
+            is_paused,
+            size: fixed.filter(|_| fixed != usual.fixed),
+            scale: Some(scale).filter(|scale| *scale != usual.scale),
+        };
         let origin = self.documents.current().origin.clone();
         if let Err(why) = self.recent.left(&origin, left) {
             log::warn!("{why}");
@@ -96,7 +104,8 @@ impl Session {
 
     /// Goes on from where the time of the project stood that has just been opened.
     pub(super) fn take_time_up(&mut self) {
-        let Some(RecentProject { time_secs, frame, paused, .. }) = self.place_known() else { return };
+        let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
+        self.take_size_up(size, scale);
         let is_playing = !paused;
         if !self.has_state() {
             self.run.clock = Clock::at(time_secs, frame, is_playing);
@@ -109,5 +118,13 @@ impl Session {
         self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
         (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
+    }
+
+    /// Gives the picture the size that it had. A person writes the file, too: what is not a size counts for nothing.
+    fn take_size_up(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
+        let usual = self.canvas.usual;
+        let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);
+        let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(usual.scale);
+        self.canvas.asked = CanvasSize { scale, fixed };
     }
 }

@@ -433,3 +433,45 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     let (time, frame, playing) = place(&played);
     assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
 }
+
+/// What was chosen for a project is there when it is opened again, and is not the next project's.
+#[test]
+fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
+        state_dir: Some(dir.join("state")),
+        ..SessionOptions::default()
+    });
+    let write = |stage: &Stage, name: &str| {
+        let path = stage.path(name);
+        fs::write(&path, plain(0.2)).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (a, b) = (write(&stage, "a.glsl"), write(&stage, "b.glsl"));
+    let open = |stage: &mut Stage, path: &str| {
+        stage.session.apply(Command::Open(path.into()));
+        stage.until_compiled();
+        stage.session.transport().resolution
+    };
+    assert_eq!(open(&mut stage, &a), (8, 4));
+    stage.session.apply(Command::SetFixedSize(Some((27, 48))));
+    stage.session.apply(Command::SetScale(0.25));
+    stage.tick();
+    assert_eq!(open(&mut stage, &b), (8, 4));
+    assert_eq!(stage.session.transport().scale, 1.0);
+    assert_eq!(open(&mut stage, &a), (27, 48));
+    assert_eq!((stage.session.transport().scale, stage.session.transport().fixed_size), (0.25, Some((27, 48))));
+    // A saved picture has it.
+    stage.session.apply(Command::Screenshot);
+    stage.until("a saved picture", |s| s.notices().iter().any(|n| n.path.is_some()));
+    let saved = stage.session.notices().iter().find_map(|n| n.path.clone()).unwrap();
+    assert_eq!(image::open(saved).unwrap().to_rgb8().dimensions(), (27, 48));
+    // A person's mistake in the file is no size.
+    let file = stage.dir.path().join("state/projects.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains("size = [27, 48]") && text.contains("scale = 0.25"), "{text}");
+    open(&mut stage, &b);
+    fs::write(&file, text.replace("[27, 48]", "[0, 48]").replace("0.25", "-1.0")).unwrap();
+    assert_eq!(open(&mut stage, &a), (8, 4));
+    assert_eq!(stage.session.transport().scale, 1.0);
+}

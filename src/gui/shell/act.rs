@@ -8,7 +8,7 @@ use crate::{
         help::Help,
         outbox::{Outbox, Pick, Wish},
         palette::Offer,
-        passes, recent,
+        passes, recent, resolution,
         settings::{Change, Settings},
         timeline,
     },
@@ -133,14 +133,14 @@ impl Shell {
                 }
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
-            Action::Picture(action) => self.act_on_picture(session, action, out),
+            Action::Picture(action) => self.act_on_picture(ui, session, action, out),
             Action::Layout(action) => self.act_on_panel(ui, action),
             Action::Quit => out.ask(Command::Close),
         }
         ui.ctx().request_repaint();
     }
 
-    fn act_on_picture(&mut self, session: &Session, action: PictureAction, out: &mut Outbox) {
+    fn act_on_picture(&mut self, ui: &Ui, session: &Session, action: PictureAction, out: &mut Outbox) {
         let is_halted = session.halt().is_some();
         match action {
             PictureAction::Shape(shape) => {
@@ -152,6 +152,12 @@ impl Shell {
                 out.ask(Command::SetScale(scale.factor()));
             }
             PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
+            PictureAction::TypeSize => {
+                self.uncover(out);
+                (self.presents, self.fullscreen) = (false, false);
+                self.dock.set_open(Panel::Picture, true);
+                resolution::open(ui.ctx());
+            }
             PictureAction::ResetUniforms => out.ask(Command::ResetCustomUniforms),
             PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
             PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),
