@@ -45,6 +45,7 @@ mod report;
 mod rescue;
 mod resolution;
 mod settings;
+mod settings_page;
 mod shell;
 mod steps;
 mod surface;

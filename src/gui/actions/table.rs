@@ -259,6 +259,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::ZoomIn, "zoom-in", "Zoom in", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window).found_by("ui scale larger"),
     row(Action::ZoomOut, "zoom-out", "Zoom out", &["Ctrl+Alt+-"], Group::Window).found_by("ui scale smaller"),
     row(Action::ZoomReset, "zoom-usual", "Reset zoom", &["Ctrl+Alt+0"], Group::Window),
+    row(Action::Settings, "open-settings", "Open settings", &["Ctrl+,"], Group::Window)
+        .found_by("preferences options configuration config theme font"),
     row(Action::SettingsFile, "settings", "Open settings file", &[], Group::Window)
         .found_by("preferences options configuration config"),
     row(

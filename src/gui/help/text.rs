@@ -18,6 +18,7 @@ pub(super) const SECTIONS: &[Section] = &[
             "Save with Ctrl+S. A project is a folder of plain GLSL files; presets are never changed, as editing one \
              edits a copy. Unsaved work is backed up within a second and offered again after a crash.",
             "You can use another editor at the same time: Eddy reloads a file when it is saved.",
+            "Ctrl+comma opens the settings: theme, zoom, code font, word wrap, when to compile, and the slow frame limit.",
         ],
     },
     Section {

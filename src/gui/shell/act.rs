@@ -10,6 +10,7 @@ use crate::{
         palette::Offer,
         passes, recent, resolution,
         settings::{Change, Settings},
+        settings_page::SettingsPage,
         timeline,
     },
     project::{PassId, Tab},
@@ -87,6 +88,8 @@ impl Shell {
             Action::ZoomIn => self.zoom(Some(0.1), out),
             Action::ZoomOut => self.zoom(Some(-0.1), out),
             Action::ZoomReset => self.zoom(None, out),
+            Action::Settings if self.page_of_settings.is_some() => self.page_of_settings = None,
+            Action::Settings => self.page_of_settings = Some(SettingsPage::new()),
             Action::SettingsFile => {
                 let path = self.settings.write_if_missing();
                 out.ask(told("The settings are", path));
