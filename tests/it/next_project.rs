@@ -475,3 +475,56 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
     assert_eq!(open(&mut stage, &a), (8, 4));
     assert_eq!(stage.session.transport().scale, 1.0);
 }
+
+/// The list of recent projects shows what was seen last of each, and of no other.
+#[test]
+fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
+    let Some(gpu) = support::gpu() else { return };
+    for (draws_apart, is_paused) in [(false, true), (true, true), (true, false)] {
+        let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
+            cache_dir: Some(dir.join("cache")),
+            draws_apart,
+            ..SessionOptions::default()
+        });
+        let write = |stage: &Stage, name: &str, text: &str| {
+            fs::write(stage.path(name), text).unwrap();
+            stage.path(name)
+        };
+        let (a, b) = (write(&stage, "a.glsl", &plain(0.8)), write(&stage, "b.glsl", &plain(0.4)));
+        let bad = write(&stage, "bad.glsl", "no shader");
+        stage.session.apply(Command::SetFixedSize(Some((720, 1280))));
+        let open = |stage: &mut Stage, path: &Path| {
+            stage.session.apply(Command::Open(path.to_str().unwrap().into()));
+            stage.session.apply(if is_paused { Command::Pause } else { Command::Play });
+            stage.until_compiled();
+            let end = Instant::now() + Duration::from_millis(400);
+            while Instant::now() < end {
+                stage.tick();
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        };
+        let red = |stage: &Stage, path: &Path| {
+            let (file, _) = stage.session.last_picture(path).unwrap();
+            image::open(file).ok().map(|image| {
+                let image = image.to_rgb8();
+                (image.dimensions(), (f32::from(image.get_pixel(9, 9).0[0]) / 255.0 * 10.0).round() as u8)
+            })
+        };
+        let size = (101, 180);
+        open(&mut stage, &a);
+        assert_eq!(red(&stage, &a), None);
+        open(&mut stage, &b);
+        assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_apart}");
+        // It stays open, and something else is looked at.
+        let (_, before) = stage.session.last_picture(&b).unwrap();
+        stage.session.apply(Command::Cover(true));
+        stage.until("a picture", |session| session.last_picture(&b).unwrap().1 > before);
+        assert_eq!(red(&stage, &b), Some((size, 4)));
+        stage.session.apply(Command::Cover(false));
+        // What never drew has none, and is not given that of the one before.
+        open(&mut stage, &bad);
+        open(&mut stage, &a);
+        assert_eq!(red(&stage, &bad), None);
+        assert_eq!(red(&stage, &b), Some((size, 4)));
+    }
+}

@@ -95,7 +95,7 @@ fn what_is_not_a_size_is_said_at_the_field() {
         window.compiled();
         window.rect("combo:size");
         let before = window.newest("layout").unwrap()["canvas"].clone();
-        for (n, bad) in ["1080", "0x4", "99999x4", "-4x4"].into_iter().enumerate() {
+        for (n, bad) in ["1080", "0x4", "99999x4", "4x-4"].into_iter().enumerate() {
             type_size(&mut window, bad);
             window.shows("size:error");
             display.shot(&format!("resolution-bad-{n}-{}.png", if is_light { "light" } else { "dark" }));

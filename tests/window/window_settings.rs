@@ -1,4 +1,4 @@
-//! End to end: the page of settings writes the file and follows it.
+//! End to end: the page of settings writes the file and follows it, and the list of recent projects has their pictures.
 
 use crate::support::window::{Display, Window};
 use std::{
@@ -8,6 +8,7 @@ use std::{
 };
 
 const RED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.9, 0.2, p.x / iResolution.x, 1.0); }\n";
+const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.1, 0.8, 0.1, 1.0); }\n";
 
 fn settings_file(home: &Path, text: &str) -> PathBuf {
     let folder = home.join(".config/eddy");
@@ -141,4 +142,64 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
     window.shows("settings:page");
     // The rest of the new file is its comments.
     assert!(fs::read_to_string(&file).unwrap().contains("# theme = \"system\""));
+}
+
+#[test]
+fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
+    for theme in ["dark", "light"] {
+        let Some(display) = Display::of_size(1300, 900) else { return };
+        let home = tempfile::tempdir().unwrap();
+        settings_file(home.path(), &format!("theme = \"{theme}\"\n"));
+        let (red, green) = (shader(home.path(), "red.glsl", RED), shader(home.path(), "green.glsl", GREEN));
+        let cache = home.path().join(".cache/eddy/pictures");
+        let count = || fs::read_dir(&cache).map_or(0, |files| files.count());
+        let mut window = Window::open(&display, home.path(), &[red.to_str().unwrap()]);
+        window.resize(1300, 900);
+        window.compiled();
+        window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
+        assert_eq!(count(), 0);
+        // It is shown of the project that is open, too.
+        window.keys(&["ctrl+shift+g"]);
+        window.shows(&format!("recent-picture:{}", red.display()));
+        assert_eq!(count(), 1);
+        window.keys(&["ctrl+shift+g", "ctrl+q"]);
+        assert_eq!(window.ends(), Some(0));
+        let mut window = Window::open(&display, home.path(), &[green.to_str().unwrap()]);
+        window.compiled();
+        window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
+        window.keys(&["ctrl+q"]);
+        assert_eq!(window.ends(), Some(0));
+        assert_eq!(count(), 2);
+        let mut window = Window::open(&display, home.path(), &[]);
+        window.resize(1300, 900);
+        let colour = |window: &mut Window, path: &Path| {
+            let (x, y) = window.centre(&format!("recent-picture:{}", path.display()));
+            let shot = home.path().join("seen.png");
+            display.photograph(&shot);
+            image::open(&shot).unwrap().to_rgb8().get_pixel(x as u32, y as u32).0
+        };
+        let [r, g, b] = colour(&mut window, &red);
+        assert!(r > 215 && g < 70 && (90..170).contains(&b), "{r} {g} {b}");
+        let [r, g, b] = colour(&mut window, &green);
+        assert!(r < 50 && g > 190 && b < 50, "{r} {g} {b}");
+        // One grid: a recent project's card is as wide as a preset's, and begins where those do.
+        let card = window.rect(&format!("recent:{}", green.display()));
+        let layout = window.newest("layout").unwrap();
+        let preset =
+            layout["rects"].as_object().unwrap().iter().find(|(name, _)| name.starts_with("preset:")).unwrap().1;
+        assert!((card[2] - preset[2].as_f64().unwrap()).abs() < 1.0, "{card:?} {preset}");
+        display.shot(&format!("recent-{theme}.png"));
+        drop(window);
+        for file in fs::read_dir(&cache).unwrap().flatten() {
+            fs::write(file.path(), "damaged").unwrap();
+        }
+        let mut window = Window::open(&display, home.path(), &[]);
+        window.resize(1300, 900);
+        window.rect(&format!("recent:{}", red.display()));
+        let layout = window.newest("layout").unwrap();
+        assert!(layout["rects"][format!("recent-picture:{}", red.display())].is_null());
+        display.shot(&format!("recent-plain-{theme}.png"));
+        window.click_on(&format!("recent:{}", red.display()));
+        window.wait_until("the project", "opened", |e| e["name"].as_str().is_some_and(|name| name.contains("red")));
+    }
 }
