@@ -218,7 +218,10 @@ impl SettingsPage {
 
     fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut Outbox) {
         let mut text = self.typed.clone().unwrap_or_else(|| now.to_owned());
-        let field = TextEdit::singleline(&mut text).hint_text("Built-in").desired_width(130.0);
+        let field = TextEdit::singleline(&mut text)
+            .hint_text("Built-in")
+            .desired_width(130.0)
+            .background_color(theme::of(ui).button);
         let field = ui.add(field.margin(Margin::symmetric(6, 3)));
         accessible::name(&field, Role::TextInput, key.title);
         out.place("setting:code-font", field.rect);
@@ -248,7 +251,11 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
         return;
     }
     let p = theme::of(ui);
-    let frame = Frame::NONE.fill(p.background).corner_radius(4).inner_margin(Margin::symmetric(10, 8));
+    let frame = Frame::NONE
+        .fill(p.background)
+        .stroke(egui::Stroke::new(1.0, p.line))
+        .corner_radius(4)
+        .inner_margin(Margin::symmetric(10, 8));
     let shown = frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         for mistake in file.mistakes() {

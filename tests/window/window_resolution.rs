@@ -75,7 +75,7 @@ fn a_typed_size_is_drawn_shown_whole_and_saved() {
     window.keys(&["ctrl+q"]);
     assert_eq!(window.ends(), Some(0));
     // In another window, which is smaller.
-    let mut window = Window::open(&display, home.path(), &["--paused", file.to_str().unwrap()]);
+    let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
     window.compiled();
     window.wait_until("the size as it was", "layout", |e| e["canvas"] == json!([3840, 2160]));
 }
@@ -90,7 +90,7 @@ fn what_is_not_a_size_is_said_at_the_field() {
         }
         let file = home.path().join("mouse.glsl");
         fs::write(&file, MOUSE).unwrap();
-        let mut window = Window::open(&display, home.path(), &["--paused", file.to_str().unwrap()]);
+        let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
         window.resize(1300, 900);
         window.compiled();
         window.rect("combo:size");
@@ -109,7 +109,7 @@ fn what_is_not_a_size_is_said_at_the_field() {
         assert_eq!(window.newest("layout").unwrap()["canvas"], before);
         // By the palette, whose entry leads into the field.
         window.keys(&["ctrl+shift+p"]);
-        window.wait_until("the palette", "focus", |e| e["widget"] == "palette");
+        window.shows("field:palette");
         window.type_text("portrait");
         window.keys(&["Return"]);
         window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");

@@ -114,8 +114,9 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
     window.compiled();
     for word in ["settings", "preferences", "options"] {
         window.keys(&["ctrl+shift+p"]);
-        window.shows("palette");
+        window.shows("field:palette");
         window.type_text(word);
+        window.shows("palette:open-settings");
         window.keys(&["Return"]);
         window.shows("settings:page");
         window.keys(&["Escape"]);

@@ -120,7 +120,7 @@ fn recent_card(
         Thumbnail::Waiting => {}
         Thumbnail::Failed(_) => {
             let font = FontId::proportional(12.0);
-            ui.painter().text(place.center(), Align2::CENTER_CENTER, "No picture yet", font, theme::of(ui).weak);
+            ui.painter().text(place.center(), Align2::CENTER_CENTER, "No picture", font, theme::of(ui).weak);
         }
     }
     response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text(path);
