@@ -39,6 +39,8 @@ struct Typed {
     text: String,
     /// Enter was pressed, and it is not a size.
     is_refused: bool,
+    /// The pass of egui in which it was shown last.
+    shown: u64,
 }
 
 /// Opens the menu with the keyboard in its field.
@@ -124,7 +126,11 @@ fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
 /// A field for any size, and below it what can be typed or why it cannot be drawn.
 fn size_field(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let limit = session.gpu().device.limits().max_texture_dimension_2d;
-    let mut typed_now: Typed = ui.data(|data| data.get_temp(typed())).unwrap_or_default();
+    let pass = ui.ctx().cumulative_pass_nr();
+    let kept: Option<Typed> = ui.data(|data| data.get_temp(typed()));
+    // A menu that is opened again begins with an empty field.
+    let mut typed_now = kept.filter(|typed| pass.saturating_sub(typed.shown) <= 4).unwrap_or_default();
+    typed_now.shown = pass;
     let p = theme::of(ui);
     let mut is_entered = false;
     ui.horizontal(|ui| {
@@ -157,7 +163,7 @@ fn size_field(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         _ if is_empty => {}
         Ok(size) if is_entered => {
             out.ask(Command::SetFixedSize(Some(size)));
-            typed_now = Typed::default();
+            typed_now = Typed { shown: pass, ..Typed::default() };
             Popup::close_all(ui.ctx());
         }
         Ok(_) => {}

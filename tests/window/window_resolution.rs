@@ -103,7 +103,8 @@ fn what_is_not_a_size_is_said_at_the_field() {
             window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
             window.keys(&["BackSpace"]);
             window.hides("size:error");
-            window.keys(&["ctrl+a", "BackSpace", "Escape"]);
+            // The menu forgets what is left in the field when it closes.
+            window.keys(&["Escape"]);
             window.hides("size:field");
         }
         assert_eq!(window.newest("layout").unwrap()["canvas"], before);
@@ -111,6 +112,7 @@ fn what_is_not_a_size_is_said_at_the_field() {
         window.keys(&["ctrl+shift+p"]);
         window.shows("field:palette");
         window.type_text("portrait");
+        window.shows("palette:picture-size");
         window.keys(&["Return"]);
         window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
         window.type_text("90x160");
