@@ -219,6 +219,7 @@ impl Running {
             draws_apart: true,
             frame_limit: options.frame_limit.unwrap_or(defaults.frame_limit),
             state_dir,
+            cache_dir: dirs::cache_dir().map(|dir| dir.join("eddy")),
             recovery: session::recovery_folder(),
             trials: TrialSettings::of_this_program(options.compile_timeout),
             ..defaults

@@ -137,6 +137,7 @@ impl Files {
             Pick::LabFolder => ("Keep lab results in folder", "Keep"),
             Pick::LabReport => ("Write lab report to folder", "Write"),
             Pick::Reference => ("Compare with project", "Compare"),
+            Pick::CodeFont => ("Font file for code", "Use"),
             Pick::Picture { .. } => ("Image file for the channel", "Use"),
         };
         // A modal takes the keyboard from all that lies below it.
@@ -220,6 +221,7 @@ fn help(pick: &Pick) -> &'static str {
         Pick::LabFolder => "A folder for results.jsonl; a stopped run resumes there",
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
+        Pick::CodeFont => "A .ttf or .otf file",
         Pick::Picture { .. } => "A png, jpg, webp, bmp, tga, gif or hdr file",
     }
 }
@@ -239,6 +241,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::LabReport => ("Write lab report to folder", Kind::OpenFolder),
         Pick::Reference => ("Compare with project folder", Kind::OpenFolder),
         Pick::SaveAs(name) => ("Save to folder", Kind::Save(name.clone())),
+        Pick::CodeFont => ("Font file for code", Kind::OpenFile("Fonts", &["ttf", "otf"])),
         Pick::Picture { .. } => ("Image file for the channel", Kind::OpenFile("Image files", &PICTURES)),
     };
     Dialog { title, kind, start }

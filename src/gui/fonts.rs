@@ -30,6 +30,11 @@ pub fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
     chosen.transpose().map(drop)
 }
 
+/// Returns why a file cannot be the font of code.
+pub fn check(path: &str) -> Result<(), String> {
+    read(path).map(drop)
+}
+
 /// Reads a font and sees that it is one: what is none would end the window.
 fn read(path: &str) -> Result<Vec<u8>, String> {
     let data = fs::read(path).map_err(|error| format!("code-font: {path}: {error}"))?;

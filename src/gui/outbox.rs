@@ -29,6 +29,8 @@ pub enum Pick {
     Reference,
     /// A folder for the lab's report.
     LabReport,
+    /// The font of code.
+    CodeFont,
     /// A picture for a channel of the pass in front.
     Picture { channel: usize },
 }

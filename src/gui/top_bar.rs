@@ -156,14 +156,14 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
             out.act(Action::WordWrap);
             ui.close();
         }
-        let file = menus::entry(ui, "Open settings file", String::new());
-        if out.clicked("view:settings", &file) {
-            out.act(Action::SettingsFile);
+        let all = menus::entry(ui, "Settings…", out.keys.hint(Action::Settings));
+        if out.clicked("view:settings", &all) {
+            out.act(Action::Settings);
             ui.close();
         }
     });
     out.place("button:view", button.rect);
-    button.on_hover_text("Panels, layout, theme and zoom");
+    button.on_hover_text("Panels, layout, theme, zoom and settings");
 }
 
 /// The project's name in what room is left, with a dot while it is not saved.

@@ -2,19 +2,19 @@
 
 use super::{
     accessible,
-    actions::{Action, PictureAction, SCALES, SIZES},
+    actions::Action,
     dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
     menus,
     outbox::{Outbox, Wish},
-    theme, timeline,
+    resolution, theme, timeline,
 };
 use crate::{
     project::{PassId, Tab},
     session::{Command, Session},
 };
-use egui::{Button, ComboBox, Popup, RichText, ScrollArea, Ui, vec2};
+use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
 /// Height of the bar.
 pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
@@ -84,7 +84,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
             options(ui, session, (!roomy).then_some(shape), out);
             shown_pass(ui, session, out);
             if roomy {
-                size(ui, session, shape, out);
+                resolution::button(ui, session, shape, out);
             }
         });
     });
@@ -167,46 +167,6 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     });
 }
 
-fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
-    let transport = session.transport();
-    let (width, height) = transport.resolution;
-    let response = ComboBox::from_id_salt("size")
-        .width(96.0)
-        .height(360.0)
-        .selected_text(RichText::new(format!("{width}×{height}")).monospace().size(12.0))
-        .show_ui(ui, |ui| sizes(ui, session, shape, out))
-        .response
-        .on_hover_text("Resolution of the picture in pixels (iResolution)");
-    accessible::name(&response, egui::Role::ComboBox, "Resolution");
-    out.place("combo:size", response.rect);
-}
-
-/// The resolutions to choose from.
-fn sizes(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
-    let transport = session.transport();
-    for (choice, name) in [(Shape::Site, "16:9, as on Shadertoy"), (Shape::Fill, "Fill the panel")] {
-        let on = transport.fixed_size.is_none() && shape == choice;
-        if ui.selectable_label(on, name).clicked() {
-            out.act(Action::Picture(PictureAction::Shape(choice)));
-        }
-    }
-    ui.separator();
-    ui.colored_label(theme::of(ui).weak, "Scale");
-    for scale in SCALES {
-        let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
-        if out.clicked(&format!("scale:{}", scale.name()), &ui.selectable_label(on, scale.name())) {
-            out.act(Action::Picture(PictureAction::Scale(scale)));
-        }
-    }
-    ui.separator();
-    ui.colored_label(theme::of(ui).weak, "Fixed size");
-    for size in SIZES {
-        if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked() {
-            out.act(Action::Picture(PictureAction::Size(size)));
-        }
-    }
-}
-
 fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let shown = session.shown_pass();
     let response = ComboBox::from_id_salt("shown pass")
@@ -236,11 +196,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
     out.place("button:options", more.rect);
     Popup::menu(&more).show(|ui| {
         if let Some(shape) = shape {
-            let (width, height) = session.transport().resolution;
-            let menu = ui.menu_button(format!("Resolution: {width}×{height}"), |ui| {
-                ScrollArea::vertical().max_height(360.0).show(ui, |ui| sizes(ui, session, shape, out));
-            });
-            out.place("options:resolution", menu.response.rect);
+            resolution::entry(ui, session, shape, out);
             ui.separator();
         }
         let reset = session.reset_on_reload();
@@ -270,6 +226,9 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
             out.wishes.push(Wish::ClosePanel(Panel::Picture));
         }
     });
+    if let Some(shape) = shape {
+        resolution::opened(&more, session, shape, out);
+    }
     more.on_hover_text("More");
 }
 

@@ -67,9 +67,10 @@ impl<T: Content> WatchedFile<T> {
         let text = match read(path) {
             Ok(text) => text,
             Err(error) => {
-                self.mistakes = vec![format!("{}: {error}. {}", path.display(), T::STAYS)];
-                self.is_unreadable = true;
-                return self.mistakes.clone();
+                let mistakes = vec![format!("{}: {error}. {}", path.display(), T::STAYS)];
+                let is_known = std::mem::replace(&mut self.is_unreadable, true) && self.mistakes == mistakes;
+                self.mistakes = mistakes;
+                return if is_known { Vec::new() } else { self.mistakes.clone() };
             }
         };
         if !std::mem::take(&mut self.is_unreadable) && text == self.text {
@@ -92,11 +93,34 @@ impl<T: Content> WatchedFile<T> {
     pub fn edit(&mut self, edit: impl FnOnce(&str) -> Result<String, Mistake>, otherwise: &str) -> Result<(), String> {
         let Some(path) = &self.path else { return Ok(()) };
         let failed = |error: io::Error| format!("{}: {error}. {otherwise}", path.display());
-        let text = read(path).map_err(failed)?.unwrap_or_else(T::template);
-        let text = edit(&text).map_err(|mistake| told(path, &mistake))?;
+        let there = read(path).map_err(failed)?;
+        let is_known = there == self.text;
+        let text = edit(&there.unwrap_or_else(T::template)).map_err(|mistake| told(path, &mistake))?;
         write(path, &text).map_err(failed)?;
-        self.text = Some(text);
+        // Another program may have written it meanwhile: then it is read as a whole once more, and mistakes are told.
+        let (content, mistakes) = T::read(&text);
+        self.mistakes = mistakes.iter().map(|mistake| told(path, mistake)).collect();
+        (self.content, self.text) = (content, is_known.then_some(text));
         Ok(())
+    }
+
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// Returns the text that was read last.
+    pub fn text(&self) -> Option<&str> {
+        self.text.as_deref()
+    }
+
+    /// Returns what is wrong in it, one line each.
+    pub fn mistakes(&self) -> &[String] {
+        &self.mistakes
+    }
+
+    /// It could not be read when it was looked at last.
+    pub fn is_unreadable(&self) -> bool {
+        self.is_unreadable
     }
 
     /// Returns where the file is, after writing the template if there is none.

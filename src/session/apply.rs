@@ -55,6 +55,9 @@ impl Session {
             Command::TogglePlay if self.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
             Command::Cover(is_covered) => {
+                if is_covered && !self.run.is_covered {
+                    self.last_pictures.want();
+                }
                 if std::mem::replace(&mut self.run.is_covered, is_covered) && !is_covered {
                     self.run.clock.rebase();
                     self.run.fps.restart();

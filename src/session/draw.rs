@@ -131,6 +131,9 @@ impl Session {
             self.engine_is_gone(&why);
             return false;
         }
+        if let Some(picture) = done.shown {
+            self.picture_is_read(&picture);
+        }
         self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
         // An engine on the session's own thread draws into the display itself.
         self.pictures_shown += u64::from(done.picture.is_some() || !self.drawing.is_apart());

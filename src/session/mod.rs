@@ -28,6 +28,8 @@ mod fps;
 mod frames;
 mod halt;
 mod halting;
+mod kept_files;
+mod last_pictures;
 mod marker;
 mod measures;
 pub mod measuring;

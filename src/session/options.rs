@@ -32,6 +32,8 @@ pub struct SessionOptions {
     pub trials: Option<TrialSettings>,
     /// The folder for what is remembered between two starts; without, nothing is.
     pub state_dir: Option<PathBuf>,
+    /// The folder for what can be made again, as small pictures of projects; without, nothing is.
+    pub cache_dir: Option<PathBuf>,
 }
 
 impl Default for SessionOptions {
@@ -47,6 +49,7 @@ impl Default for SessionOptions {
             frame_limit: Duration::from_secs(2),
             trials: None,
             state_dir: None,
+            cache_dir: None,
         }
     }
 }

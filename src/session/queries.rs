@@ -16,7 +16,11 @@ use crate::{
     gpu::Gpu,
     project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
 };
-use std::{sync::Arc, time::Duration};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Duration,
+};
 
 impl Session {
     /// The newest picture of the shown pass: rgba8unorm, its first row the top, values as display values. Ask anew
@@ -75,6 +79,12 @@ impl Session {
     /// The projects that were open before, the newest first; those that are gone meanwhile too.
     pub fn recent(&self) -> &[RecentProject] {
         self.recent.list()
+    }
+
+    /// Returns the file of a small picture of a recent project, as it was seen last, and a number that grows with each
+    /// one that is written. The file may be missing, or damaged.
+    pub fn last_picture(&self, project: &Path) -> Option<(PathBuf, u64)> {
+        Some((self.last_pictures.file(project)?, self.last_pictures.written()))
     }
 
     /// Counts the shaders that were begun by [`Command::New`](super::Command::New).

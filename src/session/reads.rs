@@ -30,6 +30,7 @@ impl Session {
     /// Adds pictures and numbers, which are of the newest program, after the frame that is due.
     fn read_pictures(&mut self, is_frame: bool, is_playing: bool, reads: &mut Reads) {
         reads.captures = take(&mut self.drawing.captures);
+        reads.wants_picture = self.last_pictures.take_due() && self.is_picture_of_project();
         reads.miniatures = self.run.miniatures.take_due(self.now, is_playing);
         reads.buffers = self.run.buffers.take_due(self.now, is_playing);
         let is_busy = is_playing || self.run.seeking.is_seeking();

@@ -1,4 +1,4 @@
-//! The projects that were open before, the newest first, and where their time stood.
+//! The projects that were open before, the newest first, where their time stood and how large their picture was.
 //!
 //! Owns the file that keeps them from one start to the next, which people can read and several windows write.
 
@@ -29,15 +29,23 @@ pub struct RecentProject {
     pub frame: Option<i32>,
     #[serde(default)]
     pub paused: bool,
+    /// The resolution, where it did not follow the window.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<(u32, u32)>,
+    /// Pixels of the picture to those of the view, where it was not the usual scale.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f32>,
 }
 
-/// Says where the time of a project stands when it is closed.
+/// Says where the time of a project stands when it is closed, and how large its picture is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
     pub time_secs: f64,
     /// The number of the frame that is shown; below 0, none is.
     pub frame: i32,
     pub is_paused: bool,
+    pub size: Option<(u32, u32)>,
+    pub scale: Option<f32>,
 }
 
 #[derive(Default, Serialize, Deserialize)]
@@ -73,7 +81,14 @@ impl Recent {
         self.change(|list| {
             let at = list.iter().position(|project| project.path == path);
             known = at.map(|at| list.remove(at));
-            let fresh = || RecentProject { path: path.clone(), time_secs: 0.0, frame: None, paused: false };
+            let fresh = || RecentProject {
+                path: path.clone(),
+                time_secs: 0.0,
+                frame: None,
+                paused: false,
+                size: None,
+                scale: None,
+            };
             list.insert(0, known.clone().unwrap_or_else(fresh));
         })?;
         Ok(known)
@@ -86,6 +101,7 @@ impl Recent {
             if let Some(project) = list.iter_mut().find(|project| project.path == path) {
                 (project.time_secs, project.paused) = (left.time_secs, left.is_paused);
                 project.frame = Some(left.frame.max(0));
+                (project.size, project.scale) = (left.size, left.scale);
             }
         })
     }
@@ -165,10 +181,13 @@ mod tests {
         assert_eq!(first.opened(&a), Ok(None));
         let (mut second, _) = Recent::open(Some(&state));
         assert_eq!(second.opened(&b), Ok(None));
-        first.left(&a, Left { time_secs: 12.5, frame: 750, is_paused: true }).unwrap();
+        first
+            .left(&a, Left { time_secs: 12.5, frame: 750, is_paused: true, size: Some((1080, 1920)), scale: Some(0.5) })
+            .unwrap();
         assert_eq!(paths(&first), [path(&b), path(&a)]);
         let known = second.opened(&a).unwrap().unwrap();
         assert_eq!((known.time_secs, known.frame, known.paused), (12.5, Some(750), true));
+        assert_eq!((known.size, known.scale), (Some((1080, 1920)), Some(0.5)));
         // As an earlier version has written it.
         let file = state.join(NAME);
         let text = std::fs::read_to_string(&file).unwrap().replace("frame = 750\n", "");

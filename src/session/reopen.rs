@@ -1,4 +1,4 @@
-//! Owns where the time of a project stands when it is closed and opened again.
+//! Owns where the time of a project stands when it is closed and opened again, how large its picture is, and how it looked.
 //!
 //! The rule: a project without a state goes on at the time and the frame where it was. One whose passes read what the
 //! last frame left begins at frame 0, as its buffers do; where it was closed while paused, the frames that led to what
@@ -8,12 +8,18 @@
 use super::{
     Session,
     clock::Clock,
-    drawing::{Job, Run},
+    drawing::{Done, Job, Run},
+    kept_files,
     recent::{Left, RecentProject},
     seeking::Goal,
+    state::CanvasSize,
     view::{About, Level},
 };
-use std::time::{Duration, Instant};
+use crate::engine::Picture;
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 /// The inputs of the run are waited for so long when a project is closed.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -36,10 +42,18 @@ impl Session {
         if self.run.seeking.is_taking_up {
             return;
         }
+        self.keep_picture();
         let clock = &self.run.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
         let is_paused = !self.is_playing() && !self.halting.resumes;
-        let left = Left { time_secs: clock.time_secs(), frame: clock.next_frame_number() - 1, is_paused };
+        let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
+        let left = Left {
+            time_secs: clock.time_secs(),
+            frame: clock.next_frame_number() - 1,
+            is_paused,
+            size: fixed.filter(|_| fixed != usual.fixed),
+            scale: Some(scale).filter(|scale| *scale != usual.scale),
+        };
         let origin = self.documents.current().origin.clone();
         if let Err(why) = self.recent.left(&origin, left) {
             log::warn!("{why}");
@@ -63,17 +77,50 @@ impl Session {
         }
     }
 
+    /// Keeps the picture that is shown, before its project is closed.
+    fn keep_picture(&mut self) {
+        // A device that is too slow is not waited for.
+        if !self.last_pictures.is_kept() || self.halting.halt.is_some() || !self.is_picture_of_project() {
+            return;
+        }
+        let end = Instant::now() + PATIENCE;
+        let done = self.ask_engine(end, |job: &mut Job| job.reads.wants_picture = true);
+        if let Some(picture) = done.and_then(|done| done.shown) {
+            self.picture_is_read(&picture);
+        }
+    }
+
+    /// Returns whether the picture is what the project draws: not that of the project before, nor a probe, nor a frame on
+    /// the way to another.
+    pub(super) fn is_picture_of_project(&self) -> bool {
+        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.run.is_program_new;
+        let is_passing = self.probing.view().is_some() || self.run.seeking.is_seeking();
+        is_drawn && self.run.clock.next_frame_number() > 0 && !is_passing
+    }
+
+    pub(super) fn picture_is_read(&mut self, picture: &Picture) {
+        let Some(path) = kept_files::path_of(&self.documents.current().origin).map(Path::to_owned) else { return };
+        match self.last_pictures.keep(&path, picture) {
+            Ok(()) => self.changed = true,
+            Err(e) => log::warn!("the picture of {} is not kept: {e}", path.display()),
+        }
+    }
+
     /// Asks the engine for the run, and waits for it, but not for long.
     fn take_run(&mut self) -> Option<Run> {
-        let end = Instant::now() + PATIENCE;
+        self.ask_engine(Instant::now() + PATIENCE, |job: &mut Job| job.reads.wants_run = true)?.run
+    }
+
+    /// Asks the engine for something that it has, and waits for it until then.
+    fn ask_engine(&mut self, end: Instant, ask: impl FnOnce(&mut Job)) -> Option<Done> {
         self.rest_until(end)?;
-        // What else is wanted is of a project that goes.
+        // What else is wanted is done later, if the project stays.
         let wanted = std::mem::take(&mut self.drawing.wanted);
-        self.drawing.submit(self.now, false, |job: &mut Job| job.reads.wants_run = true);
+        self.drawing.submit(self.now, false, ask);
         self.drawing.wanted = wanted;
         loop {
             if let Some(done) = self.drawing.take(true) {
-                return done.run;
+                return Some(done);
             }
             if Instant::now() >= end {
                 return None;
@@ -96,7 +143,8 @@ impl Session {
 
     /// Goes on from where the time of the project stood that has just been opened.
     pub(super) fn take_time_up(&mut self) {
-        let Some(RecentProject { time_secs, frame, paused, .. }) = self.place_known() else { return };
+        let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
+        self.take_size_up(size, scale);
         let is_playing = !paused;
         if !self.has_state() {
             self.run.clock = Clock::at(time_secs, frame, is_playing);
@@ -109,5 +157,13 @@ impl Session {
         self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
         (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
+    }
+
+    /// Gives the picture the size that it had. A person writes the file, too: what is not a size counts for nothing.
+    fn take_size_up(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
+        let usual = self.canvas.usual;
+        let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);
+        let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(usual.scale);
+        self.canvas.asked = CanvasSize { scale, fixed };
     }
 }

@@ -6,16 +6,15 @@
 
 use super::{
     drawing::Frame,
+    kept_files,
     recording::{EXTENSION, RecordedFrame, Recording},
 };
 use crate::project::{self, Origin, limits};
 use std::{
     fs::{self, File},
-    hash::{DefaultHasher, Hash, Hasher},
     io::{self, BufReader, BufWriter, Write},
     path::{Path, PathBuf},
     sync::Arc,
-    time::SystemTime,
 };
 
 /// A longer run is not drawn again when its project is opened: ten minutes at 60 frames a second.
@@ -57,7 +56,7 @@ impl Runs {
         recording.write(&mut out)?;
         out.flush()?;
         out.into_inner().map_err(io::IntoInnerError::into_error)?.persist(&path)?;
-        sweep(folder);
+        kept_files::sweep(folder, EXTENSION, MOST);
         Ok(())
     }
 
@@ -92,24 +91,7 @@ impl Runs {
     }
 
     fn file(&self, origin: &Origin) -> Option<PathBuf> {
-        let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return None };
-        let mut hasher = DefaultHasher::new();
-        path.canonicalize().unwrap_or_else(|_| path.clone()).hash(&mut hasher);
-        Some(self.folder.as_ref()?.join(format!("{:016x}.{EXTENSION}", hasher.finish())))
-    }
-}
-
-/// Removes the oldest files where there are too many.
-fn sweep(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    let is_run = |path: &PathBuf| path.extension().is_some_and(|e| e == EXTENSION);
-    let files = entries.flatten().map(|entry| entry.path()).filter(is_run);
-    let written = |path: &PathBuf| path.metadata().and_then(|meta| meta.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
-    let mut files: Vec<(SystemTime, PathBuf)> = files.map(|path| (written(&path), path)).collect();
-    files.sort();
-    for (_, path) in files.iter().take(files.len().saturating_sub(MOST)) {
-        if let Err(e) = fs::remove_file(path) {
-            log::warn!("cannot remove {}: {e}", path.display());
-        }
+        let path = kept_files::path_of(origin)?;
+        Some(self.folder.as_ref()?.join(kept_files::name(path, EXTENSION)))
     }
 }

@@ -16,6 +16,7 @@ use super::{
     drawing::{self, Drawing},
     fps::FpsMeter,
     halting::Halting,
+    last_pictures::LastPictures,
     measuring::Measuring,
     miniatures::Miniatures,
     mouse::Mouse,
@@ -61,6 +62,7 @@ pub struct Session {
     pub(super) safekeeping: Safekeeping,
     pub(super) recent: Recent,
     pub(super) runs: Runs,
+    pub(super) last_pictures: LastPictures,
     pub(super) run: Run,
     pub(super) probing: Probing,
     pub(super) tracing: Tracing,
@@ -284,6 +286,7 @@ impl Session {
             safekeeping: Safekeeping::default(),
             recent,
             runs: Runs::new(options.state_dir.as_deref()),
+            last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             run: Run {
                 clock: Clock::default(),
                 mouse: Mouse::default(),

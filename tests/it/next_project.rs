@@ -433,3 +433,98 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     let (time, frame, playing) = place(&played);
     assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
 }
+
+/// What was chosen for a project is there when it is opened again, and is not the next project's.
+#[test]
+fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
+        state_dir: Some(dir.join("state")),
+        ..SessionOptions::default()
+    });
+    let write = |stage: &Stage, name: &str| {
+        let path = stage.path(name);
+        fs::write(&path, plain(0.2)).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (a, b) = (write(&stage, "a.glsl"), write(&stage, "b.glsl"));
+    let open = |stage: &mut Stage, path: &str| {
+        stage.session.apply(Command::Open(path.into()));
+        stage.until_compiled();
+        stage.session.transport().resolution
+    };
+    assert_eq!(open(&mut stage, &a), (8, 4));
+    stage.session.apply(Command::SetFixedSize(Some((27, 48))));
+    stage.session.apply(Command::SetScale(0.25));
+    stage.tick();
+    assert_eq!(open(&mut stage, &b), (8, 4));
+    assert_eq!(stage.session.transport().scale, 1.0);
+    assert_eq!(open(&mut stage, &a), (27, 48));
+    assert_eq!((stage.session.transport().scale, stage.session.transport().fixed_size), (0.25, Some((27, 48))));
+    // A saved picture has it.
+    stage.session.apply(Command::Screenshot);
+    stage.until("a saved picture", |s| s.notices().iter().any(|n| n.path.is_some()));
+    let saved = stage.session.notices().iter().find_map(|n| n.path.clone()).unwrap();
+    assert_eq!(image::open(saved).unwrap().to_rgb8().dimensions(), (27, 48));
+    // A person's mistake in the file is no size.
+    let file = stage.dir.path().join("state/projects.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.contains("size = [27, 48]") && text.contains("scale = 0.25"), "{text}");
+    open(&mut stage, &b);
+    fs::write(&file, text.replace("[27, 48]", "[0, 48]").replace("0.25", "-1.0")).unwrap();
+    assert_eq!(open(&mut stage, &a), (8, 4));
+    assert_eq!(stage.session.transport().scale, 1.0);
+}
+
+/// The list of recent projects shows what was seen last of each, and of no other.
+#[test]
+fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
+    let Some(gpu) = support::gpu() else { return };
+    for (draws_apart, is_paused) in [(false, true), (true, true), (true, false)] {
+        let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
+            cache_dir: Some(dir.join("cache")),
+            draws_apart,
+            ..SessionOptions::default()
+        });
+        let write = |stage: &Stage, name: &str, text: &str| {
+            fs::write(stage.path(name), text).unwrap();
+            stage.path(name)
+        };
+        let (a, b) = (write(&stage, "a.glsl", &plain(0.8)), write(&stage, "b.glsl", &plain(0.4)));
+        let bad = write(&stage, "bad.glsl", "no shader");
+        stage.session.apply(Command::SetFixedSize(Some((720, 1280))));
+        let open = |stage: &mut Stage, path: &Path| {
+            stage.session.apply(Command::Open(path.to_str().unwrap().into()));
+            stage.session.apply(if is_paused { Command::Pause } else { Command::Play });
+            stage.until_compiled();
+            let end = Instant::now() + Duration::from_millis(400);
+            while Instant::now() < end {
+                stage.tick();
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        };
+        let red = |stage: &Stage, path: &Path| {
+            let (file, _) = stage.session.last_picture(path).unwrap();
+            image::open(file).ok().map(|image| {
+                let image = image.to_rgb8();
+                (image.dimensions(), (f32::from(image.get_pixel(9, 9).0[0]) / 255.0 * 10.0).round() as u8)
+            })
+        };
+        let size = (101, 180);
+        open(&mut stage, &a);
+        assert_eq!(red(&stage, &a), None);
+        open(&mut stage, &b);
+        assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_apart}");
+        // It stays open, and something else is looked at.
+        let (_, before) = stage.session.last_picture(&b).unwrap();
+        stage.session.apply(Command::Cover(true));
+        stage.until("a picture", |session| session.last_picture(&b).unwrap().1 > before);
+        assert_eq!(red(&stage, &b), Some((size, 4)));
+        stage.session.apply(Command::Cover(false));
+        // What never drew has none, and is not given that of the one before.
+        open(&mut stage, &bad);
+        open(&mut stage, &a);
+        assert_eq!(red(&stage, &bad), None);
+        assert_eq!(red(&stage, &b), Some((size, 4)));
+    }
+}

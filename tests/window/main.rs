@@ -17,7 +17,9 @@ mod window_lab;
 mod window_layout;
 mod window_measures;
 mod window_passes;
+mod window_resolution;
 mod window_save;
+mod window_settings;
 mod window_slow;
 mod window_state;
 // The portal is spoken to by a library that only the window needs.

@@ -44,6 +44,7 @@ pub enum Action {
     ZoomIn,
     ZoomOut,
     ZoomReset,
+    Settings,
     SettingsFile,
     Passes,
     UndoPasses,

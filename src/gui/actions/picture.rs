@@ -8,6 +8,8 @@ pub enum PictureAction {
     Scale(Scale),
     /// Always so many pixels.
     Size((u32, u32)),
+    /// The field for any size.
+    TypeSize,
     ResetUniforms,
     GoOn,
     Smaller,

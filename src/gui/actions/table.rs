@@ -170,6 +170,8 @@ pub const ACTIONS: &[Entry] = &[
     picture(PictureAction::Size(SIZES[5]), "picture-3840x2160", "Resolution: 3840 × 2160").found_by("4k uhd size"),
     picture(PictureAction::Size(SIZES[6]), "picture-512x512", "Resolution: 512 × 512"),
     picture(PictureAction::Size(SIZES[7]), "picture-1024x1024", "Resolution: 1024 × 1024"),
+    picture(PictureAction::TypeSize, "picture-size", "Set resolution")
+        .found_by("custom size width height portrait pixels dimensions"),
     picture(PictureAction::ResetUniforms, "reset-uniforms", "Reset all uniforms")
         .found_by("sliders defaults parameters"),
     picture(PictureAction::GoOn, "go-on", "Slow frame: continue").found_by("timeout hang"),
@@ -257,6 +259,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::ZoomIn, "zoom-in", "Zoom in", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window).found_by("ui scale larger"),
     row(Action::ZoomOut, "zoom-out", "Zoom out", &["Ctrl+Alt+-"], Group::Window).found_by("ui scale smaller"),
     row(Action::ZoomReset, "zoom-usual", "Reset zoom", &["Ctrl+Alt+0"], Group::Window),
+    row(Action::Settings, "open-settings", "Open settings", &["Ctrl+,"], Group::Window)
+        .found_by("preferences options configuration config theme font"),
     row(Action::SettingsFile, "settings", "Open settings file", &[], Group::Window)
         .found_by("preferences options configuration config"),
     row(

@@ -2,10 +2,13 @@
 //! for 4.5 to 1 of small text. What is disabled is exempt there, and text over a picture is measured by the palette's
 //! own tests.
 
-use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
+use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, until};
 use crate::{
-    gui::dock::Panel,
-    session::{Command, Level},
+    gui::{
+        dock::Panel,
+        settings::{Remembered, SettingsFile},
+    },
+    session::{Answer, Command, Level, Question, SessionOptions},
 };
 use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme, epaint::ClippedShape};
 use std::collections::BTreeSet;
@@ -147,6 +150,78 @@ fn every_text_has_enough_contrast_in_both_themes() {
         let Some(mut stage) = open(true) else { return };
         stage.ctx.set_theme(theme);
         check(&mut stage, "the gallery", theme);
+    }
+}
+
+/// Questions, and pages over the window.
+#[test]
+fn every_dialog_has_enough_contrast_in_both_themes() {
+    for theme in [Theme::Dark, Theme::Light] {
+        let kept = tempfile::tempdir().unwrap();
+        let options = || SessionOptions { recovery: Some(kept.path().to_owned()), ..SessionOptions::default() };
+        let Some(mut stage) = open_with(false, options()) else { return };
+        let folder = stage.state().folder.path().to_owned();
+        // A file that is right, one with lines that are wrong, and one that cannot be read.
+        let file = folder.join("settings.toml");
+        for text in ["code-size = 20.0\nword-wrap = true\n", "zoom = 9\nthem = 3\n", "zoom = = 3\n"] {
+            std::fs::write(&file, text).unwrap();
+            let mut settings = SettingsFile::at(Some(file.clone()));
+            settings.refresh();
+            stage.state_mut().shell.restore(settings, &Remembered::default(), true);
+            stage.run_steps(2);
+            press(&mut stage, CTRL, Key::Comma);
+            // The theme is the settings' own until now.
+            stage.ctx.set_theme(theme);
+            assert!(stage.state().shell.place("settings:page").is_some());
+            check(&mut stage, &format!("the settings of {text:?}"), theme);
+            press(&mut stage, Modifiers::NONE, Key::Escape);
+            assert!(stage.state().shell.place("settings:page").is_none());
+        }
+        stage.state_mut().session.apply(Command::Hold);
+        stage.run_steps(3);
+        assert!(stage.state().session.halt().is_some());
+        check(&mut stage, "a slow frame", theme);
+        stage.state_mut().session.apply(Command::GoOn);
+        press(&mut stage, CTRL_SHIFT, Key::S);
+        until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
+        check(&mut stage, "a path", theme);
+        press(&mut stage, Modifiers::NONE, Key::Escape);
+
+        let other = folder.join("other");
+        std::fs::create_dir(&other).unwrap();
+        std::fs::write(other.join("image.glsl"), "// of another project\n").unwrap();
+        stage.state_mut().session.apply(Command::SaveAs(other));
+        until(&mut stage, "a question", |stage| {
+            matches!(stage.state().session.question(), Some(Question::Overwrite { .. }))
+        });
+        check(&mut stage, "overwriting", theme);
+        stage.state_mut().session.apply(Command::Answer(Answer::Cancel));
+
+        let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
+        let mine = format!("// mine\n{}", stage.state().session.text(&tab));
+        stage.state_mut().session.apply(Command::EditText { tab, text: mine });
+        stage.state_mut().session.apply(Command::New);
+        stage.run_steps(3);
+        assert!(matches!(stage.state().session.question(), Some(Question::Unsaved { .. })));
+        check(&mut stage, "unsaved changes", theme);
+        stage.state_mut().session.apply(Command::Answer(Answer::Cancel));
+        stage.run_steps(2);
+
+        std::fs::write(folder.join("image.glsl"), "// of another program\n").unwrap();
+        until(&mut stage, "a conflict", |stage| {
+            matches!(stage.state().session.question(), Some(Question::Conflict { .. }))
+        });
+        check(&mut stage, "a conflict", theme);
+        stage.state_mut().session.apply(Command::Answer(Answer::KeepMine));
+        let is_kept = |entry: std::fs::DirEntry| entry.path().extension().is_some_and(|e| e == "json");
+        until(&mut stage, "unsaved work on disk", |_| std::fs::read_dir(kept.path()).unwrap().flatten().any(is_kept));
+        // It ends without being closed.
+        drop(stage);
+        let Some(mut stage) = open_with(true, options()) else { return };
+        stage.ctx.set_theme(theme);
+        until(&mut stage, "what was left behind", |stage| stage.state().session.question().is_some());
+        assert!(matches!(stage.state().session.question(), Some(Question::Recover(_))));
+        check(&mut stage, "unsaved work", theme);
     }
 }
 

@@ -1,4 +1,4 @@
-//! A preset's card: its picture, its name, and all of its description.
+//! A card: its picture, its name, and words. A preset's has all of its description.
 
 use crate::{
     gui::{
@@ -62,14 +62,11 @@ impl Card {
 
     /// The description as it is laid out on a card of this width.
     pub fn text(&self, ui: &Ui, width: f32) -> Arc<Galley> {
-        let color = theme::of(ui).weak;
-        let font = FontId::proportional(12.0);
-        ui.painter().layout_job(LayoutJob::simple(self.about.clone(), font, color, width - 2.0 * MARGIN))
+        words(ui, &self.about, width)
     }
 
     /// True while the pointer is on it.
     pub fn show(&self, ui: &Ui, rect: Rect, text: Arc<Galley>, thumbnails: &mut Thumbnails, out: &mut Outbox) -> bool {
-        let p = theme::of(ui);
         let response = ui.interact(rect, egui::Id::unique(("preset", self.name)), Sense::click());
         accessible::name(&response, egui::Role::Button, format!("{}: {}", self.title, self.about));
         if response.gained_focus() {
@@ -84,42 +81,61 @@ impl Card {
         if !ui.is_rect_visible(rect) {
             return false;
         }
-        let painter = ui.painter();
-        let hot = response.hovered() || response.has_focus();
-        painter.rect_filled(rect, 8.0, if hot { p.button } else { p.panel });
-        let place = Rect::from_min_size(rect.min, picture(rect.width()));
-        let top = egui::CornerRadius { nw: 8, ne: 8, sw: 0, se: 0 };
         let picture = match thumbnails.live(self.name) {
             Some(texture) => Thumbnail::Ready(texture),
             None => thumbnails.get(Subject::Preset(self.name.to_owned())),
         };
-        let mut trouble = None;
-        match picture {
-            Thumbnail::Ready(texture) => {
+        let place = paint(ui, rect, response.hovered() || response.has_focus(), &picture, &self.title, text);
+        let trouble = match picture {
+            Thumbnail::Ready(_) => {
                 let state = if thumbnails.live(self.name).is_some() { "live" } else { "picture" };
                 out.place(format!("{state}:{}", self.name), place);
-                egui::Image::new(&texture).corner_radius(top).paint_at(ui, place);
+                None
             }
-            Thumbnail::Waiting => {
-                painter.rect_filled(place, top, p.surround);
-            }
+            Thumbnail::Waiting => None,
             Thumbnail::Failed(why) => {
-                painter.rect_filled(place, top, p.surround);
-                painter.text(place.center(), Align2::CENTER_CENTER, "No thumbnail", FontId::proportional(12.0), p.weak);
-                trouble = Some(why);
+                let p = theme::of(ui);
+                let font = FontId::proportional(12.0);
+                ui.painter().text(place.center(), Align2::CENTER_CENTER, "No thumbnail", font, p.weak);
+                Some(why)
             }
-        }
-        let border = if hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, p.line) };
-        painter.rect_stroke(rect, 8.0, border, StrokeKind::Inside);
-        let at = pos2(rect.left() + MARGIN, place.bottom() + 9.0);
-        let title = LayoutJob::simple_singleline(self.title.clone(), FontId::proportional(14.5), p.strong);
-        let galley = painter.layout_job(title);
-        painter.with_clip_rect(rect.shrink2(vec2(MARGIN, 0.0)).intersect(ui.clip_rect())).galley(at, galley, p.strong);
-        painter.galley(at + vec2(0.0, TITLE), text, Color32::PLACEHOLDER);
+        };
         let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
         match trouble {
             Some(why) => response.on_hover_text(why).hovered(),
             None => response.hovered(),
         }
     }
+}
+
+/// Lays the words of a card out below its title.
+pub fn words(ui: &Ui, text: &str, width: f32) -> Arc<Galley> {
+    let job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), theme::of(ui).weak, width - 2.0 * MARGIN);
+    ui.painter().layout_job(job)
+}
+
+/// Paints a card: its picture whole, whatever its shape, its title, and its words. Returns where the picture is.
+pub fn paint(ui: &Ui, rect: Rect, is_hot: bool, picture: &Thumbnail, title: &str, text: Arc<Galley>) -> Rect {
+    let p = theme::of(ui);
+    let painter = ui.painter();
+    painter.rect_filled(rect, 8.0, if is_hot { p.button } else { p.panel });
+    let place = Rect::from_min_size(rect.min, self::picture(rect.width()));
+    let top = egui::CornerRadius { nw: 8, ne: 8, sw: 0, se: 0 };
+    painter.rect_filled(place, top, p.surround);
+    if let Thumbnail::Ready(texture) = picture {
+        let size = texture.size_vec2();
+        let scale = (place.width() / size.x).min(place.height() / size.y);
+        let within = Rect::from_center_size(place.center(), size * scale);
+        let fills = within.width() > place.width() - 2.0;
+        let image = egui::Image::new(texture).corner_radius(if fills { top } else { egui::CornerRadius::ZERO });
+        image.paint_at(ui, if fills { place } else { within });
+    }
+    let border = if is_hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, p.line) };
+    painter.rect_stroke(rect, 8.0, border, StrokeKind::Inside);
+    let at = pos2(rect.left() + MARGIN, place.bottom() + 9.0);
+    let mut job = LayoutJob::simple_singleline(title.to_owned(), FontId::proportional(14.5), p.strong);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width() - 2.0 * MARGIN);
+    painter.galley(at, painter.layout_job(job), p.strong);
+    painter.galley(at + vec2(0.0, TITLE), text, Color32::PLACEHOLDER);
+    place
 }

@@ -26,6 +26,8 @@ pub struct Gallery {
     /// The one category that is shown; none: all.
     category: Option<&'static str>,
     search: String,
+    /// More than one row of recent projects.
+    shows_all_recent: bool,
     /// The card that the pointer is on, and since when.
     hovered: Option<(&'static str, Instant)>,
 }
@@ -55,7 +57,7 @@ impl Gallery {
                     }
                     ui.add_space(4.0);
                 }
-                start::show(ui, session, out);
+                start::show(ui, session, thumbnails, &mut self.shows_all_recent, out);
                 ui.add_space(14.0);
                 self.filter(ui, out);
                 hovered = self.presets(ui, thumbnails, out);

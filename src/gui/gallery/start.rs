@@ -1,22 +1,30 @@
 //! The first row: a new shader, what is on the clipboard, a file or a folder, and what was open before.
 
-use super::grid::{self, GAP};
+use super::{
+    card,
+    grid::{self, GAP},
+};
 use crate::{
     gui::{
         accessible,
         actions::Action,
         outbox::{Outbox, Pick, Wish},
         recent, theme,
+        thumbnails::{Subject, Thumbnail, Thumbnails},
     },
     session::{Command, RecentProject, Session},
 };
-use egui::{FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
+use egui::{
+    Align2, FontId, Galley, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2,
+};
+use std::sync::Arc;
 
 const HEIGHT: f32 = 54.0;
-/// As many as fill two rows of a usual window.
-const RECENT: usize = 8;
+/// So many recent projects are shown when all are asked for: one finds more by the palette, or by the system.
+const RECENT: usize = 24;
 
-pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+/// `shows_all`: more than one row of recent projects.
+pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut Outbox) {
     ui.label(RichText::new("Start").size(17.0).color(theme::of(ui).strong));
     ui.add_space(4.0);
     let new = out.keys.hint(Action::New);
@@ -30,7 +38,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     ];
     let mut clicked = None;
     rows(ui, &tiles, |ui, rect, (name, title, about)| {
-        let response = tile(ui, rect, name, title, about, true);
+        let response = tile(ui, rect, name, title, about);
         if out.clicked(name, &response) {
             clicked = Some(*name);
         }
@@ -42,26 +50,80 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         Some(_) => out.wishes.push(Wish::Pick(Pick::OpenFolder)),
         None => {}
     }
-    recent_row(ui, session.recent(), out);
+    recent_rows(ui, session, thumbnails, shows_all, out);
 }
 
-fn recent_row(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
+fn recent_rows(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut Outbox) {
+    let list = session.recent();
     if list.is_empty() {
         return;
     }
+    let room = ui.available_width();
+    let (columns, width) = grid::columns(room);
     ui.add_space(10.0);
-    ui.label(RichText::new("Recent").size(14.5).color(theme::of(ui).text));
-    ui.add_space(2.0);
-    let shown: Vec<&RecentProject> = list.iter().take(RECENT).collect();
-    rows(ui, &shown, |ui, rect, project| {
-        let path = &project.path;
-        let (title, about) = (recent::title(path), recent::parent(path));
-        let response = tile(ui, rect, &path.display().to_string(), &title, &about, false);
-        if out.clicked(&format!("recent:{}", path.display()), &response) {
-            out.ask(Command::Open(path.display().to_string()));
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Recent").size(14.5).color(theme::of(ui).text));
+        let count = list.len().min(RECENT);
+        if count > columns as usize {
+            let label = if *shows_all { "Show fewer".to_owned() } else { format!("Show {count}") };
+            if out.clicked("recent-all", &ui.button(label)) {
+                *shows_all = !*shows_all;
+            }
         }
-        response.on_hover_text(path.display().to_string());
     });
+    ui.add_space(2.0);
+    let shown = if *shows_all { RECENT } else { columns as usize };
+    for row in list[..list.len().min(shown)].chunks(columns as usize) {
+        let words = |project: &RecentProject| card::words(ui, &recent::parent(&project.path), width);
+        let texts: Vec<_> = row.iter().map(words).collect();
+        let height = card::height(width, texts.iter().map(|text| text.size().y).fold(0.0, f32::max));
+        let (place, _) = ui.allocate_exact_size(vec2(room, height), Sense::hover());
+        for (i, (project, text)) in row.iter().zip(texts).enumerate() {
+            let corner = pos2(place.left() + i as f32 * (width + GAP), place.top());
+            let rect = Rect::from_min_size(corner, vec2(width, height));
+            recent_card(ui, rect, project, text, session, thumbnails, out);
+        }
+        ui.add_space(GAP - ui.spacing().item_spacing.y);
+    }
+}
+
+fn recent_card(
+    ui: &Ui,
+    rect: Rect,
+    project: &RecentProject,
+    text: Arc<Galley>,
+    session: &Session,
+    thumbnails: &mut Thumbnails,
+    out: &mut Outbox,
+) {
+    let path = project.path.display().to_string();
+    let title = recent::title(&project.path);
+    let response = ui.interact(rect, egui::Id::unique(("tile", path.as_str())), Sense::click());
+    accessible::name(&response, egui::Role::Button, title.as_str());
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+    if response.clicked() {
+        out.ask(Command::Open(path.clone()));
+    }
+    if !ui.is_rect_visible(rect) {
+        return;
+    }
+    out.place(format!("recent:{path}"), rect.intersect(ui.clip_rect()));
+    let picture = match session.last_picture(&project.path) {
+        Some((file, written)) => thumbnails.get(Subject::Recent(file, written)),
+        None => Thumbnail::Failed(String::new()),
+    };
+    let place = card::paint(ui, rect, response.hovered() || response.has_focus(), &picture, &title, text);
+    match picture {
+        Thumbnail::Ready(_) => out.place(format!("recent-picture:{path}"), place),
+        Thumbnail::Waiting => {}
+        Thumbnail::Failed(_) => {
+            let font = FontId::proportional(12.0);
+            ui.painter().text(place.center(), Align2::CENTER_CENTER, "No picture", font, theme::of(ui).weak);
+        }
+    }
+    response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text(path);
 }
 
 /// Shows tiles of one size, as many beside each other as there is room for.
@@ -80,7 +142,7 @@ fn rows<T>(ui: &mut Ui, tiles: &[T], mut show: impl FnMut(&mut Ui, Rect, &T)) {
     }
 }
 
-fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str, is_first: bool) -> Response {
+fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str) -> Response {
     let p = theme::of(ui);
     let response = ui.interact(rect, egui::Id::unique(("tile", id)), Sense::click());
     accessible::name(&response, egui::Role::Button, title);
@@ -90,14 +152,13 @@ fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str, is_first: bool)
         rect,
         6.0,
         // In light, what is grey looks as if it could not be clicked.
-        match (hot, is_first, p.is_dark) {
-            (true, ..) => p.button_hovered,
-            (false, true, true) => p.button,
-            (false, true, false) => p.raised,
-            (false, false, _) => p.panel,
+        match (hot, p.is_dark) {
+            (true, _) => p.button_hovered,
+            (false, true) => p.button,
+            (false, false) => p.raised,
         },
     );
-    let edge = if is_first && !p.is_dark { p.button_edge } else { p.line };
+    let edge = if p.is_dark { p.line } else { p.button_edge };
     let border = if hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, edge) };
     painter.rect_stroke(rect, 6.0, border, StrokeKind::Inside);
     for (text, size, color, y) in [(title, 14.0, p.strong, 9.0), (about, 11.5, p.weak, 30.0)] {

@@ -18,6 +18,7 @@ pub(super) const SECTIONS: &[Section] = &[
             "Save with Ctrl+S. A project is a folder of plain GLSL files; presets are never changed, as editing one \
              edits a copy. Unsaved work is backed up within a second and offered again after a crash.",
             "You can use another editor at the same time: Eddy reloads a file when it is saved.",
+            "Ctrl+comma opens the settings: theme, zoom, code font, word wrap, when to compile, and the slow frame limit.",
         ],
     },
     Section {
@@ -37,8 +38,9 @@ pub(super) const SECTIONS: &[Section] = &[
         paragraphs: &[
             "iMouse follows the mouse over the picture: xy is the position while the button is held, zw where it was \
              pressed. To read keys, set a channel to Keyboard.",
-            "Choose the resolution and the shown pass in the toolbar below the picture. Changing the resolution \
-             restarts the buffers. Screenshots are saved in the project's folder, or in your pictures folder if the \
+            "Choose the resolution and the shown pass in the toolbar below the picture. Type any size, like 1080x1920, in \
+             the field of the resolution menu; a picture that is larger than the panel is scaled down to fit. The size is \
+             remembered with the project. Changing the resolution restarts the buffers. Screenshots are saved in the project's folder, or in your pictures folder if the \
              project is not saved.",
             "If a frame exceeds the time limit, Eddy pauses the picture and asks what to do. Your text is never changed.",
         ],

@@ -42,22 +42,54 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
 }
 
 /// Returns the text with one setting changed, and everything else as it was. Err: the text is none that can be changed.
-pub fn change(text: &str, change: Change) -> Result<String, Mistake> {
+pub fn change(text: &str, change: &Change) -> Result<String, Mistake> {
+    const NOT_SAVED: &str = "your change in the window is not saved";
+    let line = |at: usize| 1 + text[..at].matches('\n').count();
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
-        let line = 1 + text[..error.span().map_or(0, |s| s.start)].matches('\n').count();
-        Mistake { line, text: format!("{}; your change in the window is not saved", error.message().trim_end()) }
+        let at = error.span().map_or(0, |s| s.start);
+        Mistake { line: line(at), text: format!("{}; {NOT_SAVED}", error.message().trim_end()) }
     })?;
     let (name, value) = change.written();
-    match document.get_mut(name).and_then(Item::as_value_mut) {
-        Some(there) => {
+    match document.get_mut(name) {
+        Some(Item::Value(there)) => {
             // A comment behind the value stays.
             let decor = there.decor().clone();
             *there = value;
             *there.decor_mut() = decor;
         }
-        None => drop(document.insert(name, Item::Value(value))),
+        // What is in a table of that name is the person's.
+        Some(item) if !item.is_none() => {
+            let document = Document::parse(text).ok();
+            let key = document.as_ref().and_then(|document| document.as_table().key(name)?.span());
+            let at = line(key.map_or(0, |span| span.start));
+            return Err(Mistake { line: at, text: format!("{name} takes one value: {name} = {value}; {NOT_SAVED}") });
+        }
+        _ => {
+            if let Some(text) = uncommented(text, name, &value) {
+                return Ok(text);
+            }
+            drop(document.insert(name, Item::Value(value)));
+        }
     }
     Ok(document.to_string())
+}
+
+/// Returns the text with the setting in the line that names it in a comment, as the new file has one for each. `None`:
+/// there is no such line.
+fn uncommented(text: &str, name: &str, value: &toml_edit::Value) -> Option<String> {
+    let is_of_it = |line: &str| {
+        let rest = line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix(name));
+        rest.is_some_and(|rest| rest.trim_start().starts_with('='))
+    };
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let at = lines.iter().position(|line| is_of_it(line))?;
+    let end = &lines[at][lines[at].trim_end_matches(['\r', '\n']).len()..];
+    let changed = format!("{name} = {}{end}", value.to_string().trim());
+    let text = [&lines[..at], &[changed.as_str()], &lines[at + 1..]].concat().concat();
+    // Below the header of a table, or within a text of several lines, it would be something else.
+    let document = Document::parse(text.as_str()).ok()?;
+    let is_there = document.get(name).and_then(Item::as_value).is_some();
+    is_there.then_some(text)
 }
 
 /// Returns the text of a new file: every setting as it is at first, each as a comment.
@@ -120,14 +152,36 @@ mod tests {
     #[test]
     fn a_change_leaves_comments_order_and_unknown_keys() {
         let text = "# mine\nzoom = 1.5 # large\n\nthem = 3\n";
-        let text = change(text, Change::Zoom(1.75)).unwrap();
+        let text = change(text, &Change::Zoom(1.75)).unwrap();
         assert_eq!(text, "# mine\nzoom = 1.75 # large\n\nthem = 3\n");
-        let text = change(&text, Change::Theme(Theme::Light)).unwrap();
+        let text = change(&text, &Change::Theme(Theme::Light)).unwrap();
         assert_eq!(read(&text).0, Settings { zoom: 1.75, theme: Theme::Light, ..Settings::default() });
         assert!(text.starts_with("# mine\nzoom = 1.75 # large\n"), "{text}");
-        assert_eq!(change("zoom = 1\nzoom =", Change::Zoom(2.0)).unwrap_err().line, 2);
-        let fresh = change(&template(), Change::WordWrap(true)).unwrap();
-        assert!(read(&fresh).0.word_wrap && fresh.contains("# theme = "), "{fresh}");
+        assert_eq!(change("zoom = 1\nzoom =", &Change::Zoom(2.0)).unwrap_err().line, 2);
+        let fresh = change(&template(), &Change::WordWrap(true)).unwrap();
+        // The new file has a line for it.
+        assert_eq!(fresh, template().replace("# word-wrap = false", "word-wrap = true"));
+        assert!(read(&fresh).0.word_wrap);
+    }
+
+    #[test]
+    fn a_change_goes_where_it_counts_and_replaces_nothing_of_a_persons() {
+        let wrap = |text: &str| change(text, &Change::WordWrap(true));
+        let below = "zoom = 1.5\n[editor]\n# word-wrap = false\nsize = 3\n";
+        let text = wrap(below).unwrap();
+        assert!(read(&text).0.word_wrap && text.contains("[editor]\n# word-wrap = false\nsize = 3\n"), "{text}");
+        let table = "zoom = 1.5\n\n[word-wrap]\non = true # mine\n";
+        let why = wrap(table).unwrap_err();
+        assert_eq!(why.line, 3, "{why:?}");
+        let within = "code-font = \"\"\"\n# word-wrap = false\n\"\"\"\n";
+        let text = wrap(within).unwrap();
+        assert!(read(&text).0.word_wrap && text.contains(within), "{text}");
+        let dos = "# mine\r\n#word-wrap=false\r\nzoom = 1.5\r\n";
+        assert_eq!(wrap(dos).unwrap(), "# mine\r\nword-wrap = true\r\nzoom = 1.5\r\n");
+        let font = Change::CodeFont(Some("C:\\fonts\\a \"b\".ttf".into()));
+        let text = change("code-font = \"\" # plain\n", &font).unwrap();
+        assert!(text.ends_with("# plain\n"), "{text}");
+        assert_eq!(read(&text).0.code_font.as_deref(), Some("C:\\fonts\\a \"b\".ttf"));
     }
 
     /// The new file says what holds without it.

@@ -69,43 +69,79 @@ impl Default for Settings {
 }
 
 /// A setting that the window changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     Theme(Theme),
     Zoom(f32),
     CodeSize(f32),
+    /// The file of a font; none: Eddy's own.
+    CodeFont(Option<String>),
     WordWrap(bool),
     CompileOnSave(bool),
+    FrameTimeout(Duration),
 }
 
 impl Change {
     /// Returns the setting's name in the file, and what is to stand behind it.
-    pub(super) fn written(self) -> (&'static str, Value) {
+    pub(super) fn written(&self) -> (&'static str, Value) {
         // As short as people write them.
-        let number = |x: f32| Value::from((f64::from(x) * 100.0).round() / 100.0);
+        let short = |x: f64| Value::from((x * 100.0).round() / 100.0);
+        let number = |x: f32| short(f64::from(x));
         match self {
             Change::Theme(theme) => ("theme", theme.name().into()),
-            Change::Zoom(zoom) => ("zoom", number(zoom)),
-            Change::CodeSize(size) => ("code-size", number(size)),
-            Change::WordWrap(on) => ("word-wrap", on.into()),
-            Change::CompileOnSave(on) => ("compile-on-save", on.into()),
+            Change::Zoom(zoom) => ("zoom", number(zoom.clamp(*ZOOMS.start(), *ZOOMS.end()))),
+            Change::CodeSize(size) => ("code-size", number(size.clamp(*CODE_SIZES.start(), *CODE_SIZES.end()))),
+            Change::CodeFont(path) => ("code-font", path.as_deref().unwrap_or_default().into()),
+            Change::WordWrap(on) => ("word-wrap", (*on).into()),
+            Change::CompileOnSave(on) => ("compile-on-save", (*on).into()),
+            Change::FrameTimeout(limit) => ("frame-timeout", short(limit.as_secs_f64())),
         }
     }
 
-    pub fn apply(self, settings: &mut Settings) {
+    pub fn apply(&self, settings: &mut Settings) {
         match self {
-            Change::Theme(theme) => settings.theme = theme,
+            Change::Theme(theme) => settings.theme = *theme,
             Change::Zoom(zoom) => settings.zoom = zoom.clamp(*ZOOMS.start(), *ZOOMS.end()),
             Change::CodeSize(size) => settings.code_size = size.clamp(*CODE_SIZES.start(), *CODE_SIZES.end()),
-            Change::WordWrap(on) => settings.word_wrap = on,
-            Change::CompileOnSave(on) => settings.compile_on_save = on,
+            Change::CodeFont(path) => settings.code_font.clone_from(path),
+            Change::WordWrap(on) => settings.word_wrap = *on,
+            Change::CompileOnSave(on) => settings.compile_on_save = *on,
+            Change::FrameTimeout(limit) => settings.frame_timeout = *limit,
         }
     }
 }
 
+/// The widget by which the window changes a setting.
+pub enum Control {
+    Theme,
+    Switch {
+        get: fn(&Settings) -> bool,
+        change: fn(bool) -> Change,
+    },
+    Number(Number),
+    /// The file of a font.
+    Font,
+}
+
+pub struct Number {
+    /// In the unit that the window shows.
+    pub get: fn(&Settings) -> f64,
+    pub change: fn(f64) -> Change,
+    pub least: f64,
+    pub most: f64,
+    /// Between two values that buttons and arrow keys go to.
+    pub step: f64,
+    pub unit: &'static str,
+}
+
 /// A line of the file.
-pub(super) struct Key {
+pub struct Key {
     pub name: &'static str,
+    /// In the window.
+    pub title: &'static str,
+    /// Says in the window what it does.
+    pub help: &'static str,
+    pub control: Control,
     /// Holds what it is, for the file's comments.
     pub about: &'static str,
     /// As the file writes what holds without it.
@@ -114,9 +150,12 @@ pub(super) struct Key {
     pub read: fn(&mut Settings, &Value) -> Result<(), String>,
 }
 
-pub(super) const KEYS: &[Key] = &[
+pub const KEYS: &[Key] = &[
     Key {
         name: "theme",
+        title: "Theme",
+        help: "Colours of the window; System follows the desktop",
+        control: Control::Theme,
         about: "Theme: \"system\", \"dark\" or \"light\"",
         usual: "\"system\"",
         read: |settings, value| {
@@ -127,6 +166,16 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "zoom",
+        title: "Zoom",
+        help: "Size of everything in the window",
+        control: Control::Number(Number {
+            get: |settings| f64::from(settings.zoom) * 100.0,
+            change: |percent| Change::Zoom((percent / 100.0) as f32),
+            least: 50.0,
+            most: 400.0,
+            step: 10.0,
+            unit: " %",
+        }),
         about: "Zoom of the window, from 0.5 to 4",
         usual: "1.0",
         read: |settings, value| {
@@ -136,6 +185,16 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "code-size",
+        title: "Code size",
+        help: "Size of the letters of code, in points",
+        control: Control::Number(Number {
+            get: |settings| f64::from(settings.code_size),
+            change: |size| Change::CodeSize(size as f32),
+            least: 8.0,
+            most: 32.0,
+            step: 1.0,
+            unit: " pt",
+        }),
         about: "Code size in points, from 8 to 32",
         usual: "13.0",
         read: |settings, value| {
@@ -145,6 +204,9 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "code-font",
+        title: "Code font",
+        help: "A .ttf or .otf file; leave it empty for the built-in font",
+        control: Control::Font,
         about: "Font file for code (.ttf or .otf); \"\" for the built-in font",
         usual: "\"\"",
         read: |settings, value| {
@@ -155,6 +217,9 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "word-wrap",
+        title: "Word wrap",
+        help: "Wrap long lines of code",
+        control: Control::Switch { get: |settings| settings.word_wrap, change: Change::WordWrap },
         about: "Wrap long lines of code: true or false",
         usual: "false",
         read: |settings, value| {
@@ -164,6 +229,9 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "compile-on-save",
+        title: "Compile on save only",
+        help: "Compile edits when they are saved, not while you type",
+        control: Control::Switch { get: |settings| settings.compile_on_save, change: Change::CompileOnSave },
         about: "Compile edits when they are saved and not while typing: true or false",
         usual: "false",
         read: |settings, value| {
@@ -173,6 +241,16 @@ pub(super) const KEYS: &[Key] = &[
     },
     Key {
         name: "frame-timeout",
+        title: "Slow frame limit",
+        help: "Pause the picture when a frame takes longer than this",
+        control: Control::Number(Number {
+            get: |settings| settings.frame_timeout.as_secs_f64(),
+            change: |secs| Change::FrameTimeout(Duration::from_secs_f64(secs)),
+            least: 0.05,
+            most: MOST_SECONDS,
+            step: 0.5,
+            unit: " s",
+        }),
         about: "Pause when a frame takes longer than this many seconds; --frame-timeout overrides it",
         usual: "2.0",
         read: |settings, value| {
@@ -184,6 +262,27 @@ pub(super) const KEYS: &[Key] = &[
     },
 ];
 
+impl Key {
+    /// Returns whether a setting is as it is without the file.
+    pub fn is_usual(&self, settings: &Settings) -> bool {
+        self.usual_change().written().1.to_string() == self.as_it_is(settings).written().1.to_string()
+    }
+
+    /// Returns the change that makes it so.
+    pub fn usual_change(&self) -> Change {
+        self.as_it_is(&Settings::default())
+    }
+
+    fn as_it_is(&self, settings: &Settings) -> Change {
+        match &self.control {
+            Control::Theme => Change::Theme(settings.theme),
+            Control::Switch { get, change } => change(get(settings)),
+            Control::Number(number) => (number.change)((number.get)(settings)),
+            Control::Font => Change::CodeFont(settings.code_font.clone()),
+        }
+    }
+}
+
 fn float(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
 }
@@ -191,4 +290,32 @@ fn float(value: &Value) -> Option<f64> {
 fn number(value: &Value, range: &std::ops::RangeInclusive<f32>) -> Result<f32, String> {
     let number = float(value).map(|x| x as f32).filter(|x| range.contains(x));
     number.ok_or_else(|| format!("must be a number from {} to {}", range.start(), range.end()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::settings::file;
+
+    /// The window offers what the file takes, under the same name.
+    #[test]
+    fn controls_change_the_setting_of_their_row() {
+        for key in KEYS {
+            assert_eq!(key.usual_change().written().0, key.name);
+            assert!(key.is_usual(&Settings::default()), "{}", key.name);
+            let changes = match &key.control {
+                Control::Theme => Theme::ALL.map(Change::Theme).to_vec(),
+                Control::Switch { change, .. } => vec![change(true), change(false)],
+                Control::Number(number) => [number.least, number.most].map(number.change).to_vec(),
+                Control::Font => vec![Change::CodeFont(Some("/a b/\"c\".ttf".into())), Change::CodeFont(None)],
+            };
+            for change in changes {
+                let (name, value) = change.written();
+                let (read, mistakes) = file::read(&format!("{name} = {value}\n"));
+                let mut applied = Settings::default();
+                change.apply(&mut applied);
+                assert_eq!((read, mistakes), (applied, vec![]), "{change:?}");
+            }
+        }
+    }
 }

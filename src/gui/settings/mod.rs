@@ -9,6 +9,6 @@ mod keys;
 mod place;
 mod watch;
 
-pub use keys::{Change, Settings, Theme};
+pub use keys::{Change, Control, KEYS, Key, Number, Settings, Theme};
 pub use place::{Place, Remembered, UsualSizes, WindowFile};
 pub use watch::SettingsFile;

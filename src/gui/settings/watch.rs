@@ -30,7 +30,14 @@ impl SettingsFile {
     /// Changes a setting, here and in the file. Err: why it is not in the file, and so holds until the window closes.
     pub fn change(&mut self, change: Change) -> Result<(), String> {
         change.apply(self.content_mut());
-        self.edit(|text| file::change(text, change), "The setting applies until the window closes.")
+        self.edit(|text| file::change(text, &change), "The setting applies until the window closes.")
+    }
+
+    /// Returns why no setting can be written: the file cannot be read, or not be understood.
+    pub fn trouble(&self) -> Option<&str> {
+        let is_broken = self.text().is_some_and(|text| toml_edit::Document::parse(text).is_err());
+        let why = self.mistakes().first().filter(|_| is_broken || self.is_unreadable());
+        why.map(String::as_str)
     }
 }
 
@@ -55,10 +62,21 @@ mod tests {
         assert!(told.len() == 1 && told[0].starts_with(&format!("{}:2: unknown setting", path.display())), "{told:?}");
         assert_eq!((file.settings().zoom, file.settings().theme), (2.0, Theme::System));
         assert_eq!(file.refresh(), [""; 0], "told once");
+        assert_eq!((file.trouble(), file.mistakes().len()), (None, 1));
+        // What another program writes is not lost by a change here, and counts.
+        fs::write(&path, "zoom = 3.0 # theirs\ncode-size = 20.0\n").unwrap();
+        file.change(Change::WordWrap(true)).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "zoom = 3.0 # theirs\ncode-size = 20.0\nword-wrap = true\n");
+        let now = file.settings();
+        assert_eq!((now.zoom, now.code_size, now.word_wrap), (3.0, 20.0, true));
+        assert!(file.mistakes().is_empty());
+        file.change(Change::WordWrap(false)).unwrap();
         fs::write(&path, "zoom = = 2\n").unwrap();
         let why = file.change(Change::WordWrap(true)).unwrap_err();
         assert!(why.starts_with(&format!("{}:1: ", path.display())), "{why}");
         assert!(file.settings().word_wrap, "it holds all the same");
         assert_eq!(fs::read_to_string(&path).unwrap(), "zoom = = 2\n", "a file that is not understood stays as it is");
+        assert_eq!(file.refresh().len(), 1);
+        assert!(file.trouble().is_some_and(|why| why.starts_with(&format!("{}:1: ", path.display()))));
     }
 }

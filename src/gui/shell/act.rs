@@ -8,8 +8,9 @@ use crate::{
         help::Help,
         outbox::{Outbox, Pick, Wish},
         palette::Offer,
-        passes, recent,
+        passes, recent, resolution,
         settings::{Change, Settings},
+        settings_page::SettingsPage,
         timeline,
     },
     project::{PassId, Tab},
@@ -87,6 +88,8 @@ impl Shell {
             Action::ZoomIn => self.zoom(Some(0.1), out),
             Action::ZoomOut => self.zoom(Some(-0.1), out),
             Action::ZoomReset => self.zoom(None, out),
+            Action::Settings if self.page_of_settings.is_some() => self.page_of_settings = None,
+            Action::Settings => self.page_of_settings = Some(SettingsPage::new()),
             Action::SettingsFile => {
                 let path = self.settings.write_if_missing();
                 out.ask(told("The settings are", path));
@@ -133,14 +136,14 @@ impl Shell {
                 }
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
-            Action::Picture(action) => self.act_on_picture(session, action, out),
+            Action::Picture(action) => self.act_on_picture(ui, session, action, out),
             Action::Layout(action) => self.act_on_panel(ui, action),
             Action::Quit => out.ask(Command::Close),
         }
         ui.ctx().request_repaint();
     }
 
-    fn act_on_picture(&mut self, session: &Session, action: PictureAction, out: &mut Outbox) {
+    fn act_on_picture(&mut self, ui: &Ui, session: &Session, action: PictureAction, out: &mut Outbox) {
         let is_halted = session.halt().is_some();
         match action {
             PictureAction::Shape(shape) => {
@@ -152,6 +155,12 @@ impl Shell {
                 out.ask(Command::SetScale(scale.factor()));
             }
             PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
+            PictureAction::TypeSize => {
+                self.uncover(out);
+                (self.presents, self.fullscreen) = (false, false);
+                self.dock.set_open(Panel::Picture, true);
+                resolution::open(ui.ctx());
+            }
             PictureAction::ResetUniforms => out.ask(Command::ResetCustomUniforms),
             PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
             PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),

@@ -22,6 +22,7 @@ use super::{
     palette::Palette,
     questions,
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
+    settings_page::SettingsPage,
     thumbnails::Thumbnails,
     toasts,
     viewport::{Around, Viewport},
@@ -56,6 +57,7 @@ pub struct Shell {
     wake: Arc<dyn Fn() + Send + Sync>,
     gallery: bool,
     help: Option<Help>,
+    page_of_settings: Option<SettingsPage>,
     page: Gallery,
     fullscreen: bool,
     /// The code stands over a picture that fills the window.
@@ -109,6 +111,7 @@ impl Shell {
             gallery,
             page: Gallery::default(),
             help: None,
+            page_of_settings: None,
             fullscreen: false,
             presents: false,
             keys: KeyFile::new(),
@@ -194,7 +197,8 @@ impl Shell {
     pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
-        let is_read = self.is_back(ui);
+        let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
+        let is_read = self.is_back(ui) | looks;
         let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
         let mut out = Outbox::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
@@ -240,6 +244,10 @@ impl Shell {
         if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
             self.help = None;
         }
+        let Self { settings, keeps_frame_limit, page_of_settings, .. } = self;
+        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, settings, *keeps_frame_limit, &mut out)) {
+            self.page_of_settings = None;
+        }
         let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
         if let Some(action) = self.palette.show(ui, &offers, &mut out) {
             out.act(action);
@@ -252,8 +260,8 @@ impl Shell {
         for wish in std::mem::take(&mut out.wishes) {
             self.grant(ui, session, wish, &mut out);
         }
-        let is_covered =
-            self.gallery || asking || self.help.is_some() || self.palette.is_open() || self.files.is_asking();
+        let is_over = self.help.is_some() || self.page_of_settings.is_some() || self.palette.is_open();
+        let is_covered = self.gallery || asking || is_over || self.files.is_asking();
         self.focus.settle(ui, &out, is_covered);
         let commands = std::mem::take(&mut out.commands);
         self.places = out;
@@ -331,7 +339,8 @@ impl Shell {
 
     /// Escape ends what is shown instead of the picture, unless something else is open that it ends first.
     fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut Outbox) {
-        let is_other = self.palette.is_open() || self.code.is_finding() || self.help.is_some() || self.fullscreen;
+        let is_over = self.palette.is_open() || self.help.is_some() || self.page_of_settings.is_some();
+        let is_other = is_over || self.code.is_finding() || self.fullscreen;
         if is_other || !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             return;
         }
@@ -467,6 +476,12 @@ impl Shell {
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),
+            Pick::CodeFont => {
+                let page = self.page_of_settings.as_mut();
+                if let Some(change) = page.and_then(|page| page.choose_font(&path.display().to_string())) {
+                    self.change(change, out);
+                }
+            }
             Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
         }
     }

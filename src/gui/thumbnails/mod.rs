@@ -12,8 +12,10 @@ use egui::{ColorImage, TextureHandle, TextureOptions};
 use live::Live;
 use std::{
     collections::HashMap,
+    fs::File,
+    io::{Cursor, Read as _},
     panic::{AssertUnwindSafe, catch_unwind},
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{
         Arc,
         mpsc::{Receiver, Sender, channel},
@@ -22,11 +24,16 @@ use std::{
 
 /// Longest side of a texture's picture.
 const SWATCH: usize = 96;
+/// The most bytes and pixels a side that a recent project's picture may have.
+const RECENT_BYTES: u64 = 1 << 20;
+const RECENT_SIDE: u32 = 1024;
 
 /// The subject of a small picture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
     Preset(String),
+    /// The file of a recent project's picture, and which of those that were written there it is.
+    Recent(PathBuf, u64),
     /// A picture a channel can read; files lie relative to the folder.
     Texture(Media, Option<PathBuf>),
 }
@@ -102,6 +109,10 @@ impl Thumbnails {
             self.known.insert(subject, Thumbnail::Failed("the thumbnail thread has ended".into()));
             return Thumbnail::Waiting;
         }
+        // The picture that was there before has served.
+        if let Subject::Recent(file, _) = &subject {
+            self.known.retain(|known, _| !matches!(known, Subject::Recent(other, _) if other == file));
+        }
         self.known.insert(subject, Thumbnail::Waiting);
         Thumbnail::Waiting
     }
@@ -110,6 +121,7 @@ impl Thumbnails {
 fn make(subject: &Subject) -> Result<ColorImage, String> {
     match subject {
         Subject::Preset(name) => preset(name),
+        Subject::Recent(file, _) => recent(file),
         Subject::Texture(media, folder) => {
             let texels = media::load(media, true, folder.as_deref(), None).map_err(|e| e.to_string())?;
             Ok(swatch(&texels))
@@ -121,6 +133,20 @@ fn make(subject: &Subject) -> Result<ColorImage, String> {
 fn preset(name: &str) -> Result<ColorImage, String> {
     let bytes = presets::thumbnail(name).ok_or_else(|| format!("{name} has no thumbnail"))?;
     let image = image::load_from_memory(bytes).map_err(|e| e.to_string())?.to_rgba8();
+    let size = [image.width() as usize, image.height() as usize];
+    Ok(ColorImage::from_rgba_unmultiplied(size, image.as_raw()))
+}
+
+/// The picture of a recent project. Others can write where it lies: no more is read than one of ours has.
+fn recent(file: &Path) -> Result<ColorImage, String> {
+    let file = File::open(file).map_err(|e| e.to_string())?;
+    let mut bytes = Vec::new();
+    file.take(RECENT_BYTES).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+    let mut reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Jpeg);
+    let mut limits = image::Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(RECENT_SIDE), Some(RECENT_SIDE));
+    reader.limits(limits);
+    let image = reader.decode().map_err(|e| e.to_string())?.to_rgba8();
     let size = [image.width() as usize, image.height() as usize];
     Ok(ColorImage::from_rgba_unmultiplied(size, image.as_raw()))
 }
@@ -167,6 +193,23 @@ mod tests {
             assert_eq!(image.size, [320, 180], "{name}");
         }
         assert!(preset("no-such-preset").is_err());
+    }
+
+    #[test]
+    fn a_recent_picture_that_is_missing_damaged_or_too_large_is_none() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = |name: &str| dir.path().join(name);
+        let save = |name: &str, side: u32| image::RgbImage::new(side, 4).save(path(name)).unwrap();
+        save("good.jpg", 320);
+        save("large.jpg", RECENT_SIDE + 1);
+        assert_eq!(recent(&path("good.jpg")).unwrap().size, [320, 4]);
+        let bytes = std::fs::read(path("good.jpg")).unwrap();
+        std::fs::write(path("half.jpg"), &bytes[..bytes.len() / 4]).unwrap();
+        std::fs::write(path("none.jpg"), "no picture").unwrap();
+        std::fs::write(path("empty.jpg"), "").unwrap();
+        for bad in ["missing.jpg", "large.jpg", "half.jpg", "none.jpg", "empty.jpg"] {
+            assert!(recent(&path(bad)).is_err(), "{bad}");
+        }
     }
 
     #[test]

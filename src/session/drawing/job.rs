@@ -121,15 +121,19 @@ pub struct Reads {
     pub wants_replay: Option<ReplayFrom>,
     /// The inputs of all frames up to this one are to be handed out.
     pub wants_run: bool,
+    /// The picture that is shown is to be handed out.
+    pub wants_picture: bool,
     /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
     pub inspect: Option<PassId>,
 }
 
 impl Reads {
     pub fn is_empty(&self) -> bool {
-        let Self { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = self;
+        let Self { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, wants_picture, inspect } =
+            self;
         let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
-        captures.is_empty() && !is_seen && inspect.is_none() && wants_replay.is_none() && !wants_run
+        let is_kept = *wants_run || *wants_picture;
+        captures.is_empty() && !is_seen && inspect.is_none() && wants_replay.is_none() && !is_kept
     }
 }
 
@@ -173,6 +177,8 @@ pub struct Done {
     /// The frames that were asked for; `None` behind which they are: none are kept.
     pub replay: Option<(ReplayFrom, Option<Replay>)>,
     pub run: Option<Run>,
+    /// The picture that is shown, if it was asked for.
+    pub shown: Option<Picture>,
     /// The inputs and the picture that were asked for of a pass.
     pub inspected: Option<Result<Taken, EngineError>>,
     /// The display's picture, if it may have changed and is handed out.

@@ -66,6 +66,7 @@ impl<'a> Window<'a> {
             .env_remove("XDG_PICTURES_DIR")
             .env_remove("XDG_CONFIG_HOME")
             .env_remove("XDG_STATE_HOME")
+            .env_remove("XDG_CACHE_HOME")
             // No file dialogs of this desktop's: no program, and no portal above.
             .env("PATH", home.join("no-programs"))
             .current_dir(home)

@@ -148,7 +148,8 @@ impl Studio {
 
     /// Reads what is asked for of the targets as they are now.
     fn read_behind(&mut self, reads: Reads, done: &mut Done) {
-        let Reads { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = reads;
+        let Reads { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, wants_picture, inspect } =
+            reads;
         done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
         // A pass that nobody reads is not drawn, and has none.
         let began = Instant::now();
@@ -161,6 +162,7 @@ impl Studio {
         done.measured = measures.and_then(|wanted| self.measure(wanted));
         done.replay = wants_replay.map(|from| (from, self.history.replay(from)));
         done.run = wants_run.then(|| self.history.run());
+        done.shown = if wants_picture { self.engine.picture().ok() } else { None };
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
     }
 

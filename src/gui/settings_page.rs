@@ -1,0 +1,285 @@
+//! The page of settings: every row of the settings file with its widget. What is changed is written to the file at once.
+
+use super::{
+    accessible,
+    actions::Action,
+    fonts,
+    outbox::{Outbox, Pick, Wish},
+    settings::{Change, Control, KEYS, Key, Number, SettingsFile, Theme},
+    theme,
+};
+use egui::{
+    Align, Button, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui, vec2,
+};
+use std::time::{Duration, Instant};
+
+/// As wide as a title and its widget need.
+const WIDTH: f32 = 620.0;
+/// For the widgets.
+const CONTROL: f32 = 250.0;
+/// The file is looked at so often while the page is open: another program may write it.
+const INTERVAL: Duration = Duration::from_millis(500);
+
+/// The page while it is open.
+#[derive(Debug, Default)]
+pub struct SettingsPage {
+    is_new: bool,
+    looked_at: Option<Instant>,
+    /// A number while it is dragged, and whose it is.
+    dragged: Option<(&'static str, f64)>,
+    /// The font's path while it is typed.
+    typed: Option<String>,
+    /// Says why what was typed last is not used.
+    font_trouble: Option<String>,
+}
+
+impl SettingsPage {
+    pub fn new() -> Self {
+        Self { is_new: true, ..Self::default() }
+    }
+
+    /// Returns whether the file is to be looked at now.
+    pub fn looks(&mut self, ui: &Ui, now: Instant) -> bool {
+        ui.ctx().request_repaint_after(INTERVAL);
+        let is_due = self.looked_at.is_none_or(|at| now.saturating_duration_since(at) >= INTERVAL);
+        if is_due {
+            self.looked_at = Some(now);
+        }
+        is_due
+    }
+
+    /// Takes the path of a font that was chosen. `None`: it cannot be used, which the page says.
+    pub fn choose_font(&mut self, path: &str) -> Option<Change> {
+        match fonts::check(path) {
+            Ok(()) => {
+                (self.typed, self.font_trouble) = (None, None);
+                Some(Change::CodeFont(Some(path.to_owned())))
+            }
+            Err(why) => {
+                (self.typed, self.font_trouble) = (Some(path.to_owned()), Some(why));
+                None
+            }
+        }
+    }
+
+    /// Shows it; false when it is closed. `keeps_frame_limit`: the command line gave one.
+    pub fn show(&mut self, ui: &Ui, file: &SettingsFile, keeps_frame_limit: bool, out: &mut Outbox) -> bool {
+        let window = ui.ctx().content_rect();
+        let mut is_open = true;
+        let modal = Modal::new(Id::unique("settings")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
+            ui.set_width((window.width() - 60.0).min(WIDTH));
+            ui.set_max_height(window.height() - 60.0);
+            ui.horizontal(|ui| {
+                ui.heading("Settings");
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    if out.clicked("button:close-settings", &ui.button("Close").on_hover_text("Escape")) {
+                        is_open = false;
+                    }
+                });
+            });
+            ui.separator();
+            let height = (window.height() - 190.0).max(60.0);
+            let list = ScrollArea::vertical().id_salt("settings").max_height(height).auto_shrink([false, true]);
+            let shown = list.show(ui, |ui| {
+                ui.set_max_width(ui.available_width() - 12.0);
+                trouble(ui, file, out);
+                for key in KEYS {
+                    let note = (key.name == "frame-timeout" && keeps_frame_limit)
+                        .then_some("This window was started with --frame-timeout, which overrides it");
+                    ui.add_enabled_ui(file.trouble().is_none(), |ui| self.row(ui, key, file, note, out));
+                }
+            });
+            out.place("settings:page", shown.inner_rect);
+            ui.separator();
+            files(ui, file, out);
+        });
+        self.is_new = false;
+        is_open && !modal.should_close()
+    }
+
+    /// A setting: its title and what it does, and its widget at the right.
+    fn row(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, note: Option<&str>, out: &mut Outbox) {
+        let p = theme::of(ui);
+        ui.add_space(6.0);
+        let wide = ui.available_width() > CONTROL + 200.0;
+        let words = |ui: &mut Ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            ui.label(RichText::new(key.title).color(p.strong));
+            ui.label(RichText::new(key.help).size(12.0).color(p.weak));
+            if let Some(note) = note {
+                ui.label(RichText::new(note).size(12.0).color(p.warning));
+            }
+        };
+        if wide {
+            ui.horizontal_top(|ui| {
+                let width = ui.available_width() - CONTROL - 12.0;
+                ui.allocate_ui(vec2(width, 0.0), |ui| {
+                    ui.vertical(|ui| {
+                        ui.set_width(width);
+                        words(ui);
+                    });
+                });
+                ui.vertical(|ui| self.control(ui, key, file, out));
+            });
+        } else {
+            words(ui);
+            self.control(ui, key, file, out);
+        }
+        ui.add_space(4.0);
+    }
+
+    fn control(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, out: &mut Outbox) {
+        let settings = file.settings();
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            match &key.control {
+                Control::Theme => {
+                    for theme in Theme::ALL {
+                        let title = match theme {
+                            Theme::System => "System",
+                            Theme::Dark => "Dark",
+                            Theme::Light => "Light",
+                        };
+                        let is_on = settings.theme == theme;
+                        let choice = ui.add(Button::selectable(is_on, title));
+                        accessible::choice(&choice, Role::RadioButton, is_on, format!("{}: {title}", key.title));
+                        if self.is_new && is_on {
+                            choice.request_focus();
+                        }
+                        if out.clicked(&format!("setting:theme:{}", theme.name()), &choice) {
+                            out.wishes.push(Wish::Set(Change::Theme(theme)));
+                        }
+                    }
+                }
+                Control::Switch { get, change } => {
+                    let mut is_on = get(settings);
+                    let title = if is_on { "On" } else { "Off" };
+                    let switch = ui.checkbox(&mut is_on, title);
+                    accessible::choice(&switch, Role::CheckBox, is_on, key.title);
+                    if out.clicked(&format!("setting:{}", key.name), &switch) {
+                        out.wishes.push(Wish::Set(change(is_on)));
+                    }
+                }
+                Control::Number(number) => self.number(ui, key, number, (number.get)(settings), out),
+                Control::Font => self.font(ui, key, settings.code_font.as_deref().unwrap_or_default(), out),
+            }
+            if !key.is_usual(settings) {
+                let reset = ui.add(Button::new("Reset").frame(false)).on_hover_text(format!("Default: {}", key.usual));
+                accessible::name(&reset, Role::Button, format!("Reset {}", key.title.to_lowercase()));
+                if out.clicked(&format!("setting:{}:reset", key.name), &reset) {
+                    (self.typed, self.font_trouble) = (None, None);
+                    out.wishes.push(Wish::Set(key.usual_change()));
+                }
+            }
+        });
+        if let (Control::Font, Some(why)) = (&key.control, &self.font_trouble) {
+            let said = ui.label(RichText::new(why).size(12.0).color(theme::of(ui).error));
+            out.place("setting:code-font:error", said.rect);
+        }
+    }
+
+    /// A number between two buttons. While it is dragged nothing is changed: the window would move under the hand.
+    fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut Outbox) {
+        let mut set = |value: f64| {
+            out.wishes.push(Wish::Set((number.change)(value.clamp(number.least, number.most))));
+        };
+        let mut wanted = None;
+        let mut step = |ui: &mut Ui, sign: &str, name: &str, to: f64| {
+            let is_there = to >= number.least - 1e-6 && to <= number.most + 1e-6;
+            let button = ui.add_enabled(is_there, Button::new(sign).min_size(vec2(26.0, 24.0)));
+            accessible::name(&button, Role::Button, format!("{name} {}", key.title.to_lowercase()));
+            if button.clicked() {
+                wanted = Some(to);
+            }
+            button.rect
+        };
+        let less = step(ui, "−", "Decrease", now - number.step);
+        let mut value = self.dragged.filter(|(name, _)| *name == key.name).map_or(now, |(_, value)| value);
+        let field = DragValue::new(&mut value).range(number.least..=number.most).speed(number.step * 0.2);
+        let field = field.max_decimals(2).suffix(number.unit).update_while_editing(false);
+        let response = ui.add_sized(vec2(76.0, 24.0), field);
+        accessible::name(&response, Role::SpinButton, key.title);
+        let more = step(ui, "+", "Increase", now + number.step);
+        if response.dragged() {
+            self.dragged = Some((key.name, value));
+        } else if response.drag_stopped() {
+            self.dragged = None;
+            set(value);
+        } else if response.changed() {
+            set(value);
+        }
+        if let Some(to) = wanted {
+            set(to);
+        }
+        out.place(format!("setting:{}:less", key.name), less);
+        out.place(format!("setting:{}", key.name), response.rect);
+        out.place(format!("setting:{}:more", key.name), more);
+    }
+
+    fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut Outbox) {
+        let mut text = self.typed.clone().unwrap_or_else(|| now.to_owned());
+        let field = TextEdit::singleline(&mut text)
+            .hint_text("Built-in")
+            .desired_width(130.0)
+            .background_color(theme::of(ui).button);
+        let field = ui.add(field.margin(Margin::symmetric(6, 3)));
+        accessible::name(&field, Role::TextInput, key.title);
+        out.place("setting:code-font", field.rect);
+        if field.changed() {
+            (self.typed, self.font_trouble) = (Some(text.clone()), None);
+        }
+        // Escape closes the page, and leaves the font as it was.
+        let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
+        let left = if field.lost_focus() { self.typed.take() } else { None };
+        if left.is_some_and(|typed| !is_given_up && typed.trim() != now) {
+            let change = match text.trim() {
+                "" => Some(Change::CodeFont(None)),
+                path => self.choose_font(path),
+            };
+            out.wishes.extend(change.map(Wish::Set));
+        }
+        let choose = ui.button("Choose…").on_hover_text("Choose a font file");
+        if out.clicked("setting:code-font:choose", &choose) {
+            out.wishes.push(Wish::Pick(Pick::CodeFont));
+        }
+    }
+}
+
+/// Says what is wrong in the file, and what becomes of changes.
+fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
+    if file.mistakes().is_empty() {
+        return;
+    }
+    let p = theme::of(ui);
+    let frame = Frame::NONE
+        .fill(p.background)
+        .stroke(egui::Stroke::new(1.0, p.line))
+        .corner_radius(4)
+        .inner_margin(Margin::symmetric(10, 8));
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        for mistake in file.mistakes() {
+            ui.colored_label(p.error, mistake);
+        }
+        let what = match file.trouble() {
+            Some(_) => "Fix the file to change settings here. Eddy reads it again as soon as it is saved.",
+            None => "These lines are not used. Changes made here leave them as they are.",
+        };
+        ui.label(what);
+    });
+    out.place("settings:trouble", shown.response.rect);
+}
+
+/// The files themselves.
+fn files(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
+    ui.horizontal_wrapped(|ui| {
+        for (name, action) in [("settings:file", Action::SettingsFile), ("settings:keys", Action::KeyFile)] {
+            if out.clicked(name, &ui.button(action.title())) {
+                out.act(action);
+            }
+        }
+    });
+    if let Some(path) = file.path() {
+        ui.label(RichText::new(path.display().to_string()).size(12.0).color(theme::of(ui).weak));
+    }
+}

@@ -1,0 +1,206 @@
+//! End to end: the page of settings writes the file and follows it, and the list of recent projects has their pictures.
+
+use crate::support::window::{Display, Window};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+const RED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.9, 0.2, p.x / iResolution.x, 1.0); }\n";
+const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.1, 0.8, 0.1, 1.0); }\n";
+
+fn settings_file(home: &Path, text: &str) -> PathBuf {
+    let folder = home.join(".config/eddy");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("settings.toml"), text).unwrap();
+    folder.join("settings.toml")
+}
+
+/// Waits until the file says something, and returns all that it says.
+fn says(file: &Path, wanted: &str) -> String {
+    let end = Instant::now() + Duration::from_secs(30);
+    loop {
+        let text = fs::read_to_string(file).unwrap_or_default();
+        if text.contains(wanted) {
+            return text;
+        }
+        assert!(Instant::now() < end, "never {wanted:?} in:\n{text}");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+fn shader(home: &Path, name: &str, text: &str) -> PathBuf {
+    fs::write(home.join(name), text).unwrap();
+    home.join(name)
+}
+
+#[test]
+fn the_page_of_settings_writes_the_file_and_follows_it() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let file = settings_file(home.path(), "# mine\ntheme = \"dark\" # at night\n\nmine-too = 3\n");
+    let project = shader(home.path(), "red.glsl", RED);
+    let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
+    window.resize(1300, 900);
+    window.compiled();
+    window.keys(&["ctrl+comma"]);
+    window.shows("settings:page");
+    // A key that Eddy does not know is said, and does not keep anybody from changing the others.
+    window.shows("settings:trouble");
+    display.shot("settings-dark.png");
+    window.click_on("setting:theme:light");
+    let text = says(&file, "theme = \"light\"");
+    assert_eq!(text, "# mine\ntheme = \"light\" # at night\n\nmine-too = 3\n");
+    window.click_on("setting:word-wrap");
+    window.click_on("setting:code-size:more");
+    let text = says(&file, "code-size = 14");
+    assert!(text.starts_with("# mine\ntheme = \"light\" # at night\n") && text.contains("mine-too = 3\n"), "{text}");
+    says(&file, "word-wrap = true");
+    display.shot("settings-light.png");
+    // A number is typed.
+    window.click_on("setting:frame-timeout");
+    window.keys(&["ctrl+a"]);
+    window.type_text("7.5");
+    window.keys(&["Return"]);
+    says(&file, "frame-timeout = 7.5");
+    // A number is dragged, and written once the hand lets go.
+    let [x, y, width, height] = window.rect("setting:code-size");
+    let at = ((x + width / 2.0) as i64, (y + height / 2.0) as i64);
+    window.move_to(at);
+    window.press();
+    window.move_to((at.0 + 20, at.1));
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(fs::read_to_string(&file).unwrap().contains("code-size = 14"));
+    window.move_to((at.0 + 40, at.1));
+    std::thread::sleep(Duration::from_millis(300));
+    window.release();
+    let end = Instant::now() + Duration::from_secs(30);
+    while fs::read_to_string(&file).unwrap().contains("code-size = 14") {
+        assert!(Instant::now() < end, "the drag is not written");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    window.click_on("setting:code-size:reset");
+    says(&file, "code-size = 13");
+    // Another program writes the file while the page is open: the page shows it, and says where it is wrong.
+    fs::write(&file, "# theirs\ntheme = \"dark\"\nzoom = = 2\n").unwrap();
+    window.wait_for("the mistake", |e| {
+        e["event"] == "notice" && e["text"].as_str().is_some_and(|text| text.contains("settings.toml:3:"))
+    });
+    display.shot("settings-broken.png");
+    let before = fs::read_to_string(&file).unwrap();
+    window.click_on("setting:theme:light");
+    window.click_on("setting:word-wrap");
+    std::thread::sleep(Duration::from_millis(1200));
+    assert_eq!(fs::read_to_string(&file).unwrap(), before, "what is not understood is not overwritten");
+    fs::write(&file, "# theirs\ntheme = \"light\"\nzoom = 1.2\n").unwrap();
+    window.hides("settings:trouble");
+    window.wait_until("no notice of what is mended", "layout", |e| e["rects"]["notices"].is_null());
+    display.shot("settings-mended.png");
+    window.click_on("setting:zoom:less");
+    assert_eq!(says(&file, "zoom = 1.1"), "# theirs\ntheme = \"light\"\nzoom = 1.1\n");
+    window.keys(&["Escape"]);
+    window.hides("settings:page");
+}
+
+#[test]
+fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join(".config/eddy/settings.toml");
+    let project = shader(home.path(), "red.glsl", RED);
+    let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
+    window.resize(1300, 900);
+    window.compiled();
+    for word in ["settings", "preferences", "options"] {
+        window.keys(&["ctrl+shift+p"]);
+        window.shows("field:palette");
+        window.type_text(word);
+        window.shows("palette:open-settings");
+        window.keys(&["Return"]);
+        window.shows("settings:page");
+        window.keys(&["Escape"]);
+        window.hides("settings:page");
+    }
+    assert!(!file.exists(), "looking writes nothing");
+    window.keys(&["ctrl+comma"]);
+    window.click_on("setting:code-font");
+    window.type_text("/no/such/font.ttf");
+    window.keys(&["Return"]);
+    window.shows("setting:code-font:error");
+    display.shot("settings-font.png");
+    assert!(!file.exists(), "what cannot be used is not written");
+    // By the dialog, which without a desktop is a field.
+    let font = home.path().join("mine.ttf");
+    fs::write(&font, epaint_default_fonts::UBUNTU_LIGHT).unwrap();
+    window.click_on("setting:code-font:choose");
+    window.shows("field:path");
+    window.keys(&["ctrl+a"]);
+    window.type_text(font.to_str().unwrap());
+    window.keys(&["Return"]);
+    says(&file, &format!("\ncode-font = \"{}\"\n", font.display()));
+    window.hides("setting:code-font:error");
+    window.shows("settings:page");
+    // The rest of the new file is its comments.
+    assert!(fs::read_to_string(&file).unwrap().contains("# theme = \"system\""));
+}
+
+#[test]
+fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
+    for theme in ["dark", "light"] {
+        let Some(display) = Display::of_size(1300, 900) else { return };
+        let home = tempfile::tempdir().unwrap();
+        settings_file(home.path(), &format!("theme = \"{theme}\"\n"));
+        let (red, green) = (shader(home.path(), "red.glsl", RED), shader(home.path(), "green.glsl", GREEN));
+        let cache = home.path().join(".cache/eddy/pictures");
+        let count = || fs::read_dir(&cache).map_or(0, |files| files.count());
+        let mut window = Window::open(&display, home.path(), &[red.to_str().unwrap()]);
+        window.resize(1300, 900);
+        window.compiled();
+        window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
+        assert_eq!(count(), 0);
+        // It is shown of the project that is open, too.
+        window.keys(&["ctrl+shift+g"]);
+        window.shows(&format!("recent-picture:{}", red.display()));
+        assert_eq!(count(), 1);
+        window.keys(&["ctrl+shift+g", "ctrl+q"]);
+        assert_eq!(window.ends(), Some(0));
+        let mut window = Window::open(&display, home.path(), &[green.to_str().unwrap()]);
+        window.compiled();
+        window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
+        window.keys(&["ctrl+q"]);
+        assert_eq!(window.ends(), Some(0));
+        assert_eq!(count(), 2);
+        let mut window = Window::open(&display, home.path(), &[]);
+        window.resize(1300, 900);
+        let colour = |window: &mut Window, path: &Path| {
+            let (x, y) = window.centre(&format!("recent-picture:{}", path.display()));
+            let shot = home.path().join("seen.png");
+            display.photograph(&shot);
+            image::open(&shot).unwrap().to_rgb8().get_pixel(x as u32, y as u32).0
+        };
+        let [r, g, b] = colour(&mut window, &red);
+        assert!(r > 215 && g < 70 && (90..170).contains(&b), "{r} {g} {b}");
+        let [r, g, b] = colour(&mut window, &green);
+        assert!(r < 50 && g > 190 && b < 50, "{r} {g} {b}");
+        // One grid: a recent project's card is as wide as a preset's, and begins where those do.
+        let card = window.rect(&format!("recent:{}", green.display()));
+        let layout = window.newest("layout").unwrap();
+        let preset =
+            layout["rects"].as_object().unwrap().iter().find(|(name, _)| name.starts_with("preset:")).unwrap().1;
+        assert!((card[2] - preset[2].as_f64().unwrap()).abs() < 1.0, "{card:?} {preset}");
+        display.shot(&format!("recent-{theme}.png"));
+        drop(window);
+        for file in fs::read_dir(&cache).unwrap().flatten() {
+            fs::write(file.path(), "damaged").unwrap();
+        }
+        let mut window = Window::open(&display, home.path(), &[]);
+        window.resize(1300, 900);
+        window.rect(&format!("recent:{}", red.display()));
+        let layout = window.newest("layout").unwrap();
+        assert!(layout["rects"][format!("recent-picture:{}", red.display())].is_null());
+        display.shot(&format!("recent-plain-{theme}.png"));
+        window.click_on(&format!("recent:{}", red.display()));
+        window.wait_until("the project", "opened", |e| e["name"].as_str().is_some_and(|name| name.contains("red")));
+    }
+}
