@@ -92,9 +92,17 @@ fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
     // Another project may have a tab of this name elsewhere, and another layout another width of the row.
     let widths = [rect.width(), ui.clip_rect().width()].map(f32::to_bits);
     let now = (current.title(), widths, tabs.iter().position(|tab| tab == current), tabs.len());
-    if ui.data_mut(|d| d.get_temp::<(String, [u32; 2], Option<usize>, usize)>(id)).as_ref() != Some(&now) {
-        ui.data_mut(|d| d.insert_temp(id, now));
-        ui.scroll_to_rect_animation(*rect, None, ScrollAnimation::none());
+    type Brought = ((String, [u32; 2], Option<usize>, usize), u8);
+    let brought = ui.data(|d| d.get_temp::<Brought>(id)).filter(|(before, _)| *before == now);
+    let times = brought.map_or(0, |(_, times)| times);
+    // A row that has just come has no length to be scrolled by before its second frame.
+    if times < 3 {
+        ui.data_mut(|d| d.insert_temp(id, (now, times + 1)));
+        let sight = ui.clip_rect();
+        if rect.left() < sight.left() || rect.right() > sight.right() {
+            ui.scroll_to_rect_animation(*rect, None, ScrollAnimation::none());
+            ui.ctx().request_repaint();
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #[path = "../it/support/mod.rs"]
 mod support;
 
+mod random;
 mod window;
 mod window_audit;
 mod window_buffers;
@@ -13,6 +14,7 @@ mod window_fields;
 mod window_first;
 mod window_keyboard;
 mod window_keys;
+mod window_kills;
 mod window_lab;
 mod window_layout;
 mod window_measures;
@@ -25,3 +27,4 @@ mod window_state;
 mod window_theme;
 mod window_time;
 mod window_trace;
+mod window_wild;

@@ -44,10 +44,12 @@ impl Gallery {
         let p = theme::of(ui);
         let margin = if ui.available_width() > 700.0 { 32 } else { 14 };
         let mut hovered = None;
-        Frame::NONE.fill(p.background).inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.painter().rect_filled(ui.max_rect(), 0.0, p.background);
+        // The margins scroll too, so that the bar lies at the window's edge.
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            Frame::NONE.inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
                 ui.add_space(14.0);
-                ui.set_width(ui.available_width() - 12.0);
+                ui.set_width(ui.available_width());
                 if can_close {
                     let back = ui.button(format!("Back to {}", short(session)));
                     if out.clicked("button:close-gallery", &back) {
