@@ -38,6 +38,8 @@ struct Expected {
     saved: BTreeSet<String>,
     /// What the buffer's name in the manifest may be.
     buffers: BTreeSet<String>,
+    /// All names that it had: a kill between the new manifest and the removal of the old file leaves that, whole.
+    former: BTreeSet<String>,
     folder: PathBuf,
 }
 
@@ -59,7 +61,7 @@ fn keeps(home: &Path, text: &str) -> bool {
 /// Every file of a project's folder is one of those that it may be, and there is nothing else but what a killed save
 /// leaves behind. A folder that is being written for the first time may lack files.
 fn whole(folder: &Path, expected: &Expected, is_new: bool) {
-    let buffers: BTreeSet<String> = expected.buffers.iter().map(|name| format!("buffer_{name}.glsl")).collect();
+    let buffers: BTreeSet<String> = expected.former.iter().map(|name| format!("buffer_{name}.glsl")).collect();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().into_string().unwrap();
         if name.starts_with(".eddy-save-") {
@@ -147,8 +149,13 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
     fs::create_dir(&folder).unwrap();
     let files = [("image.glsl", IMAGE), ("buffer_a.glsl", BUFFER), ("eddy.toml", MANIFEST), ("notes.txt", NOTES)];
     files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
-    let mut expected =
-        Expected { image: IMAGE.into(), saved: [IMAGE.into()].into(), buffers: ["a".to_owned()].into(), folder };
+    let mut expected = Expected {
+        image: IMAGE.into(),
+        saved: [IMAGE.into()].into(),
+        buffers: ["a".to_owned()].into(),
+        former: ["a".to_owned()].into(),
+        folder,
+    };
     let mut random = Random(seed);
     let (mut recovered, mut saved_at_once) = (0, 0);
     for n in 0..kills {
@@ -194,6 +201,7 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
                 let from = expected.buffers.first().unwrap().clone();
                 let to = format!("b{n}");
                 rename(&mut window, &from, &to);
+                expected.former.insert(to.clone());
                 expected.buffers.insert(to);
                 window.keys(&["ctrl+s"]);
             }

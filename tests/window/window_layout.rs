@@ -351,5 +351,12 @@ fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
         tab[0] + tab[2] < add[0] + 1.0 && tab[0] > code[0] - 60.0
     };
     window.wait_until("the tab in sight", "layout", is_seen);
+    // So it is when another panel gives the code another place.
+    window.resize(1000, 700);
+    window.keys(&["ctrl+shift+t"]);
+    window.wait_until("the panel", "layout", |e| e["rects"]["panel:buffers"].is_array());
+    window.wait_until("the tab in sight", "layout", is_seen);
+    window.centre("tab:Image");
+    assert!(is_seen(&window.newest("layout").unwrap()));
     display.shot("twenty.png");
 }

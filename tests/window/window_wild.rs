@@ -2,7 +2,7 @@
 //! dialogs and the ways out of it among them, by drags, the wheel and other sizes. It goes on reacting, never ends by
 //! itself, stays small and leaves other people's files alone.
 //!
-//! `EDDY_SECONDS=600 EDDY_SEED=3 cargo test --test window wild -- --ignored --nocapture`
+//! `EDDY_SECONDS=600 EDDY_SEED=3 cargo test --test window all_over -- --ignored --nocapture`
 
 use crate::{
     random::{Random, number, of_actions},
@@ -214,7 +214,7 @@ fn a_window_that_is_worked_all_over_goes_on() {
     let (actions, mut random, mut seen) = (of_actions(), Random(seed), Seen::default());
     let (hands, began) = (Keyboard::of(&display), Instant::now());
     let start = || {
-        let mut window = Window::open_as(&display, home.path(), Some("760x440"), &[], &[folder.to_str().unwrap()]);
+        let mut window = Window::start(&display, home.path(), Some("760x440"), &[], &[folder.to_str().unwrap()]);
         window.drain();
         let pings = Pings::of(&display, window.number());
         (window, pings)

@@ -49,7 +49,7 @@ impl Gallery {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             Frame::NONE.inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
                 ui.add_space(14.0);
-                ui.set_width(ui.available_width());
+                ui.set_width(ui.available_width() - 12.0);
                 if can_close {
                     let back = ui.button(format!("Back to {}", short(session)));
                     if out.clicked("button:close-gallery", &back) {

@@ -47,6 +47,22 @@ impl<'a> Window<'a> {
         environment: &[(&str, &str)],
         arguments: &[&str],
     ) -> Window<'a> {
+        let mut window = Self::start(display, home, size, environment, arguments);
+        // Without a project the gallery covers the picture.
+        if !arguments.is_empty() {
+            window.wait_until("the picture's place", "layout", |e| e["viewport"].is_array());
+        }
+        window
+    }
+
+    /// The same where the picture's panel may have been closed before.
+    pub fn start(
+        display: &'a Display,
+        home: &Path,
+        size: Option<&str>,
+        environment: &[(&str, &str)],
+        arguments: &[&str],
+    ) -> Window<'a> {
         let runtime = home.join("runtime");
         std::fs::create_dir_all(&runtime).unwrap();
         // A busy machine's slow frame is no reason to pause.
@@ -94,9 +110,7 @@ impl<'a> Window<'a> {
             display.tool(&["search", "--sync", "--onlyvisible", "--pid", &pid]).lines().last().unwrap_or("").to_owned()
         };
         window.display.tool(&["windowfocus", "--sync", &window.id]);
-        // Without a project the gallery covers the picture.
-        let is_gallery = arguments.is_empty();
-        window.wait_for("the first layout", |e| e["event"] == "layout" && (is_gallery || e["viewport"].is_array()));
+        window.wait_until("the first layout", "layout", |_| true);
         window
     }
 
