@@ -8,6 +8,7 @@ mod window;
 mod window_audit;
 mod window_buffers;
 mod window_compare;
+mod window_costs;
 mod window_editor;
 mod window_endurance;
 mod window_fields;

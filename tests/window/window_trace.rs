@@ -310,6 +310,7 @@ fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
     let [_, top, _, height] = window.rect("trace:part");
     assert!(top + height < 898.0, "{top} + {height}");
     window.resize(900, 600);
+    window.wait_until("the low window", "layout", |e| e["window"][1] == 600);
     let [x, y, ..] = window.rect("trace:where");
     window.move_to((x as i64 + 20, y as i64 + 60));
     (0..12).for_each(|_| window.wheel(false));
