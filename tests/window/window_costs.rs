@@ -32,7 +32,7 @@ fn open<'a>(display: &'a Display, home: &Path, code: &str) -> Window<'a> {
 }
 
 fn pause(window: &mut Window) {
-    window.keys(&["alt+Up"]);
+    window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
     std::thread::sleep(Duration::from_secs(3));
 }
