@@ -61,9 +61,10 @@ fn long() -> String {
 fn costs_at_rest_and_of_a_typed_letter() {
     let Some(display) = Display::open() else { return };
     let hundred = include_str!("hundred_lines.glsl");
-    let home = tempfile::tempdir().unwrap();
+    // Each has a home of its own: whether a project was paused is remembered.
+    let homes: [_; 4] = std::array::from_fn(|_| tempfile::tempdir().unwrap());
     {
-        let mut window = open(&display, home.path(), hundred);
+        let mut window = open(&display, homes[0].path(), hundred);
         pause(&mut window);
         println!("paused: {:.2} % of a core", at_rest(&window, SPAN));
         // The first edit after a pause, `EDDY_PAUSE_SECS=3600` after an hour's.
@@ -82,11 +83,11 @@ fn costs_at_rest_and_of_a_typed_letter() {
     }
     {
         let still = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, 0.5, 1.0); }\n";
-        let window = open(&display, home.path(), still);
+        let window = open(&display, homes[1].path(), still);
         std::thread::sleep(Duration::from_secs(3));
         println!("a still picture that plays: {:.2} % of a core", at_rest(&window, SPAN));
     }
-    for (gap, name) in [(200, "five letters a second"), (30, "thirty letters a second")] {
+    for (gap, name, home) in [(200, "five letters a second", &homes[2]), (30, "thirty letters a second", &homes[3])] {
         let mut window = open(&display, home.path(), &long());
         pause(&mut window);
         window.click_on("editor");
