@@ -14,7 +14,7 @@ use crate::{
     project::{PassEdit, PassId, Tab, listed},
     session::{Command, Session},
 };
-use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
+use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
 
 const HEIGHT: f32 = 32.0;
 /// Width of the button behind the tabs.
@@ -88,7 +88,8 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
 /// Brings the current tab in sight when it comes to the front, moves or grows; else people scroll where they like.
 fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
-    let id = Id::unique("current tab");
+    // A panel that opens may give the row another place among the others, where it is not scrolled yet.
+    let id = ui.scope_id().with("current tab");
     // Another project may have a tab of this name elsewhere, and another layout another width of the row.
     let widths = [rect.width(), ui.clip_rect().width()].map(f32::to_bits);
     let now = (current.title(), widths, tabs.iter().position(|tab| tab == current), tabs.len());

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::session::{Command, Level, Notice, Session};
 use egui::{
-    Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Margin, Order, Panel, Rect, RichText, ScrollArea,
-    Sense, Stroke, Ui, pos2, vec2,
+    Align, Align2, Area, Color32, Context, FontId, Frame, Id, Label, Layout, Margin, Order, Panel, Rect, ScrollArea,
+    Sense, Stroke, TextFormat, Ui, pos2, text::LayoutJob, vec2,
 };
 use std::time::{Duration, Instant};
 
@@ -127,10 +127,28 @@ pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut Outbox) {
             Frame::popup(ui.style()).fill(theme::of(ui).raised.gamma_multiply(0.92)).inner_margin(Margin::same(10));
         frame.stroke(Stroke::new(1.0, color(ui, notice.level))).show(ui, |ui| {
             ui.set_max_width(width);
-            ui.add(Label::new(told.text()).wrap());
+            ui.add(Label::new(laid_out(ui, &told.text(), 13.0)).wrap());
         });
     });
     out.place(PLACE, shown.response.rect);
+}
+
+/// Returns whether a line is of the excerpt that shows an error's place in a text (`diag::render`), where columns count.
+fn is_excerpt(line: &str) -> bool {
+    let line = line.trim_start();
+    let behind_number = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+    line.starts_with("--> ") || behind_number.starts_with('|') || line.starts_with("= help: ")
+}
+
+/// Lays out a text with excerpts in the font of code, in which carets stand below what they mean.
+fn laid_out(ui: &Ui, text: &str, size: f32) -> LayoutJob {
+    let color = ui.visuals().text_color();
+    let mut job = LayoutJob::default();
+    for line in text.split_inclusive('\n') {
+        let font = if is_excerpt(line) { FontId::monospace(size - 1.0) } else { FontId::proportional(size) };
+        job.append(line, 0.0, TextFormat::simple(font, color));
+    }
+    job
 }
 
 fn color(ui: &Ui, level: Level) -> Color32 {
@@ -179,7 +197,7 @@ fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut Outbox) {
             }
             ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
                 ui.add_space(2.0);
-                ui.add(Label::new(RichText::new(told.text()).size(12.5)).wrap().selectable(true));
+                ui.add(Label::new(laid_out(ui, &told.text(), 12.5)).wrap().selectable(true));
             });
         });
     });
@@ -196,6 +214,14 @@ mod tests {
 
     fn notice(id: u64, text: &str, level: Level) -> Notice {
         Notice { id, level, text: text.into(), path: None, undoes: None, at: Instant::now(), about: Default::default() }
+    }
+
+    #[test]
+    fn columns_of_an_excerpt_are_those_of_the_text() {
+        let text = "not saved:\nerror: [passes.image] has no key nonsense\n  --> eddy.toml:10:1\n   |\n10 | nonsense = 3\n   \
+                    | ^^^^^^^^\n   = help: the keys are file and size\n\n3 files, a | b";
+        let excerpt: Vec<_> = text.lines().map(is_excerpt).collect();
+        assert_eq!(excerpt, [false, false, true, true, true, true, true, false, false]);
     }
 
     #[test]

@@ -229,7 +229,7 @@ impl Session {
         self.changed = true;
         let (Some(replay), Some(project)) = (replay, self.drawing.project().cloned()) else {
             self.searching
-                .failed("no earlier frames are kept: the buffers are too large, or nothing has been drawn yet");
+                .failed("no earlier frames are kept: reset and play again; very large buffers are never kept");
             return;
         };
         match self.drawing.device().wait() {
@@ -251,7 +251,9 @@ impl Session {
         self.changed = true;
         let Some(traced) = self.tracing.finding.of() else { return };
         let Some(replay) = replay else {
-            self.tracing.finding.failed("no earlier frames are kept: the buffers are too large");
+            let why = "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers \
+                       are never kept";
+            self.tracing.finding.failed(why);
             return;
         };
         match self.drawing.device().wait() {

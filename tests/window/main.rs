@@ -3,16 +3,19 @@
 #[path = "../it/support/mod.rs"]
 mod support;
 
+mod random;
 mod window;
 mod window_audit;
 mod window_buffers;
 mod window_compare;
+mod window_costs;
 mod window_editor;
 mod window_endurance;
 mod window_fields;
 mod window_first;
 mod window_keyboard;
 mod window_keys;
+mod window_kills;
 mod window_lab;
 mod window_layout;
 mod window_measures;
@@ -27,3 +30,4 @@ mod window_state;
 mod window_theme;
 mod window_time;
 mod window_trace;
+mod window_wild;

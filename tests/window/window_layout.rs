@@ -329,3 +329,34 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
     let kept = fs::read_to_string(home.path().join(".local/state/eddy/window.toml")).unwrap();
     assert!(kept.contains("maximized = true"), "{kept}");
 }
+
+/// The code of Image is in front at the start, however many tabs come before its own.
+#[test]
+fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("twenty");
+    fs::create_dir_all(&folder).unwrap();
+    let mut manifest = String::new();
+    for name in 'a'..='s' {
+        let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
+        fs::write(folder.join(format!("buffer_{name}.glsl")), text).unwrap();
+        manifest += &format!("[passes.buffer_{name}]\n");
+    }
+    fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n").unwrap();
+    fs::write(folder.join("eddy.toml"), manifest + "[passes.image]\n").unwrap();
+    let mut window = Window::open_project(&display, home.path(), &folder);
+    let is_seen = |e: &Value| {
+        let [tab, add, code] = ["tab:Image", "button:add-tab", "editor"].map(|name| rect(&e["rects"][name]));
+        tab[0] + tab[2] < add[0] + 1.0 && tab[0] > code[0] - 60.0
+    };
+    window.wait_until("the tab in sight", "layout", is_seen);
+    // So it is when another panel gives the code another place.
+    window.resize(1000, 700);
+    window.keys(&["ctrl+shift+t"]);
+    window.wait_until("the panel", "layout", |e| e["rects"]["panel:buffers"].is_array());
+    window.wait_until("the tab in sight", "layout", is_seen);
+    window.centre("tab:Image");
+    assert!(is_seen(&window.newest("layout").unwrap()));
+    display.shot("twenty.png");
+}

@@ -306,4 +306,17 @@ fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
     assert_eq!((&parted["parted"]["name"], &parted["parted"]["compared"]), (&"t".into(), &2.into()), "{parted}");
     window.shows("trace:parted");
     display.shot("trace-parted.png");
+    // The foot of the panel is whole at the window's edge, and where there is no room for it one scrolls there.
+    let [_, top, _, height] = window.rect("trace:part");
+    assert!(top + height < 898.0, "{top} + {height}");
+    window.resize(900, 600);
+    window.wait_until("the low window", "layout", |e| e["window"][1] == 600);
+    let [x, y, ..] = window.rect("trace:where");
+    window.move_to((x as i64 + 20, y as i64 + 60));
+    (0..12).for_each(|_| window.wheel(false));
+    window.wait_until("the foot of a low panel", "layout", |e| {
+        let bottom = e["rects"]["trace:part"][1].as_f64().zip(e["rects"]["trace:part"][3].as_f64());
+        e["window"][1] == 600 && bottom.is_some_and(|(top, height)| top + height <= 600.0)
+    });
+    display.shot("trace-low.png");
 }

@@ -46,8 +46,10 @@ impl Gallery {
         let p = theme::of(ui);
         let margin = if ui.available_width() > 700.0 { 32 } else { 14 };
         let mut hovered = None;
-        Frame::NONE.fill(p.background).inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.painter().rect_filled(ui.max_rect(), 0.0, p.background);
+        // The margins scroll too, so that the bar lies at the window's edge.
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            Frame::NONE.inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
                 ui.add_space(14.0);
                 ui.set_width(ui.available_width() - 12.0);
                 if can_close {

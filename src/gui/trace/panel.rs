@@ -26,6 +26,8 @@ use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 const SHOWN: usize = 200;
 /// Two columns where there is room for them.
 const WIDE: f32 = 560.0;
+/// The least height for what is above the foot.
+const LEAST: f32 = 110.0;
 
 pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut Outbox) {
     out.stop("trace", ui);
@@ -63,7 +65,10 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
         return;
     };
     whereabouts(debugger, &traced, ui, out);
-    let height = (ui.available_height() - parting::height(session)).max(60.0);
+    // The foot stays in sight while there is room for it and for what is above; else it is scrolled to.
+    let room = ui.available_height() - parting::height(ui);
+    let has_foot = room >= LEAST;
+    let height = if has_foot { room } else { ui.available_height() };
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
         // Rows of text, one close below the other.
         ui.spacing_mut().interact_size.y = 19.0;
@@ -82,8 +87,13 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
             turns(debugger, ui, out);
             printed(debugger, ui, out);
         }
+        if !has_foot {
+            parting::show(&traced, session, ui, out);
+        }
     });
-    parting::show(&traced, session, ui, out);
+    if has_foot {
+        parting::show(&traced, session, ui, out);
+    }
 }
 
 /// The pixel, the line, and how far along one is.

@@ -13,15 +13,35 @@ use crate::{
         trace::{Number, Traced},
     },
 };
-use egui::{Label, RichText, Ui};
+use egui::{Id, Label, RichText, Ui};
 
-/// Returns what the foot of the panel takes, and with a search below it.
-pub fn height(session: &Session) -> f32 {
-    if session.parting().is_some() { 86.0 } else { 40.0 }
+/// Below it, where the panel may end at the window's edge.
+const MARGIN: f32 = 6.0;
+
+fn height_id() -> Id {
+    Id::unique("height of the foot of a trace")
 }
 
-/// Shows both values and how far they are apart.
+/// Returns what the foot of the panel took in the last frame: values wrap by the panel's width and their digits.
+pub fn height(ui: &Ui) -> f32 {
+    ui.data(|d| d.get_temp(height_id())).unwrap_or(40.0)
+}
+
+/// Shows both values, how far they are apart, and what a search for the first difference found.
 pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
+    let before = height(ui);
+    let shown = ui.vertical(|ui| {
+        foot(traced, session, ui, out);
+        ui.add_space(MARGIN);
+    });
+    let now = shown.response.rect.height() + ui.spacing().item_spacing.y;
+    if (now - before).abs() > 0.5 {
+        ui.data_mut(|d| d.insert_temp(height_id(), now));
+        ui.ctx().request_repaint();
+    }
+}
+
+fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
     let p = theme::of(ui);
     let ulps = traced.ulps();
     let is_apart = ulps.iter().flatten().any(|ulps| *ulps > 0);

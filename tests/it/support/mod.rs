@@ -12,6 +12,7 @@ pub mod git;
 pub mod ir;
 pub mod keyboard;
 pub mod meshes;
+pub mod pings;
 pub mod preset;
 pub mod presets;
 pub mod program;

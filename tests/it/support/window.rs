@@ -47,12 +47,30 @@ impl<'a> Window<'a> {
         environment: &[(&str, &str)],
         arguments: &[&str],
     ) -> Window<'a> {
+        let mut window = Self::start(display, home, size, environment, arguments);
+        // Without a project the gallery covers the picture.
+        if !arguments.is_empty() {
+            window.wait_until("the picture's place", "layout", |e| e["viewport"].is_array());
+        }
+        window
+    }
+
+    /// The same where the picture's panel may have been closed before.
+    pub fn start(
+        display: &'a Display,
+        home: &Path,
+        size: Option<&str>,
+        environment: &[(&str, &str)],
+        arguments: &[&str],
+    ) -> Window<'a> {
         let runtime = home.join("runtime");
         std::fs::create_dir_all(&runtime).unwrap();
         // A busy machine's slow frame is no reason to pause.
         let has_limit = arguments.contains(&"--frame-timeout");
         let patient: &[&str] = if has_limit { &[] } else { &["--frame-timeout", "60"] };
-        let mut process = Command::new(env!("CARGO_BIN_EXE_eddy"))
+        // `EDDY_BINARY` is another build of it, as one that is optimised.
+        let binary = std::env::var_os("EDDY_BINARY").unwrap_or_else(|| env!("CARGO_BIN_EXE_eddy").into());
+        let mut process = Command::new(binary)
             .arg("--json")
             .args(size.into_iter().flat_map(|size| ["--size", size]))
             .args(patient)
@@ -93,9 +111,7 @@ impl<'a> Window<'a> {
             display.tool(&["search", "--sync", "--onlyvisible", "--pid", &pid]).lines().last().unwrap_or("").to_owned()
         };
         window.display.tool(&["windowfocus", "--sync", &window.id]);
-        // Without a project the gallery covers the picture.
-        let is_gallery = arguments.is_empty();
-        window.wait_for("the first layout", |e| e["event"] == "layout" && (is_gallery || e["viewport"].is_array()));
+        window.wait_until("the first layout", "layout", |_| true);
         window
     }
 
@@ -229,6 +245,11 @@ impl<'a> Window<'a> {
         self.display.tool(&["click", if up { "4" } else { "5" }]);
     }
 
+    /// Presses and releases a button of the mouse where the pointer is.
+    pub fn button(&self, number: &str) {
+        self.display.tool(&["click", number]);
+    }
+
     pub fn release(&self) {
         self.display.tool(&["mouseup", "1"]);
     }
@@ -278,6 +299,24 @@ impl<'a> Window<'a> {
         let behind = stat.rsplit_once(')').unwrap().1;
         let ticks: u64 = behind.split_whitespace().skip(11).take(2).map(|n| n.parse::<u64>().unwrap()).sum();
         Duration::from_millis(ticks * 10)
+    }
+
+    /// Resident memory in bytes; nothing once the process has ended.
+    pub fn resident(&self) -> u64 {
+        let statm = std::fs::read_to_string(format!("/proc/{}/statm", self.process.id())).unwrap_or_default();
+        statm.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok()).unwrap_or(0) * 4096
+    }
+
+    /// The server's number of it.
+    pub fn number(&self) -> u32 {
+        self.id.parse().unwrap()
+    }
+
+    /// Lets go of what was said, but for the newest of each event.
+    pub fn forget_all_but_newest(&mut self) {
+        let mut named = std::collections::BTreeSet::new();
+        let newest = self.events.drain(..).rev().filter(|e| named.insert(e["event"].to_string())).collect::<Vec<_>>();
+        self.events.extend(newest.into_iter().rev());
     }
 
     /// What the window is called.

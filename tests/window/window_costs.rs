@@ -1,0 +1,112 @@
+//! End to end: what a window costs a processor at rest, and what a typed letter does in a long text. It prints figures,
+//! which are for reading and bound nothing.
+//!
+//! `cargo test --test window costs -- --ignored --nocapture`, on a quiet machine and with an optimised `EDDY_BINARY`.
+
+use crate::{
+    random::number,
+    support::{
+        keyboard::Keyboard,
+        window::{Display, Window},
+    },
+};
+use std::{
+    fmt::Write as _,
+    fs,
+    path::Path,
+    time::{Duration, Instant},
+};
+
+const SPAN: Duration = Duration::from_secs(30);
+const TYPED: &str = "a typed letter costs so much, and one more the same";
+
+fn open<'a>(display: &'a Display, home: &Path, code: &str) -> Window<'a> {
+    let folder = home.join("project");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("image.glsl"), code).unwrap();
+    let mut window = Window::open_project(display, home, &folder);
+    // The caret of code that has the keyboard blinks; the picture has it.
+    let corner = window.picture_point(0.05, 0.05);
+    window.click(corner);
+    window
+}
+
+fn pause(window: &mut Window) {
+    window.keys(&["F5"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
+    std::thread::sleep(Duration::from_secs(3));
+}
+
+/// Percents of a core over some time without input.
+fn at_rest(window: &Window, span: Duration) -> f64 {
+    let before = window.busy();
+    std::thread::sleep(span);
+    100.0 * (window.busy() - before).as_secs_f64() / span.as_secs_f64()
+}
+
+/// Two thousand lines of functions, three of which are called.
+fn long() -> String {
+    let mut text = String::new();
+    for i in 0..249 {
+        let body = format!("    float a = sin(p.x * {i}.0) + 0.25;\n    vec2 q = p * vec2(a, 0.5);\n");
+        let _ =
+            write!(text, "float f{i}(vec2 p)\n{{\n{body}    if (q.x > 0.5)\n        a += q.y;\n    return a;\n}}\n");
+    }
+    let main = "void mainImage(out vec4 o, in vec2 p)\n{\n    o = vec4(f0(p), f7(p), f248(p), 1.0);\n}\n";
+    text + main + &"\n".repeat(4)
+}
+
+#[test]
+#[ignore = "prints figures; they mean something on a quiet machine only"]
+fn costs_at_rest_and_of_a_typed_letter() {
+    let Some(display) = Display::open() else { return };
+    let hundred = include_str!("hundred_lines.glsl");
+    // Each has a home of its own: whether a project was paused is remembered.
+    let homes: [_; 4] = std::array::from_fn(|_| tempfile::tempdir().unwrap());
+    {
+        let mut window = open(&display, homes[0].path(), hundred);
+        pause(&mut window);
+        println!("paused: {:.2} % of a core", at_rest(&window, SPAN));
+        // The first edit after a pause, `EDDY_PAUSE_SECS=3600` after an hour's.
+        window.click_on("editor");
+        window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
+        let keyboard = Keyboard::of(&display);
+        std::thread::sleep(Duration::from_secs(number("EDDY_PAUSE_SECS", 60)));
+        for which in ["first", "second", "third"] {
+            let before = window.wait_until("a picture", "drawn", |e| e["programs"].as_u64() > Some(0));
+            let began = Instant::now();
+            keyboard.tap('1');
+            window.wait_until("the picture", "drawn", |e| e["programs"].as_u64() > before["programs"].as_u64());
+            println!("{which} edit after a pause: {:.0} ms", began.elapsed().as_secs_f64() * 1e3);
+            std::thread::sleep(Duration::from_secs(1));
+        }
+    }
+    {
+        let still = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, 0.5, 1.0); }\n";
+        let window = open(&display, homes[1].path(), still);
+        std::thread::sleep(Duration::from_secs(3));
+        println!("a still picture that plays: {:.2} % of a core", at_rest(&window, SPAN));
+    }
+    for (gap, name, home) in [(200, "five letters a second", &homes[2]), (30, "thirty letters a second", &homes[3])] {
+        let mut window = open(&display, home.path(), &long());
+        pause(&mut window);
+        window.click_on("editor");
+        window.keys(&["ctrl+End"]);
+        std::thread::sleep(Duration::from_secs(2));
+        let span = Duration::from_secs(5);
+        let share = at_rest(&window, span) / 100.0;
+        let keyboard = Keyboard::of(&display);
+        keyboard.type_text("// ");
+        std::thread::sleep(Duration::from_secs(2));
+        let (before, began) = (window.busy(), Instant::now());
+        for letter in TYPED.chars() {
+            keyboard.type_text(&letter.to_string());
+            std::thread::sleep(Duration::from_millis(gap));
+        }
+        // What is typed is compiled and kept.
+        std::thread::sleep(Duration::from_secs(3));
+        let blinking = began.elapsed().mul_f64(share);
+        let each = (window.busy() - before).saturating_sub(blinking) / TYPED.len() as u32;
+        println!("2,000 lines, {name}: {:.1} ms of a core per letter", each.as_secs_f64() * 1e3);
+    }
+}
