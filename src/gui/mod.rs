@@ -41,6 +41,7 @@ mod probe;
 mod problems;
 mod questions;
 mod recent;
+mod replay;
 mod report;
 mod rescue;
 mod settings;

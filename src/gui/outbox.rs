@@ -27,6 +27,8 @@ pub enum Pick {
     LabFolder,
     /// A project to compare with: a folder.
     Reference,
+    /// A recording of input, to play it.
+    Recording,
     /// A folder for the lab's report.
     LabReport,
     /// A picture for a channel of the pass in front.

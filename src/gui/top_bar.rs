@@ -51,6 +51,14 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
                 out.act(Action::Open);
                 ui.close();
             }
+            if !state.is_gallery {
+                let recording = Button::new("Recording…").shortcut_text(out.keys.hint(Action::PlayRecording));
+                let recording = ui.add(recording).on_hover_text("Play a .replay file in this project");
+                if out.clicked("open:recording", &recording) {
+                    out.act(Action::PlayRecording);
+                    ui.close();
+                }
+            }
         });
         out.place("button:open", menu.response.rect);
         if !state.is_gallery {

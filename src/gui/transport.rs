@@ -8,7 +8,7 @@ use super::{
     icons::{self, Icon},
     menus,
     outbox::{Outbox, Wish},
-    theme, timeline,
+    replay, theme, timeline,
 };
 use crate::{
     project::{PassId, Tab},
@@ -54,9 +54,14 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
+        let played = session.replay();
+        if let Some(played) = &played {
+            let kept = if roomy { BEHIND + SIZE } else { BEHIND };
+            replay::show(ui, played, transport.playing, kept + gap, out);
+        }
         let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
         let mut fits = |width: f32| {
-            let fits = room >= width + gap;
+            let fits = played.is_none() && room >= width + gap;
             room -= if fits { width + gap } else { 0.0 };
             fits
         };
@@ -253,6 +258,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
             Action::Screenshot,
             Action::SaveTexels,
             Action::Record,
+            Action::PlayRecording,
             Action::Audit,
             Action::Fullscreen,
             Action::Costs,

@@ -44,7 +44,8 @@ mod writes;
 
 pub use advice::{advice, missing_pass};
 pub use arrivals::{
-    ArrivalError, FileKind, Fit, MODELS, PICTURES, TextArrival, arrival_of_text, folder_of_parts, kind_of_file, new_for,
+    ArrivalError, FileKind, Fit, MODELS, PICTURES, RECORDING, TextArrival, arrival_of_text, folder_of_parts,
+    kind_of_file, new_for,
 };
 pub use atomic::write_with;
 pub use confine::FileError;

@@ -148,6 +148,11 @@ pub enum Command {
     /// Begins anew at frame 0 and records the inputs of every frame; the second time, ends that and writes them beside
     /// the pictures, for `eddy render --replay`.
     Record,
+    /// Plays the input of such a file in the open project, from frame 0 on: see
+    /// [`Session::replay`](super::Session::replay). A file that cannot be played is told of in a notice.
+    PlayRecording(PathBuf),
+    /// Ends that. The picture goes on from the frame that is shown.
+    StopReplay,
     /// Shows a pass, which is captured then too.
     ShowPass(PassId),
     /// Draws the value of an expression instead of the picture; `None`: the picture again. See

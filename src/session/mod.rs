@@ -57,6 +57,8 @@ pub mod reduction;
 mod reload;
 mod rename;
 mod reopen;
+mod replay;
+mod replaying;
 pub mod revision;
 mod runs;
 pub mod script;
@@ -85,6 +87,7 @@ pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;
 pub use recent::RecentProject;
 pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
+pub use replay::ReplayView;
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{

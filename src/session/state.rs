@@ -25,6 +25,7 @@ use super::{
     recent::Recent,
     recorder::Recorder,
     recovery::Safekeeping,
+    replay::Replay,
     runs::Runs,
     seeking::Seeking,
     tracing::Tracing,
@@ -101,6 +102,8 @@ pub(super) struct Canvas {
     pub asked: CanvasSize,
     /// The size that was asked for before any project was opened: each begins with it.
     pub usual: CanvasSize,
+    /// The size of a recording that is played, or was until now.
+    pub replayed: Option<(u32, u32)>,
     /// A size the device did not take; not tried again.
     pub refused: Option<(u32, u32)>,
 }
@@ -208,6 +211,8 @@ pub(super) struct Run {
     pub measuring: Measuring,
     /// The inputs of what is drawn are recorded.
     pub recorder: Option<Recorder>,
+    /// The recording that is played.
+    pub replay: Replay,
 }
 
 impl Session {
@@ -249,6 +254,7 @@ impl Session {
                 viewport: None,
                 asked: CanvasSize::default(),
                 usual: CanvasSize::default(),
+                replayed: None,
                 refused: None,
             },
             compile: Compile {
@@ -305,6 +311,7 @@ impl Session {
                 buffers: Watching::default(),
                 measuring: Measuring::default(),
                 recorder: None,
+                replay: Replay::default(),
             },
             probing: Probing::default(),
             tracing,

@@ -62,6 +62,8 @@ pub enum About {
     Audit,
     /// The frame that is shown and cannot be drawn again.
     Again,
+    /// A recording that is played.
+    Replay,
 }
 
 /// Something the user should hear once.

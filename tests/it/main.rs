@@ -72,6 +72,7 @@ mod random_floats;
 mod random_programs;
 mod recovery;
 mod reload;
+mod replaying;
 mod session;
 mod session_compare;
 mod session_inside;

@@ -28,6 +28,9 @@ pub enum Action {
     Screenshot,
     SaveTexels,
     Record,
+    /// Chooses a recording, whose input is played.
+    PlayRecording,
+    StopReplay,
     /// Single against double precision, and what is undefined.
     Audit,
     Fullscreen,

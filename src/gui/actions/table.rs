@@ -131,6 +131,9 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::FindNonfinite, "first-nan", "Find first NaN or infinity", &[], Group::Picture).found_by("debug inf"),
     row(Action::Record, "record-input", "Start/stop recording input", &["Ctrl+Shift+R"], Group::Picture)
         .found_by("capture video replay mouse keys recording"),
+    row(Action::PlayRecording, "play-recording", "Play recording of input (.replay)", &[], Group::Picture)
+        .found_by("replay open file mouse keys"),
+    row(Action::StopReplay, "stop-replay", "Stop playing recording", &[], Group::Picture).found_by("replay end cancel"),
     row(
         Action::SaveTexels,
         "save-texels",

@@ -57,6 +57,8 @@ impl Shell {
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
             Action::Record => out.ask(Command::Record),
+            Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
+            Action::StopReplay => out.ask(Command::StopReplay),
             Action::Audit => out.ask(Command::Audit),
             Action::Fullscreen => {
                 self.fullscreen = !self.fullscreen;

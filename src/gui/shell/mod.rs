@@ -464,6 +464,10 @@ impl Shell {
                 out.ask(Command::Open(path.display().to_string()));
             }
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::Recording => {
+                self.uncover(out);
+                out.ask(Command::PlayRecording(path));
+            }
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),

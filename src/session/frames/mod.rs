@@ -24,6 +24,7 @@ impl Session {
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.take_found_work();
+        self.take_recording();
         self.check_disk();
         let mut frame_drawn = self.take_drawn(false);
         self.watch_drawing();
@@ -260,7 +261,7 @@ impl Session {
     }
 
     /// Gives the engine the size the canvas shall have.
-    fn fit_canvas(&mut self) {
+    pub(super) fn fit_canvas(&mut self) {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
         self.drawing.wanted.size = is_new.then_some(size);
@@ -275,6 +276,8 @@ impl Session {
         let (width, height) = self.drawing.size();
         let text = format!("{error}; the picture stays at {width}x{height}");
         self.notice_about(About::CanvasSize, Level::Error, text);
+        self.canvas.replayed = None;
+        self.end_replay("its resolution cannot be drawn on this GPU");
     }
 
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
@@ -287,7 +290,7 @@ impl super::state::Canvas {
     /// Pixels, at least one each way; `None` before the viewport is known.
     fn size(&self) -> Option<(u32, u32)> {
         let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
-        self.asked.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 
