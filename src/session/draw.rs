@@ -102,13 +102,14 @@ impl Session {
 
     /// `again`: the frame that is shown is drawn again.
     fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
-        self.note_job(frame.as_ref(), again);
+        let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
+        // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
+        self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
         } else if again {
             self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
         }
-        let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();

@@ -148,6 +148,15 @@ impl Playing {
         }
     }
 
+    /// Returns when the next frame is due, as far as a time knows that where recorded time runs at a speed.
+    pub fn due_at(&self, now: Instant, speed: f64) -> Instant {
+        let secs = self.recording.frames.get(self.next).map(|frame| frame.inputs.time_secs);
+        let Some(((since, from), secs)) = self.anchor.zip(secs) else { return now };
+        let due = Duration::try_from_secs_f64((secs - from) / speed).ok().and_then(|wait| since.checked_add(wait));
+        let latest = self.newest.map(|newest| newest + LONGEST);
+        [due, latest].into_iter().flatten().min().unwrap_or(now)
+    }
+
     /// Takes the next frame, and says whether the canvas, the values and the buffers are others than before it.
     pub fn take(&mut self, now: Instant) -> Option<(RecordedFrame, super::recording::Change)> {
         let (change, _) = self.recording.change(self.next)?;

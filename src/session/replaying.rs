@@ -1,7 +1,7 @@
 //! A session plays a recording in the open project: every frame gets its recorded time, date, mouse, keys, canvas and
 //! values of uniforms, from frame 0 on, and is drawn as [`super::offline`] draws it.
 //!
-//! What a hand does on the picture meanwhile does not reach it. A person takes over by [`Command::StopReplay`]: the
+//! Input on the picture does not reach it meanwhile. A person takes over by [`Command::StopReplay`]: the
 //! picture goes on live from the frame that is shown. Nothing of the project is changed by it: canvas and values are
 //! the recording's until the picture is reset, or another size is asked for.
 //!
@@ -14,7 +14,7 @@ use super::{
     view::{About, Level},
 };
 use crate::engine::FrameInputs;
-use std::path::PathBuf;
+use std::{path::PathBuf, time::Instant};
 
 impl Session {
     /// Returns what is known of the recording that is played, while one is.
@@ -24,6 +24,12 @@ impl Session {
 
     pub(super) fn is_replaying(&self) -> bool {
         self.run.replay.playing.is_some()
+    }
+
+    /// Returns when the next frame of the recording that is played is due.
+    pub(super) fn replay_due(&self) -> Option<Instant> {
+        let playing = self.run.replay.playing.as_ref()?;
+        Some(playing.due_at(self.now, self.run.clock.speed()))
     }
 
     /// Reads a recording, which is played when it is there.

@@ -7,7 +7,7 @@ use eddy::{
     gpu::Gpu,
     media,
     project::{self, PassId},
-    session::{Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs},
+    session::{Answer, Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs},
 };
 use std::{
     fs::{self, File},
@@ -213,6 +213,7 @@ fn what_ends_a_recording_says_so() {
     assert!(stage.path("project-0002.replay").exists());
     // Another project has nothing to do with it.
     stage.session.apply(Command::Open("feedback".into()));
+    stage.session.apply(Command::Answer(Answer::Discard));
     assert!(stage.session.replay().is_none());
 }
 
@@ -248,6 +249,7 @@ fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_pr
     let mut stage = stage(gpu);
     let (file, _) = by_steps(&mut stage);
     stage.session.apply(Command::Open("feedback".into()));
+    stage.session.apply(Command::Answer(Answer::Discard));
     stage.until_compiled();
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to: None });
     let told = stage.notices(Level::Warning).join("\n");

@@ -108,9 +108,14 @@ impl Session {
         let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
         let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
+        // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
+        let is_free = self.halting.halt.is_none() && !self.drawing.is_busy() && !self.gives_way();
+        let replayed = self.replay_due().filter(|_| is_running && is_free);
+        let is_next_due = is_next_due && !self.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
         let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
-        is_next_due.then_some(self.now).into_iter().chain(deadlines.into_iter().flatten()).min()
+        let next = is_next_due.then_some(self.now).or(replayed);
+        next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
     fn start_compile(&mut self) {
