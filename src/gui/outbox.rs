@@ -29,6 +29,8 @@ pub enum Pick {
     Reference,
     /// A recording of input, to play it.
     Recording,
+    /// A JSON file to export to, and a name for it.
+    Json(String),
     /// A folder for the lab's report.
     LabReport,
     /// A picture for a channel of the pass in front.

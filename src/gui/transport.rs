@@ -51,13 +51,13 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
-        let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
+        let played = session.replay();
+        // A recording has the resolution that it was recorded at.
+        let roomy = played.is_none() && ui.available_width() >= BEHIND + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
-        let played = session.replay();
         if let Some(played) = &played {
-            let kept = if roomy { BEHIND + SIZE } else { BEHIND };
-            replay::show(ui, played, transport.playing, kept + gap, out);
+            replay::show(ui, played, transport.playing, BEHIND + gap, out);
         }
         let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
         let mut fits = |width: f32| {
@@ -259,6 +259,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
             Action::SaveTexels,
             Action::Record,
             Action::PlayRecording,
+            Action::ExportJson,
             Action::Audit,
             Action::Fullscreen,
             Action::Costs,

@@ -63,6 +63,7 @@ pub use geometry::{
 };
 pub use includes::{IncludeLines, include_names};
 pub use inspect_comments::{InspectComment, inspect_comments};
+pub use json::losses as json_losses;
 pub use loaded::Loaded;
 pub use locate::{load, stem};
 pub use manifest::write as write_manifest;

@@ -32,6 +32,7 @@ impl Session {
             | Command::New
             | Command::Save
             | Command::SaveAs(_)
+            | Command::ExportJson(_)
             | Command::SaveAsCancelled
             | Command::Close
             | Command::Answer(_) => self.apply_to_files(command),

@@ -64,6 +64,8 @@ pub enum About {
     Again,
     /// A recording that is played.
     Replay,
+    /// A project that was to be written for the site.
+    Export,
 }
 
 /// Something the user should hear once.

@@ -20,6 +20,7 @@ mod cli_render;
 mod compile_budget;
 mod directives;
 mod engine;
+mod exports;
 mod fills;
 mod fixes;
 mod frame_bands;
