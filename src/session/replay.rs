@@ -23,6 +23,9 @@ const MOST_A_TICK: u32 = 4;
 /// A further frame of the same tick is so late.
 const BEHIND: Duration = Duration::from_millis(8);
 
+/// A tick that comes so long before a frame is due draws it: else a screen of the same rate would show some twice.
+const EARLY: Duration = Duration::from_millis(4);
+
 /// Everything about the recording that is played, or that was played last.
 #[derive(Default)]
 pub(super) struct Replay {
@@ -141,7 +144,7 @@ impl Playing {
         if late > LATE || is_stuck {
             self.anchor = Some((now, due));
         }
-        let is_due = at >= due || is_stuck;
+        let is_due = at + speed * EARLY.as_secs_f64() >= due || is_stuck;
         match self.in_tick.1 {
             0 => is_due,
             n => is_due && late > BEHIND && n < MOST_A_TICK,

@@ -257,6 +257,6 @@ fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_pr
     stage.session.apply(Command::Bring { paths: vec![file], to: Some((PassId::Image, None)) });
     stage.until("a recording that plays", |session| session.replay().is_some());
     let told = stage.notices(Level::Warning).join("\n");
-    assert!(told.contains("was recorded in the project \"project\", but \"feedback\" is open"), "{told}");
+    assert!(told.contains("was recorded in the project \"project\", but \"Feedback\" is open"), "{told}");
     draw(&mut stage, usize::MAX);
 }
