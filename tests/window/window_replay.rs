@@ -108,7 +108,10 @@ fn a_recording_is_played_in_the_window_and_ends_at_the_rendered_picture() {
     assert!(shot == rendered, "the pictures differ");
     // Once more, stopped on the way: the picture goes on live.
     window.keys(&["ctrl+shift+p"]);
-    window.type_text("play recording");
+    window.shows("field:palette");
+    window.type_text("play rec");
+    window.shows("palette:play-recording");
+    window.hides("palette:save");
     window.keys(&["Return"]);
     type_path(&mut window, &replay);
     window.wait_until("some frames", "replay", |e| e["drawn"].as_u64().is_some_and(|drawn| drawn > 5));
