@@ -39,7 +39,9 @@ fn picture(gpu: &Gpu, spec: &Path) -> Vec<u8> {
     let (media, _) = media::gather(&loaded, None);
     let mut offline = Offline::new(gpu, (40, 24), ScriptedInputs::new(60.0)).unwrap();
     offline.build(&loaded, &media, &BuildOptions::default()).unwrap();
-    (0..5).for_each(|_| drop(offline.draw().unwrap()));
+    for _ in 0..5 {
+        offline.draw().unwrap();
+    }
     let mut bytes = Vec::new();
     npy::write(&mut bytes, &offline.read(&PassId::Image, 0).unwrap()).unwrap();
     bytes

@@ -46,7 +46,9 @@ fn rendered(gpu: &Gpu, spec: &str, file: &Path, pass: &PassId) -> Vec<u8> {
     let inputs = ScriptedInputs::new(60.0).with_replay(Some(Arc::new(recording)));
     let mut offline = Offline::new(gpu, size, inputs).unwrap();
     offline.build(&loaded, &media, &BuildOptions { wanted: vec![pass.clone()], ..BuildOptions::default() }).unwrap();
-    (0..frames).for_each(|_| drop(offline.draw().unwrap()));
+    for _ in 0..frames {
+        offline.draw().unwrap();
+    }
     let mut bytes = Vec::new();
     npy::write(&mut bytes, &offline.read(pass, 0).unwrap()).unwrap();
     bytes
