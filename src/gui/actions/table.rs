@@ -135,8 +135,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::FindNonfinite, "first-nan", "Find first NaN or infinity", &[], Group::Picture).found_by("debug inf"),
     row(Action::Record, "record-input", "Start/stop recording input", &["Ctrl+Shift+R"], Group::Picture)
         .found_by("capture video replay mouse keys recording"),
-    row(Action::PlayRecording, "play-recording", "Play recording of input (.replay)", &[], Group::Picture)
-        .found_by("replay open file mouse keys"),
+    row(Action::PlayRecording, "play-recording", "Play recording", &[], Group::Picture)
+        .found_by("replay open file mouse keys input"),
     row(Action::StopReplay, "stop-replay", "Stop playing recording", &[], Group::Picture).found_by("replay end cancel"),
     row(Action::SaveMeasures, "save-measurements", "Save measurements (CSV)", &[], Group::Picture)
         .found_by("export probe data table"),
