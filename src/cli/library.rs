@@ -6,10 +6,8 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    diag::{self, Diagnostic, SourceMap},
-    engine,
-    glsl::Driver,
     project::{self, Origin, Overwrite, Project, ProjectError},
+    session,
 };
 use std::{
     io::{self, Write},
@@ -54,49 +52,15 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
             return Err(mend(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
         save(&project, &args.out, args.force)?;
-        let custom_uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|k| k.name).collect();
-        let note = match custom_uniforms.len() {
-            0 => String::new(),
-            1 => format!("; {} becomes a constant", custom_uniforms[0]),
-            _ => format!("; {} become constants", project::listed(&custom_uniforms)),
-        };
-        let has_settings =
-            !project.groups.is_empty() || project.passes.iter().any(|p| p.settings != Default::default());
-        let lost = if has_settings {
-            "; Shadertoy has no sizes, formats, regions, initial states, boundaries or groups of passes, so they \
-             are left out"
-        } else {
-            ""
-        };
-        Ok(format!("{}: exported to {to}{note}{lost}", args.project))
+        let lost: String = project::json_losses(&project).iter().map(|lost| format!("\n  {lost}")).collect();
+        Ok(format!("{}: exported to {to}{lost}", args.project))
     })
 }
 
-/// Refuses a project with a directive that cannot be obeyed: what it asks for would be missing in the export. Other
-/// mistakes of its texts are exported as they are.
+/// Refuses a project with a directive that cannot be obeyed.
 fn check_directives(project: &Project) -> Result<(), Trouble> {
-    let texts = engine::Sources::new(project);
-    let sources = project.sources();
-    let mut found = texts.diagnostics.clone();
-    for outcome in texts.compile_all(Driver::default()) {
-        let said = outcome.map_or_else(|errors| errors, |_| Vec::new());
-        diag::append(&mut found, said.into_iter().filter(|d| is_of_directive(d, &sources)));
-    }
-    found.retain(Diagnostic::is_error);
+    let (found, sources) = session::directive_errors(project);
     if found.is_empty() { Ok(()) } else { Err(Trouble::Diagnostics(found, sources)) }
-}
-
-/// Returns whether a message is about a directive that GLSL itself does not have.
-fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
-    const GLSL: [&str; 12] =
-        ["define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "error", "line", "version", "extension"];
-    let line = diagnostic.span.and_then(|span| {
-        let text = &sources.get(span.source)?.text;
-        let begin = text.get(..span.start as usize)?.rfind('\n').map_or(0, |i| i + 1);
-        text[begin..].lines().next().map(str::trim_start)
-    });
-    let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
-    word.is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
 }
 
 /// Does the work of one project and prints what became of it.

@@ -9,7 +9,7 @@ use super::{
     outbox::{Outbox, Pick},
     theme,
 };
-use crate::project::PICTURES;
+use crate::project::{PICTURES, RECORDING};
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
     panic::catch_unwind,
@@ -102,7 +102,7 @@ impl Files {
         if !path.ends_with(MAIN_SEPARATOR) {
             path.push(MAIN_SEPARATOR);
         }
-        if let Pick::SaveAs(name) = &pick {
+        if let Pick::SaveAs(name) | Pick::Json(name) = &pick {
             path.push_str(name);
         }
         self.typing = Some(Typing { pick, path, is_new: true, before: None });
@@ -134,6 +134,8 @@ impl Files {
         let (title, action) = match &typing.pick {
             Pick::OpenFolder | Pick::OpenFile => ("Open project", "Open"),
             Pick::SaveAs(_) => ("Save to folder", "Save"),
+            Pick::Recording => ("Play recording", "Play"),
+            Pick::Json(_) => ("Export to Shadertoy JSON", "Export"),
             Pick::LabFolder => ("Keep lab results in folder", "Keep"),
             Pick::LabReport => ("Write lab report to folder", "Write"),
             Pick::Reference => ("Compare with project", "Compare"),
@@ -218,6 +220,8 @@ fn help(pick: &Pick) -> &'static str {
             "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json"
         }
         Pick::SaveAs(_) => "A folder for the project; it is created if missing",
+        Pick::Recording => "A .replay file that Record input has saved",
+        Pick::Json(_) => "A .json file; Eddy asks before replacing one",
         Pick::LabFolder => "A folder for results.jsonl; a stopped run resumes there",
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
@@ -236,7 +240,9 @@ fn expand_home(path: &str) -> PathBuf {
 fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
     let (title, kind) = match pick {
         Pick::OpenFolder => ("Open project folder", Kind::OpenFolder),
-        Pick::OpenFile => ("Open shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml"])),
+        Pick::OpenFile => ("Open shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml", RECORDING])),
+        Pick::Recording => ("Play recording", Kind::OpenFile("Recordings", &[RECORDING])),
+        Pick::Json(name) => ("Export to Shadertoy JSON", Kind::Save(name.clone())),
         Pick::LabFolder => ("Keep lab results in folder", Kind::OpenFolder),
         Pick::LabReport => ("Write lab report to folder", Kind::OpenFolder),
         Pick::Reference => ("Compare with project folder", Kind::OpenFolder),

@@ -27,6 +27,10 @@ pub enum Pick {
     LabFolder,
     /// A project to compare with: a folder.
     Reference,
+    /// A recording of input, to play it.
+    Recording,
+    /// A JSON file to export to, and a name for it.
+    Json(String),
     /// A folder for the lab's report.
     LabReport,
     /// The font of code.

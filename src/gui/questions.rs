@@ -26,6 +26,9 @@ pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
                 conflict(ui, tab.as_ref(), file, diff, room, out);
             }
             Question::Overwrite { folder, files } => overwrite(ui, folder, files, out),
+            Question::Export { file, exists, lost } => {
+                export(ui, file, *exists, lost, (window.height() - 230.0).max(60.0), out);
+            }
             Question::Recover(recovered) => recover(ui, recovered, (window.height() - 260.0).max(60.0), out),
         }
     });
@@ -92,6 +95,7 @@ fn name_of(answer: &Answer) -> &'static str {
         Answer::TakeDisk => "take-disk",
         Answer::SaveMineAs(_) => "save-mine-as",
         Answer::Overwrite => "overwrite",
+        Answer::Export => "export",
         Answer::Recover => "recover",
     }
 }
@@ -133,6 +137,37 @@ fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
     });
     ui.label(format!("What is replaced is kept for {} days.", session::KEPT_DAYS));
     answers_with_usual(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
+}
+
+fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, out: &mut Outbox) {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    ui.heading(if exists { format!("Replace {name}?") } else { format!("Export to {name}?") });
+    ui.colored_label(theme::of(ui).weak, file.display().to_string());
+    if !lost.is_empty() {
+        ui.add_space(4.0);
+        ui.label("Shadertoy does not have everything that this project uses:");
+        // As high as the sentences are, up to the room there is.
+        let width = ui.available_width() - 16.0;
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        let sentences: Vec<String> = lost.iter().map(|lost| format!("• {lost}")).collect();
+        let gap = ui.spacing().item_spacing.y;
+        let height =
+            |text: &String| ui.painter().layout(text.clone(), font.clone(), theme::of(ui).text, width).size().y + gap;
+        let height = sentences.iter().map(height).sum::<f32>().min(room);
+        let place = &mut of_height(ui, height);
+        ScrollArea::vertical().auto_shrink([false, false]).show(place, |ui| {
+            for (n, sentence) in sentences.iter().enumerate() {
+                let row = ui.add(egui::Label::new(sentence).wrap());
+                out.place(format!("lost:{n}"), row.rect);
+            }
+        });
+    }
+    if exists {
+        ui.label(format!("The file is already there. What is replaced is kept for {} days.", session::KEPT_DAYS));
+        answers_with_usual(ui, &[("Replace", Answer::Export), ("Cancel", Answer::Cancel)], 1, out);
+    } else {
+        answers(ui, &[("Export", Answer::Export), ("Cancel", Answer::Cancel)], out);
+    }
 }
 
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {

@@ -3,6 +3,7 @@
 use super::{
     actions::Action,
     dock::Panel,
+    export_menu,
     icons::{self, Icon},
     menus,
     outbox::{Outbox, Pick, Wish},
@@ -19,12 +20,16 @@ use std::collections::BTreeSet;
 /// Holds what the bar shows of the window's state.
 pub struct State<'a> {
     pub is_gallery: bool,
+    /// The lab has something to report.
+    pub has_lab_results: bool,
     pub open: &'a BTreeSet<Panel>,
     pub settings: &'a Settings,
 }
 
 /// Less room than this leaves out what can be done elsewhere.
-const ROOMY: f32 = 640.0;
+const ROOMY: f32 = 700.0;
+/// And less than this the menu of exports, whose rows are in the palette.
+const COMPACT: f32 = 440.0;
 
 pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox) {
     out.stop("top", ui);
@@ -51,6 +56,21 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
                 out.act(Action::Open);
                 ui.close();
             }
+            if !state.is_gallery {
+                let recording = Button::new("Recording…").shortcut_text(out.keys.hint(Action::PlayRecording));
+                let recording = ui.add(recording).on_hover_text("Play a .replay file in this project");
+                if out.clicked("open:recording", &recording) {
+                    out.act(Action::PlayRecording);
+                    ui.close();
+                }
+            }
+            ui.separator();
+            let page = ui.button("Get shaders from Shadertoy…");
+            let page = page.on_hover_text("Open a page with a bookmarklet that saves a shader's JSON in your browser");
+            if out.clicked("open:bookmarklet", &page) {
+                out.act(Action::Bookmarklet);
+                ui.close();
+            }
         });
         out.place("button:open", menu.response.rect);
         if !state.is_gallery {
@@ -58,6 +78,9 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
             if width > ROOMY {
                 let tip = "Save the project to another folder";
                 item(ui, "button:save-as", "Save as", tip, Action::SaveAs, false, out);
+            }
+            if width > COMPACT {
+                export_menu::show(ui, session, state.has_lab_results, out);
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

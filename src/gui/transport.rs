@@ -8,7 +8,7 @@ use super::{
     icons::{self, Icon},
     menus,
     outbox::{Outbox, Wish},
-    resolution, theme, timeline,
+    replay, resolution, theme, timeline,
 };
 use crate::{
     project::{PassId, Tab},
@@ -51,12 +51,17 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
-        let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
+        let played = session.replay();
+        // A recording has the resolution that it was recorded at.
+        let roomy = played.is_none() && ui.available_width() >= BEHIND + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
+        if let Some(played) = &played {
+            replay::show(ui, played, transport.playing, BEHIND + gap, out);
+        }
         let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
         let mut fits = |width: f32| {
-            let fits = room >= width + gap;
+            let fits = played.is_none() && room >= width + gap;
             room -= if fits { width + gap } else { 0.0 };
             fits
         };
@@ -209,6 +214,8 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
             Action::Screenshot,
             Action::SaveTexels,
             Action::Record,
+            Action::PlayRecording,
+            Action::ExportJson,
             Action::Audit,
             Action::Fullscreen,
             Action::Costs,

@@ -61,7 +61,7 @@ fn near_buffer<'p>(project: &'p Project, missing: &PassId) -> Option<&'p str> {
 
 /// Returns a warning where channels with samplers of their own read a buffer differently from each other, which the
 /// site cannot: there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
-fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
+pub(super) fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();
     }

@@ -96,6 +96,7 @@ fn foreign(path: &Path) -> String {
         "sprj" => "a project of SHADERed",
         "toe" | "tox" => "a file of TouchDesigner",
         "spv" => "a compiled shader",
+        "replay" => "a recording of input (drop it on the window, or use --replay)",
         _ => return String::new(),
     };
     format!("{is}, ")

@@ -44,7 +44,8 @@ mod writes;
 
 pub use advice::{advice, missing_pass};
 pub use arrivals::{
-    ArrivalError, FileKind, Fit, MODELS, PICTURES, TextArrival, arrival_of_text, folder_of_parts, kind_of_file, new_for,
+    ArrivalError, FileKind, Fit, MODELS, PICTURES, RECORDING, TextArrival, arrival_of_text, folder_of_parts,
+    kind_of_file, new_for,
 };
 pub use atomic::write_with;
 pub use confine::FileError;
@@ -62,6 +63,7 @@ pub use geometry::{
 };
 pub use includes::{IncludeLines, include_names};
 pub use inspect_comments::{InspectComment, inspect_comments};
+pub use json::losses as json_losses;
 pub use loaded::Loaded;
 pub use locate::{load, stem};
 pub use manifest::write as write_manifest;

@@ -32,6 +32,7 @@ impl Session {
             | Command::New
             | Command::Save
             | Command::SaveAs(_)
+            | Command::ExportJson(_)
             | Command::SaveAsCancelled
             | Command::Close
             | Command::Answer(_) => self.apply_to_files(command),
@@ -111,6 +112,13 @@ impl Session {
             Command::EditPasses(edit) => self.edit_passes(edit),
             Command::UndoPassEdit => self.undo_pass_edit(),
             Command::RedoPassEdit => self.redo_pass_edit(),
+            // The recorded hand's are drawn.
+            Command::MouseDown { .. }
+            | Command::MouseMove { .. }
+            | Command::MouseUp
+            | Command::KeyDown(_)
+            | Command::KeyUp(_)
+                if self.is_replaying() => {}
             Command::MouseDown { x, y } => self.input(|run| run.mouse.press(x, y)),
             Command::MouseMove { x, y } if self.run.mouse.is_down() => self.input(|run| run.mouse.move_to(x, y)),
             Command::MouseMove { .. } => {}
@@ -122,6 +130,8 @@ impl Session {
             Command::Screenshot => self.capture(super::capture::Format::Png),
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::Record => self.record(),
+            Command::PlayRecording(file) => self.play_recording(file),
+            Command::StopReplay => self.end_replay("the picture continues live from there"),
             Command::Audit => self.ask_audit(),
             Command::HideAudit => self.auditing.map = None,
             Command::FindParting => self.tracing.find_parting(),
@@ -245,7 +255,10 @@ impl Session {
 
     /// The values go to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_turned(&mut self) {
-        self.drawing.wanted.custom_uniforms = Some(self.documents.current().custom_uniform_values.clone());
+        let played = self.run.replay.playing.as_ref().and_then(|playing| playing.values());
+        self.run.replay.has_values = played.is_some();
+        let values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        self.drawing.wanted.custom_uniforms = Some(values);
     }
 
     /// Returns what the tab's pass reads by its text alone.
@@ -272,6 +285,9 @@ impl Session {
 
     pub(super) fn reset(&mut self) {
         self.settled(About::Seeking);
+        self.end_replay("the picture was reset");
+        self.canvas.replayed = None;
+        self.take_values_back();
         self.drawing.wanted.reset = true;
         self.run.seeking.cancel();
         self.run.clock.reset();
@@ -291,6 +307,8 @@ impl Session {
 
     /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
     fn ask_size(&mut self, size: CanvasSize) {
+        self.end_replay("the resolution was changed");
+        self.canvas.replayed = None;
         self.canvas.asked = size;
         if self.projects_opened == 0 {
             self.canvas.usual = size;

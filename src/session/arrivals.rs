@@ -52,8 +52,16 @@ impl Session {
                     format!("{} was opened; the other projects were skipped, as only one can be open", name(first));
                 self.notice(Level::Info, text);
             }
+            if let Some(recording) = of(FileKind::Recording).next() {
+                let text = format!("drop {} again once the project is open, to play it there", name(recording));
+                self.notice(Level::Info, text);
+            }
             let place = parts.unwrap_or(first).display().to_string();
             return self.apply_to_files(Command::Open(place));
+        }
+        if let Some(recording) = of(FileKind::Recording).next() {
+            let file = recording.clone();
+            return self.bring_recording(file, to.is_some());
         }
         let pictures: Vec<&Path> = of(FileKind::Picture).map(PathBuf::as_path).collect();
         let models: Vec<&Path> = of(FileKind::Model).map(PathBuf::as_path).collect();
@@ -83,6 +91,18 @@ impl Session {
                 self.notice_with_undo(done);
             }
         }
+    }
+
+    /// Plays a recording in the open project, if one is shown.
+    fn bring_recording(&mut self, file: PathBuf, is_project_shown: bool) {
+        if is_project_shown {
+            return self.play_recording(file);
+        }
+        let text = format!(
+            "{} is a recording of input: open the project that it was recorded in, then drop it on the picture",
+            name(&file)
+        );
+        self.notice_about(About::Opening, Level::Warning, text);
     }
 
     /// Puts pictures and models into a project. Says what reads them.
@@ -141,14 +161,14 @@ impl Session {
                 FileKind::Unknown => {
                     let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
                                  image file (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, \
-                                 obj)";
+                                 obj), a recording of input is a .replay file";
                     self.notice_about(
                         About::Opening,
                         Level::Warning,
                         format!("{name} is not a file Eddy can open: {known}"),
                     );
                 }
-                FileKind::Project | FileKind::Picture | FileKind::Model => {}
+                FileKind::Project | FileKind::Picture | FileKind::Model | FileKind::Recording => {}
             }
         }
     }

@@ -39,6 +39,9 @@ pub enum Command {
     /// Writes the project into a folder, which becomes its origin. A folder that holds other project files leads to
     /// [`Question::Overwrite`].
     SaveAs(PathBuf),
+    /// Writes the project as Shadertoy JSON, and leaves it where it is. What that form cannot say, and a file that is
+    /// there, lead to [`Question::Export`].
+    ExportJson(PathBuf),
     /// The folder picker of [`Request::SaveAs`] was closed without a choice.
     SaveAsCancelled,
     /// The whole new text of a tab. Compiles a while after the last one, or at once where that is fast.
@@ -148,6 +151,11 @@ pub enum Command {
     /// Begins anew at frame 0 and records the inputs of every frame; the second time, ends that and writes them beside
     /// the pictures, for `eddy render --replay`.
     Record,
+    /// Plays the input of such a file in the open project, from frame 0 on: see
+    /// [`Session::replay`](super::Session::replay). A file that cannot be played is told of in a notice.
+    PlayRecording(PathBuf),
+    /// Ends that. The picture goes on from the frame that is shown.
+    StopReplay,
     /// Shows a pass, which is captured then too.
     ShowPass(PassId),
     /// Draws the value of an expression instead of the picture; `None`: the picture again. See
@@ -221,6 +229,10 @@ pub enum Question {
     /// The folder of a Save As already holds these files, which would be replaced: all of them. Answers: Overwrite,
     /// which keeps a copy of each for [`KEPT_DAYS`](super::KEPT_DAYS) days, and Cancel.
     Overwrite { folder: PathBuf, files: Vec<PathBuf> },
+    /// A JSON file that was to be written is there, or cannot say everything of the project: `lost` has a sentence for
+    /// each thing. Answers: Export, which keeps a copy of what is replaced for [`KEPT_DAYS`](super::KEPT_DAYS) days, and
+    /// Cancel.
+    Export { file: PathBuf, exists: bool, lost: Vec<String> },
     /// An Eddy that ended early left unsaved work behind. Answers: Recover, Discard, Cancel, which leaves it for later.
     Recover(Box<Recovered>),
 }
@@ -278,6 +290,7 @@ pub enum Answer {
     /// Writes my text to a new file of this path (never over an existing one), then takes the one on disk.
     SaveMineAs(PathBuf),
     Overwrite,
+    Export,
     Recover,
 }
 

@@ -32,7 +32,9 @@ impl Session {
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
         while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
-            self.loop_range();
+            if !self.is_replaying() {
+                self.loop_range();
+            }
             if self.travel() {
                 is_drawn |= self.take_drawn(true);
                 continue;
@@ -56,10 +58,15 @@ impl Session {
         if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
             return None;
         }
-        let time = if self.is_step_due() {
-            self.run.clock.step_frame()
-        } else if self.run.steps > 0 {
-            self.run.steps -= 1;
+        let is_step = self.is_step_due() || {
+            let steps = self.run.steps;
+            self.run.steps = steps.saturating_sub(1);
+            steps > 0
+        };
+        if self.is_replaying() {
+            return self.next_replayed(is_step);
+        }
+        let time = if is_step {
             self.run.clock.step_frame()
         } else if self.run.clock.is_playing() && !self.run.is_covered {
             // The first frame of a new program does not wait for the next tick.
@@ -74,6 +81,7 @@ impl Session {
             return None;
         };
         (self.run.is_frame_due, self.run.is_again_due) = (false, false);
+        self.take_values_back();
         Some(self.inputs(time))
     }
 
@@ -94,13 +102,14 @@ impl Session {
 
     /// `again`: the frame that is shown is drawn again.
     fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
-        self.note_job(frame.as_ref(), again);
+        let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
+        // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
+        self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
         } else if again {
             self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
         }
-        let stays = self.stays();
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
@@ -362,6 +371,7 @@ impl Session {
             return;
         }
         self.run.clock.pause();
+        self.end_replay("a frame could not be drawn");
         (self.run.is_frame_due, self.run.is_again_due) = (false, false);
         if !is_lost {
             self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));

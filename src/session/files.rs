@@ -36,6 +36,7 @@ impl Session {
                 self.save();
             }
             Command::SaveAs(folder) => self.save_as(&folder, &[]),
+            Command::ExportJson(file) => self.export_json(&file),
             _ => self.dialog.after_save = None,
         }
     }
@@ -174,7 +175,7 @@ impl Session {
     }
 
     /// Says where the files are that a save has replaced.
-    fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
+    pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
         let files =
             if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
         let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
@@ -230,6 +231,8 @@ impl Session {
             }
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
             (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
+            (Question::Export { file, exists, .. }, Answer::Export) => self.write_json(&file, exists),
+            (Question::Export { .. }, Answer::Cancel) => {}
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was put.
@@ -304,7 +307,7 @@ impl Session {
 
 /// Saves a project over the files that the user has been shown, and over no others that are not its own. What is
 /// replaced is kept in the folder that comes back.
-fn save_over(
+pub(super) fn save_over(
     project: &Project,
     target: &Path,
     shown: &[PathBuf],

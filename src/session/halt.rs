@@ -129,6 +129,7 @@ impl Session {
         }
         self.compile.newest_since = None;
         // Its buffers begin anew, and so must what they go by.
+        self.end_replay("the GPU device was replaced");
         self.run.seeking.cancel();
         self.run.clock.reset();
         self.run.costs.forget();
@@ -232,6 +233,8 @@ impl Session {
         if self.halting.halt.is_none() {
             return;
         }
+        self.end_replay("the resolution was changed");
+        self.canvas.replayed = None;
         let is_overdue = self.overdue().is_some();
         let taken = self.frame_time().unwrap_or_default();
         let times = taken.as_secs_f64() / self.halting.limit.as_secs_f64().max(1e-3);

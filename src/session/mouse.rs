@@ -35,6 +35,12 @@ impl Mouse {
         self.is_down = false;
     }
 
+    /// Takes over from a mouse that was recorded: released, where it was.
+    pub fn follow(&mut self, imouse: [f32; 4], dragged: [f32; 2]) {
+        let [x, y, z, w] = imouse;
+        *self = Self { at: [x, y], pressed_at: [z.abs(), w.abs()], is_down: false, is_fresh: false, dragged };
+    }
+
     pub fn is_down(&self) -> bool {
         self.is_down
     }

@@ -16,6 +16,7 @@ use super::{
     mouse::Mouse,
     options::SessionOptions,
     probe::Probing,
+    replay::Replay,
     seeking::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
     view::CompileState,
@@ -55,8 +56,8 @@ impl Session {
 
 impl Canvas {
     fn of_next_project(&self) -> Canvas {
-        let Canvas { viewport, asked: _, usual, refused: _ } = *self;
-        Canvas { viewport, asked: usual, usual, refused: None }
+        let Canvas { viewport, asked: _, usual, replayed: _, refused: _ } = *self;
+        Canvas { viewport, asked: usual, usual, replayed: None, refused: None }
     }
 }
 
@@ -132,6 +133,7 @@ impl Run {
             buffers: self.buffers.of_next_project(),
             measuring: self.measuring.of_next_project(),
             recorder: None,
+            replay: Replay::default(),
         };
     }
 }

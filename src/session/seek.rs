@@ -56,6 +56,9 @@ impl Session {
         self.override_halt();
         // What is recorded is a run without a break.
         self.end_recording();
+        if self.is_replaying() {
+            return self.seek_in_replay(secs);
+        }
         let resumes = self.is_playing();
         self.run.seeking.cancel();
         self.run.steps = 0;
@@ -110,6 +113,7 @@ impl Session {
             Some(Ok(Travelled { inputs, goal, left, is_display_new })) => {
                 self.picture_is_other();
                 self.run.clock.go_to(inputs.frame, inputs.time_secs);
+                self.replay_travelled();
                 if self.run.seeking.goal.is_some() || !is_wanted {
                     return;
                 }

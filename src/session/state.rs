@@ -26,6 +26,7 @@ use super::{
     recent::Recent,
     recorder::Recorder,
     recovery::Safekeeping,
+    replay::Replay,
     runs::Runs,
     seeking::Seeking,
     tracing::Tracing,
@@ -103,6 +104,8 @@ pub(super) struct Canvas {
     pub asked: CanvasSize,
     /// The size that was asked for before any project was opened: each begins with it.
     pub usual: CanvasSize,
+    /// The size of a recording that is played, or was until now.
+    pub replayed: Option<(u32, u32)>,
     /// A size the device did not take; not tried again.
     pub refused: Option<(u32, u32)>,
 }
@@ -210,6 +213,8 @@ pub(super) struct Run {
     pub measuring: Measuring,
     /// The inputs of what is drawn are recorded.
     pub recorder: Option<Recorder>,
+    /// The recording that is played.
+    pub replay: Replay,
 }
 
 impl Session {
@@ -251,6 +256,7 @@ impl Session {
                 viewport: None,
                 asked: CanvasSize::default(),
                 usual: CanvasSize::default(),
+                replayed: None,
                 refused: None,
             },
             compile: Compile {
@@ -308,6 +314,7 @@ impl Session {
                 buffers: Watching::default(),
                 measuring: Measuring::default(),
                 recorder: None,
+                replay: Replay::default(),
             },
             probing: Probing::default(),
             tracing,

@@ -62,6 +62,10 @@ pub enum About {
     Audit,
     /// The frame that is shown and cannot be drawn again.
     Again,
+    /// A recording that is played.
+    Replay,
+    /// A project that was to be written for the site.
+    Export,
 }
 
 /// Something the user should hear once.

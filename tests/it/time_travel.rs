@@ -29,7 +29,7 @@ const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChan
 const MANIFEST: &str =
     "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
 
-fn stage(gpu: eddy::gpu::Gpu) -> Stage {
+pub(super) fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
     stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
@@ -38,7 +38,7 @@ fn stage(gpu: eddy::gpu::Gpu) -> Stage {
 }
 
 /// The texels of the pass that is shown.
-fn texels(stage: &mut Stage) -> Vec<u8> {
+pub(super) fn texels(stage: &mut Stage) -> Vec<u8> {
     stage.session.apply(Command::SaveTexels);
     stage.tick();
     let notice = stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap();
@@ -46,7 +46,7 @@ fn texels(stage: &mut Stage) -> Vec<u8> {
 }
 
 /// Draws as many frames as there are, one after the other, with a hand that moves and a slider that is turned.
-fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
+pub(super) fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
     for frame in frames {
         match frame {
             30 => stage.session.apply(Command::MouseDown { x: 1.5, y: 1.5 }),
@@ -329,7 +329,7 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
 
 /// Plays a preset for so many frames of uneven length with a hand on it, and records it. Gives the recording and what
 /// the pass holds at the end.
-fn recorded(gpu: &eddy::gpu::Gpu, preset: &str, frames: u32) -> (PathBuf, Vec<u8>, tempfile::TempDir) {
+pub(super) fn recorded(gpu: &eddy::gpu::Gpu, preset: &str, frames: u32) -> (PathBuf, Vec<u8>, tempfile::TempDir) {
     let mut stage = Stage::bare(gpu.clone());
     stage.session.apply(Command::SetFixedSize(Some((64, 36))));
     stage.session.apply(Command::Open(preset.into()));

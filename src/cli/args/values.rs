@@ -65,7 +65,8 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
 
 pub fn recording(path: &str) -> Result<Arc<Recording>, String> {
     let file = File::open(path).map_err(|error| format!("cannot read {path}: {error}"))?;
-    let recording = Recording::read(BufReader::new(file)).map_err(|error| format!("{path}: {error}"))?;
+    let recording =
+        Recording::read(BufReader::new(file)).map_err(|error| format!("{path}: {error}; {}", error.remedy()))?;
     Ok(Arc::new(recording))
 }
 

@@ -28,6 +28,14 @@ pub enum Action {
     Screenshot,
     SaveTexels,
     Record,
+    /// Chooses a recording, whose input is played.
+    PlayRecording,
+    StopReplay,
+    ExportJson,
+    SaveMeasures,
+    LabReport,
+    /// The page with the bookmarklet that saves shaders from the site.
+    Bookmarklet,
     /// Single against double precision, and what is undefined.
     Audit,
     Fullscreen,

@@ -87,6 +87,10 @@ const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> 
 pub const ACTIONS: &[Entry] = &[
     row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project).found_by("write store"),
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),
+    row(Action::ExportJson, "export-json", "Export to Shadertoy JSON", &[], Group::Project)
+        .found_by("save share upload file"),
+    row(Action::Bookmarklet, "bookmarklet", "Open Shadertoy bookmarklet page", &[], Group::Project)
+        .found_by("download import browser save json"),
     row(Action::Open, "open", "Open file", &["Ctrl+O"], Group::Project).found_by("load import project json"),
     row(Action::OpenFolder, "open-folder", "Open folder", &[], Group::Project).found_by("load import project"),
     row(Action::New, "new", "New shader", &["Ctrl+N"], Group::Project).found_by("create project"),
@@ -131,6 +135,11 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::FindNonfinite, "first-nan", "Find first NaN or infinity", &[], Group::Picture).found_by("debug inf"),
     row(Action::Record, "record-input", "Start/stop recording input", &["Ctrl+Shift+R"], Group::Picture)
         .found_by("capture video replay mouse keys recording"),
+    row(Action::PlayRecording, "play-recording", "Play recording", &[], Group::Picture)
+        .found_by("replay open file mouse keys input"),
+    row(Action::StopReplay, "stop-replay", "Stop playing recording", &[], Group::Picture).found_by("replay end cancel"),
+    row(Action::SaveMeasures, "save-measurements", "Save measurements (CSV)", &[], Group::Picture)
+        .found_by("export probe data table"),
     row(
         Action::SaveTexels,
         "save-texels",
@@ -188,6 +197,7 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::PreviousPanel, "previous-panel", "Focus previous panel", &["Shift+F6"], Group::Window),
     row(Action::Lab, "lab", "Panel: Lab (speed against error)", &["Ctrl+Shift+Y", "Ctrl+Shift+L"], Group::Window)
         .found_by("benchmark study measure"),
+    row(Action::LabReport, "lab-report", "Save lab report", &[], Group::Window).found_by("export html plots tables"),
     row(
         Action::Passes,
         "passes",

@@ -38,9 +38,16 @@ fn everything_that_takes_the_keyboard_has_a_name() {
             press(&mut stage, modifiers, key);
         }
     }
-    for widget in
-        ["channel:0", "combo:size", "combo:pass", "button:open", "button:options", "button:add-tab", "uniform:tint"]
-    {
+    for widget in [
+        "channel:0",
+        "combo:size",
+        "combo:pass",
+        "button:open",
+        "button:export",
+        "button:options",
+        "button:add-tab",
+        "uniform:tint",
+    ] {
         click(&mut stage, widget);
         named(&stage, widget);
         press(&mut stage, Modifiers::NONE, Key::Escape);

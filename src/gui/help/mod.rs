@@ -3,7 +3,7 @@
 mod text;
 
 use super::{
-    actions::{ACTIONS, Entry, Group},
+    actions::{ACTIONS, Action, Entry, Group},
     outbox::Outbox,
     theme,
 };
@@ -11,7 +11,7 @@ use egui::{
     Align, FocusDirection, FontId, Grid, Id, Key, Layout, Margin, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui,
     style::ScrollAnimation, vec2,
 };
-use text::SECTIONS;
+use text::{SECTIONS, SHADERTOY};
 
 /// As wide as lines are read well.
 const WIDTH: f32 = 700.0;
@@ -72,7 +72,7 @@ impl Help {
         ui.separator();
     }
 
-    fn contents(&self, ui: &mut Ui, out: &Outbox) {
+    fn contents(&self, ui: &mut Ui, out: &mut Outbox) {
         let wanted = Wanted::new(&self.search);
         let mut is_empty = true;
         for section in SECTIONS {
@@ -88,6 +88,12 @@ impl Help {
                     Some(code) => ui.label(RichText::new(format!("    {code}")).font(FontId::monospace(12.5))),
                     None => ui.label(*paragraph),
                 };
+            }
+            if section.title == SHADERTOY {
+                let open = ui.button("Open bookmarklet page");
+                if out.clicked("help:bookmarklet", &open) {
+                    out.act(Action::Bookmarklet);
+                }
             }
         }
         for group in Group::ALL {

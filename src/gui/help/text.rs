@@ -6,6 +6,9 @@ pub(super) struct Section {
     pub paragraphs: &'static [&'static str],
 }
 
+/// The section that has a button for the page with the bookmarklet.
+pub(super) const SHADERTOY: &str = "Shadertoy";
+
 pub(super) const SECTIONS: &[Section] = &[
     Section {
         title: "First steps",
@@ -31,6 +34,26 @@ pub(super) const SECTIONS: &[Section] = &[
             "Shift+F10 or the menu key opens the menu of a tab. To resize, move or close the focused panel from the \
              keyboard, search the command palette for \"panel\".",
             "In a dialog, Enter presses the highlighted button and Escape cancels.",
+        ],
+    },
+    Section {
+        title: SHADERTOY,
+        paragraphs: &[
+            "Drop or paste the JSON of a shader to open it. The bookmarklet page, which opens in your browser, has a \
+             bookmark that saves this JSON from a shader's Shadertoy page.",
+            "Export, Shadertoy JSON writes the project in the same form. What Shadertoy does not have, such as sizes of \
+             passes, your own uniforms and included files, is listed before the file is written.",
+        ],
+    },
+    Section {
+        title: "Exporting and recording",
+        paragraphs: &[
+            "The Export menu has everything that leaves the window as a file: screenshots, float texels, Shadertoy \
+             JSON, recordings of input, measurements and the lab's report.",
+            "Record input saves what each frame is given: time, mouse, keys, resolution and uniforms. To play a \
+             recording, drop the .replay file on the window or choose Open, Recording. It starts at frame 0 and pauses \
+             at its last frame. Your mouse and keys do not reach the picture until then; press Stop to continue live \
+             from the shown frame. The command line draws the same frames with --replay.",
         ],
     },
     Section {
@@ -82,8 +105,7 @@ pub(super) const SECTIONS: &[Section] = &[
             "\t//@print distance * 0.5",
             "Add a comment like this to plot a value of a pass over time in the Measurements panel:",
             "\t//@probe sum(buffer_a.x)",
-            "Step one frame back draws the previous frame with all buffers as they were. Record input saves what each \
-             frame is given, so that the command line can draw the same frames again.",
+            "Step one frame back draws the previous frame with all buffers as they were.",
             "Compare draws this project and another one (the last save, a git revision or any other project) with the \
              same inputs, and shows both pictures, their difference and their times.",
             "Check precision compares some pixels with double precision, and lists what GLSL leaves undefined below \

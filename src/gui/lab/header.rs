@@ -23,8 +23,7 @@ pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         start(ui, lab, out);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             more(ui, lab, out);
-            let is_known = !lab.known(lab.extent).results.errors.is_empty();
-            let save = ui.add_enabled(is_known && lab.saving.is_none(), Button::new("Save report…"));
+            let save = ui.add_enabled(lab.has_results(), Button::new("Save report…"));
             let save = save.on_hover_text("Write tables, plots and an HTML page of all results, like `eddy lab --out`");
             if out.clicked("lab:save-report", &save) {
                 Lab::pick(out, Pick::LabReport);

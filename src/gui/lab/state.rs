@@ -220,6 +220,11 @@ impl Lab {
         Ok(())
     }
 
+    /// Returns whether there is anything to report.
+    pub fn has_results(&self) -> bool {
+        !self.known(self.extent).results.errors.is_empty() && self.saving.is_none()
+    }
+
     /// Writes what is known as `eddy lab --out` does.
     pub fn save_report(&mut self, folder: PathBuf) {
         let results = self.known(self.extent).results.clone();

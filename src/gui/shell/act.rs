@@ -14,7 +14,7 @@ use crate::{
         timeline,
     },
     project::{PassId, Tab},
-    session::{Command, Level, Session, probe::ProbePlace},
+    session::{Command, Level, Session, capture::file_stem, probe::ProbePlace},
 };
 use egui::Ui;
 use std::path::Path;
@@ -58,6 +58,24 @@ impl Shell {
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
             Action::Record => out.ask(Command::Record),
+            Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
+            Action::StopReplay => out.ask(Command::StopReplay),
+            Action::SaveMeasures => out.ask(Command::SaveMeasures),
+            Action::ExportJson => {
+                let name = format!("{}.json", file_stem(&session.project().name));
+                self.files.ask(Pick::Json(name), start_folder(session));
+            }
+            Action::LabReport if self.lab.has_results() => self.files.ask(Pick::LabReport, start_folder(session)),
+            Action::LabReport => out.ask(Command::Notify {
+                level: Level::Info,
+                text: "There are no lab results yet: start a study in the Lab panel.".into(),
+                path: None,
+            }),
+            Action::Bookmarklet => {
+                if let Err(text) = self.browser.open_bookmarklet(&self.wake) {
+                    out.ask(Command::Notify { level: Level::Error, text, path: None });
+                }
+            }
             Action::Audit => out.ask(Command::Audit),
             Action::Fullscreen => {
                 self.fullscreen = !self.fullscreen;

@@ -9,6 +9,7 @@ mod report;
 
 use super::{
     actions::{Action, KeyFile, KeysHere, Listening},
+    browser::Browser,
     channels::Live,
     code::CodePanel,
     dock::{Dock, Panel},
@@ -45,6 +46,7 @@ pub struct Shell {
     viewport: Viewport,
     code: CodePanel,
     files: Files,
+    browser: Browser,
     lab: Lab,
     kept: OfProject,
     /// The projects that had taken the place of another when `kept` was made.
@@ -100,6 +102,7 @@ impl Shell {
             viewport,
             code: CodePanel::new(),
             files: Files::new(wake.clone()),
+            browser: Browser::default(),
             lab: Lab::new(&gpu, wake.clone()),
             kept: OfProject::new(wake.clone()),
             kept_of: 0,
@@ -211,6 +214,7 @@ impl Shell {
             out.ask(Command::Notify { level: Level::Error, text, path: None });
         }
         out.commands.extend(self.follow_settings(ui.ctx()));
+        out.commands.extend(self.browser.take());
         out.wishes.append(&mut self.wishes);
         let asking = session.question().is_some();
         if asking && self.palette.is_open() {
@@ -473,6 +477,11 @@ impl Shell {
                 out.ask(Command::Open(path.display().to_string()));
             }
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::Recording => {
+                self.uncover(out);
+                out.ask(Command::PlayRecording(path));
+            }
+            Pick::Json(_) => out.ask(Command::ExportJson(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),

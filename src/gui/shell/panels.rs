@@ -30,6 +30,7 @@ impl Shell {
         let p = theme::of(ui);
         let state = top_bar::State {
             is_gallery: self.gallery,
+            has_lab_results: self.lab.has_results(),
             open: self.dock.open_panels(),
             settings: self.settings.settings(),
         };

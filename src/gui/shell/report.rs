@@ -55,6 +55,14 @@ impl Shell {
                 "keeps_inputs": session.keeps_inputs(),
             }),
         );
+        let replay = session.replay();
+        report.say_if_new(
+            "replay",
+            json!({
+                "drawn": replay.as_ref().map(|replay| replay.drawn),
+                "frames": replay.as_ref().map(|replay| replay.frames),
+            }),
+        );
         report.say_if_new("halt", json!({ "kind": session.halt().map(halt::kind) }));
         let question =
             session.question().map(|q| format!("{q:?}").split([' ', '(']).next().unwrap_or_default().to_lowercase());

@@ -21,6 +21,8 @@ pub enum FileKind {
     Picture,
     /// A pass draws it.
     Model,
+    /// The input of a run, which is played in the open project.
+    Recording,
     /// The site's channels read such files, and Eddy's do not yet.
     SoundOrVideo,
     Unknown,
@@ -30,6 +32,8 @@ pub enum FileKind {
 pub const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr"];
 /// Endings of models that a pass can draw.
 pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
+/// Ending of recordings of input.
+pub const RECORDING: &str = "replay";
 const SOUNDS_AND_VIDEOS: [&str; 13] =
     ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus", "mp4", "webm", "ogv", "mkv", "mov", "avi"];
 
@@ -45,6 +49,8 @@ pub fn kind_of_file(path: &Path) -> FileKind {
         FileKind::Picture
     } else if is_one_of(&MODELS) {
         FileKind::Model
+    } else if is_one_of(&[RECORDING]) {
+        FileKind::Recording
     } else if is_one_of(&SOUNDS_AND_VIDEOS) {
         FileKind::SoundOrVideo
     } else {

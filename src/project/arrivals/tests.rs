@@ -82,6 +82,7 @@ fn files_are_known_by_their_names() {
         ("a.hdr", FileKind::Picture),
         ("fox.glb", FileKind::Model),
         ("a.obj", FileKind::Model),
+        ("run-0001.replay", FileKind::Recording),
         ("a.mp3", FileKind::SoundOrVideo),
         ("a.docx", FileKind::Unknown),
         ("a", FileKind::Unknown),

@@ -23,7 +23,7 @@ pub enum ArrivalError {
     /// An address of the site, with the shader's id where it has one.
     #[error(
         "{address} is a web address, and Eddy does not download. Open the page in a browser, save the shader with \
-         the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
+         the bookmarklet (\"Open Shadertoy bookmarklet page\" in the command palette), and drop or paste the JSON here"
     )]
     Site { address: String },
     #[error("{address} is a web address, and Eddy does not download; save the file and drop it here")]

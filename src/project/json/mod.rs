@@ -7,11 +7,13 @@ mod export;
 mod form;
 mod ids;
 mod import;
+mod losses;
 mod parsed;
 mod several;
 
 pub use export::export;
 pub use import::{holds_several, import, import_one};
+pub use losses::losses;
 pub(super) use parsed::utf16;
 pub(super) use several::{of_several, one_of};
 

@@ -151,6 +151,13 @@ impl Clock {
         self.frame = frame.saturating_add(1);
     }
 
+    /// A frame with a time and a number of its own is drawn. Playing or paused stays as it is.
+    pub fn draw(&mut self, frame: i32, time_secs: f64, rate: f32) {
+        self.rebase();
+        (self.time_secs, self.rate) = (time_secs, rate);
+        self.frame = frame.saturating_add(1);
+    }
+
     /// The next frame counts from the newest one's time, however much real time has passed: after a pause, or when the
     /// window got the focus back.
     pub fn rebase(&mut self) {

@@ -24,6 +24,7 @@ impl Session {
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.take_found_work();
+        self.take_recording();
         self.check_disk();
         let mut frame_drawn = self.take_drawn(false);
         self.watch_drawing();
@@ -107,9 +108,14 @@ impl Session {
         let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
         let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
+        // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
+        let is_free = self.halting.halt.is_none() && !self.drawing.is_busy() && !self.gives_way();
+        let replayed = self.replay_due().filter(|_| is_running && is_free);
+        let is_next_due = is_next_due && !self.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
         let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
-        is_next_due.then_some(self.now).into_iter().chain(deadlines.into_iter().flatten()).min()
+        let next = is_next_due.then_some(self.now).or(replayed);
+        next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
     fn start_compile(&mut self) {
@@ -260,7 +266,7 @@ impl Session {
     }
 
     /// Gives the engine the size the canvas shall have.
-    fn fit_canvas(&mut self) {
+    pub(super) fn fit_canvas(&mut self) {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
         self.drawing.wanted.size = is_new.then_some(size);
@@ -275,6 +281,8 @@ impl Session {
         let (width, height) = self.drawing.size();
         let text = format!("{error}; the picture stays at {width}x{height}");
         self.notice_about(About::CanvasSize, Level::Error, text);
+        self.canvas.replayed = None;
+        self.end_replay("its resolution cannot be drawn on this GPU");
     }
 
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
@@ -287,7 +295,7 @@ impl super::state::Canvas {
     /// Pixels, at least one each way; `None` before the viewport is known.
     fn size(&self) -> Option<(u32, u32)> {
         let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
-        self.asked.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, Write};
 
 /// The extension of the files' names.
-pub const EXTENSION: &str = "replay";
+pub const EXTENSION: &str = crate::project::RECORDING;
 const VERSION: u32 = 1;
 /// Bytes of a frame's keys, which frames of the same keys share.
 const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
@@ -80,13 +80,27 @@ pub enum ReadError {
     Line { line: usize, what: String },
     #[error("it has no frames")]
     Empty,
-    #[error("it is larger than {0}; record fewer frames")]
+    #[error("it is larger than {0}")]
     TooLarge(Limit),
     #[error(
-        "line {line}: with this frame it takes more than {}, the limit for a recording; record fewer frames",
+        "line {line}: with this frame it takes more than {}, the limit for a recording",
         in_bytes(*most)
     )]
     TooMany { line: usize, most: u64 },
+}
+
+impl ReadError {
+    /// Returns what a person can do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::Io(_) => "check that the file is there and that you may read it",
+            Self::NoRecording => "choose a .replay file that Record input has saved",
+            Self::Later(_) => "update Eddy, or record it again with this version",
+            Self::Line { .. } => "correct that line, or record the input again",
+            Self::Empty => "record the input again",
+            Self::TooLarge(_) | Self::TooMany { .. } => "record a shorter run",
+        }
+    }
 }
 
 impl Recording {

@@ -1,0 +1,166 @@
+//! Opens pages that come with Eddy in the desktop's browser.
+//!
+//! A page is written to a private folder first, so that a program alone without its `docs` has it too. The desktop is
+//! asked on a thread of its own: it may show a dialog, or never answer.
+
+use crate::{
+    project::{make_private, write_into},
+    session::{Command, Level},
+};
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+    process::{self, Stdio},
+    sync::{
+        Arc,
+        mpsc::{Receiver, TryRecvError, channel},
+    },
+    time::{Duration, Instant},
+};
+
+/// The page with the bookmarklet that saves a shader from its Shadertoy page.
+const BOOKMARKLET: &str = include_str!("../../docs/bookmarklet.html");
+const BOOKMARKLET_NAME: &str = "shadertoy-bookmarklet.html";
+/// A program that still runs after so long has opened the page: some are the browser itself.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Pages on their way to the browser.
+#[derive(Default)]
+pub struct Browser {
+    opening: Vec<(PathBuf, Receiver<bool>)>,
+}
+
+impl Browser {
+    /// Writes the page with the bookmarklet and asks the desktop to open it.
+    pub fn open_bookmarklet(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Result<(), String> {
+        let folder = dirs::cache_dir().unwrap_or_else(std::env::temp_dir).join("eddy");
+        let path =
+            write(&folder).map_err(|e| format!("cannot write {} to {}: {e}", BOOKMARKLET_NAME, folder.display()))?;
+        let (sender, answer) = channel();
+        let (page, wake) = (path.clone(), wake.clone());
+        let ask = move || {
+            // A receiver that is gone no longer wants the answer.
+            let _ = sender.send(show(&page));
+            wake();
+        };
+        match std::thread::Builder::new().name("browser".into()).spawn(ask) {
+            Ok(_) => {
+                self.opening.push((path, answer));
+                Ok(())
+            }
+            Err(e) => Err(format!("cannot start a thread for the browser: {e}; open {} in a browser", path.display())),
+        }
+    }
+
+    /// Returns what there is to say of pages for which the desktop has answered.
+    pub fn take(&mut self) -> Vec<Command> {
+        let mut told = Vec::new();
+        self.opening.retain(|(path, answer)| match answer.try_recv() {
+            Err(TryRecvError::Empty) => true,
+            answer => {
+                told.push(opened(path.clone(), answer == Ok(true)));
+                false
+            }
+        });
+        told
+    }
+}
+
+/// Says what became of a page that was to be opened.
+fn opened(path: PathBuf, is_open: bool) -> Command {
+    let (level, text) = if is_open {
+        (Level::Info, format!("The bookmarklet page is open in your browser. It is the file {}.", path.display()))
+    } else {
+        (Level::Warning, format!("No browser could be started. Open this file in a browser: {}", path.display()))
+    };
+    Command::Notify { level, text, path: Some(path) }
+}
+
+fn write(folder: &Path) -> io::Result<PathBuf> {
+    make_private(folder)?;
+    write_into(folder, BOOKMARKLET_NAME, |file| file.write_all(BOOKMARKLET.as_bytes()))?;
+    Ok(folder.join(BOOKMARKLET_NAME))
+}
+
+/// Opens a page. False: the desktop could not.
+fn show(page: &Path) -> bool {
+    #[cfg(target_os = "macos")]
+    return runs(Path::new("open"), page);
+    #[cfg(windows)]
+    // Its exit status says nothing.
+    return process::Command::new("explorer").arg(page).spawn().is_ok();
+    #[cfg(not(any(windows, target_os = "macos")))]
+    (portal(page) || runs(Path::new("xdg-open"), page))
+}
+
+/// Asks the XDG desktop portal, which reaches browsers that see only a part of the disk.
+#[cfg(not(any(windows, target_os = "macos")))]
+fn portal(page: &Path) -> bool {
+    use ashpd::desktop::open_uri::OpenFileRequest;
+    use std::os::fd::AsFd;
+    let Ok(file) = std::fs::File::open(page) else { return false };
+    let asked = pollster::block_on(async { OpenFileRequest::default().send_file(&file.as_fd()).await?.response() });
+    asked.inspect_err(|e| log::info!("the desktop portal did not open {}: {e}", page.display())).is_ok()
+}
+
+/// Runs a program that opens a page. Returns whether it has.
+#[cfg(not(windows))]
+fn runs(program: &Path, page: &Path) -> bool {
+    let mut command = process::Command::new(program);
+    command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = match command.spawn() {
+        Ok(child) => child,
+        Err(e) => {
+            log::info!("{} did not open {}: {e}", program.display(), page.display());
+            return false;
+        }
+    };
+    let end = Instant::now() + PATIENCE;
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return status.success(),
+            Ok(None) if Instant::now() >= end => return true,
+            Ok(None) => std::thread::sleep(Duration::from_millis(20)),
+            Err(_) => return false,
+        }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::{fs, os::unix::fs::PermissionsExt};
+
+    #[test]
+    fn the_page_lies_in_a_folder_that_nobody_else_reads_and_is_written_again() {
+        let dir = tempfile::tempdir().unwrap();
+        let folder = dir.path().join("eddy");
+        let path = write(&folder).unwrap();
+        assert_eq!(fs::metadata(&folder).unwrap().permissions().mode() & 0o777, 0o700);
+        fs::write(&path, "an older version").unwrap();
+        assert_eq!(write(&folder).unwrap(), path);
+        let page = fs::read_to_string(&path).unwrap();
+        assert!(page.contains("gShaderToy") && page.contains("Save for Eddy"));
+        // A link that leads elsewhere is not followed.
+        let precious = dir.path().join("precious");
+        fs::write(&precious, "mine").unwrap();
+        fs::remove_file(&path).unwrap();
+        std::os::unix::fs::symlink(&precious, &path).unwrap();
+        let _ = write(&folder);
+        assert_eq!(fs::read_to_string(&precious).unwrap(), "mine");
+    }
+
+    #[test]
+    fn a_browser_that_opens_and_one_that_cannot_are_told_apart() {
+        let dir = tempfile::tempdir().unwrap();
+        let opens = |script: &str| {
+            let program = dir.path().join("program");
+            fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+            fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+            runs(&program, Path::new("/a page.html"))
+        };
+        assert!(opens("test \"$1\" = '/a page.html'"));
+        assert!(!opens("exit 3"));
+        assert!(!runs(&dir.path().join("nothing"), Path::new("/a page.html")));
+    }
+}

@@ -1,0 +1,88 @@
+//! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
+
+use crate::project::{Input, Media, Pass, PassId, Project, advice, listed};
+
+/// The buffers that the site has.
+const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
+
+/// Returns a sentence for each thing that Shadertoy does not have: what becomes of it there. Empty: nothing is lost.
+pub fn losses(project: &Project) -> Vec<String> {
+    let mut lost = Vec::new();
+    let uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|uniform| uniform.name).collect();
+    match uniforms.as_slice() {
+        [] => {}
+        [one] => lost.push(format!("The uniform {one} becomes a constant with its current value.")),
+        _ => lost.push(format!("The uniforms {} become constants with their current values.", listed(&uniforms))),
+    }
+    let included: Vec<&str> =
+        project.includes.iter().filter(|i| i.trouble.is_none()).map(|i| i.source.name.as_str()).collect();
+    if !included.is_empty() {
+        lost.push(format!("Included files are copied into the code: {}.", listed(&included)));
+    }
+    lost.extend(project.passes.iter().filter_map(settings));
+    for group in &project.groups {
+        let passes: Vec<String> = group.passes.iter().map(PassId::title).collect();
+        lost.push(format!("{} are drawn once per frame, not {} times.", listed(&passes), group.steps));
+    }
+    let further: Vec<String> =
+        project.passes.iter().map(|pass| &pass.id).filter(|id| is_further(id)).map(PassId::title).collect();
+    if !further.is_empty() {
+        lost.push(format!("Shadertoy has only Buffer A to D and cannot read {}; Eddy can.", listed(&further)));
+    }
+    for pass in &project.passes {
+        for (n, channel) in pass.channels.iter().enumerate() {
+            lost.extend(
+                channel
+                    .as_ref()
+                    .and_then(|channel| picture(&channel.input))
+                    .map(|what| format!("iChannel{n} of {} reads {what}", pass.id.title())),
+            );
+        }
+    }
+    lost.extend(
+        advice::shared_samplers(project).into_iter().map(|warning| format!("{}.", capitalised(&warning.message))),
+    );
+    lost
+}
+
+fn is_further(id: &PassId) -> bool {
+    matches!(id, PassId::Buffer(name) if !BUFFERS.contains(&name.as_str()))
+}
+
+/// Says which settings of a pass are left out.
+fn settings(pass: &Pass) -> Option<String> {
+    let (own, usual) = (&pass.settings, crate::project::PassSettings::default());
+    let all = [
+        (own.size != usual.size, "size"),
+        (own.format != usual.format, "format"),
+        (own.region != usual.region, "region"),
+        (own.initial != usual.initial, "initial state"),
+        (own.boundary != usual.boundary, "boundary"),
+    ];
+    let named: Vec<&str> = all.into_iter().filter(|(is_set, _)| *is_set).map(|(_, name)| name).collect();
+    (!named.is_empty())
+        .then(|| format!("The {} of {} {} left out.", listed(&named), pass.id.title(), is_or_are(&named)))
+}
+
+fn is_or_are(names: &[&str]) -> &'static str {
+    if names.len() == 1 { "is" } else { "are" }
+}
+
+/// Says what becomes of a picture that the site does not have.
+fn picture(input: &Input) -> Option<String> {
+    match input.media()? {
+        Media::Builtin(name) => Some(format!("{name}, a texture of Eddy's; the channel is empty on Shadertoy.")),
+        Media::File(path) | Media::Picked(path) => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            Some(format!(
+                "the image file {name}; the channel is empty on Shadertoy, and Eddy looks for the file beside the JSON."
+            ))
+        }
+        Media::Site { .. } => None,
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}

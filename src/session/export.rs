@@ -1,0 +1,124 @@
+//! Exports the open project as Shadertoy JSON. What this form cannot express is named before anything is written, and no
+//! file is replaced unasked.
+
+use super::{
+    Session,
+    command::Question,
+    files::save_over,
+    view::{About, Level},
+};
+use crate::{
+    diag::{self, Diagnostic, SourceMap},
+    engine,
+    glsl::Driver,
+    project::{self, Project, ProjectError},
+};
+use std::path::{Path, PathBuf};
+
+impl Session {
+    /// Writes the project to a JSON file, where nothing is lost by it and nothing is there; else asks first. The project
+    /// stays where it is, saved or not.
+    pub(super) fn export_json(&mut self, file: &Path) {
+        self.settled(About::Export);
+        let file = as_json(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+        self.settle_includes();
+        if let Err(why) = exportable(self.project(), &file) {
+            self.notice_about(About::Export, Level::Error, format!("not exported: {why}"));
+            return;
+        }
+        let lost = project::json_losses(self.project());
+        let exists = file.symlink_metadata().is_ok();
+        if exists || !lost.is_empty() {
+            self.ask(Question::Export { file, exists, lost });
+        } else {
+            self.write_json(&file, false);
+        }
+    }
+
+    /// `replaces`: the user lets it replace the file that is there.
+    pub(super) fn write_json(&mut self, file: &Path, replaces: bool) {
+        let replaced = if replaces { vec![file.to_owned()] } else { Vec::new() };
+        match save_over(self.project(), file, &replaced, self.options.recovery.as_deref()) {
+            Ok((_, kept)) => {
+                self.notice_with_path(
+                    About::Export,
+                    Level::Info,
+                    format!("exported {}", file.display()),
+                    file.to_owned(),
+                );
+                if let Some(kept) = kept {
+                    self.tell_of_kept(1, kept);
+                }
+            }
+            // It came there while the question stood.
+            Err(ProjectError::WouldOverwrite { .. }) if !replaces => {
+                let lost = project::json_losses(self.project());
+                self.ask(Question::Export { file: file.to_owned(), exists: true, lost });
+            }
+            Err(e) => self.notice_about(About::Export, Level::Error, format!("not exported: {e}")),
+        }
+    }
+}
+
+fn exportable(project: &Project, file: &Path) -> Result<(), String> {
+    if file.is_dir() {
+        return Err(format!("{} is a folder; give the name of a .json file", file.display()));
+    }
+    let (diagnostics, sources) = directive_errors(project);
+    if !diagnostics.is_empty() {
+        return Err(format!(
+            "a directive of the code has an error\n{}",
+            diag::render_all(&diagnostics, &sources).trim_end()
+        ));
+    }
+    Ok(())
+}
+
+/// Returns a file with the ending that makes it JSON.
+fn as_json(file: &Path) -> PathBuf {
+    if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")) {
+        return file.to_owned();
+    }
+    let mut name = file.file_name().unwrap_or_default().to_owned();
+    name.push(".json");
+    file.with_file_name(name)
+}
+
+/// Returns the errors of directives that cannot be obeyed: what these ask for would be missing in an export. Other
+/// mistakes of a project's texts are exported as they are.
+pub fn directive_errors(project: &Project) -> (Vec<Diagnostic>, SourceMap) {
+    let texts = engine::Sources::new(project);
+    let sources = project.sources();
+    let mut found = texts.diagnostics.clone();
+    for outcome in texts.compile_all(Driver::default()) {
+        let said = outcome.map_or_else(|errors| errors, |_| Vec::new());
+        diag::append(&mut found, said.into_iter().filter(|d| is_of_directive(d, &sources)));
+    }
+    found.retain(Diagnostic::is_error);
+    (found, sources)
+}
+
+/// Returns whether a message is about a directive that GLSL itself does not have.
+fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
+    const GLSL: [&str; 12] =
+        ["define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "error", "line", "version", "extension"];
+    let line = diagnostic.span.and_then(|span| {
+        let text = &sources.get(span.source)?.text;
+        let begin = text.get(..span.start as usize)?.rfind('\n').map_or(0, |i| i + 1);
+        text[begin..].lines().next().map(str::trim_start)
+    });
+    let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
+    word.is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_without_an_ending_gets_one() {
+        for (given, wanted) in [("/a/b", "/a/b.json"), ("/a/b.JSON", "/a/b.JSON"), ("/a/v1.2", "/a/v1.2.json")] {
+            assert_eq!(as_json(Path::new(given)), Path::new(wanted));
+        }
+    }
+}
