@@ -327,7 +327,7 @@ fn bench_says_what_rests_and_no_skip_draws_it_all_the_same() {
     b.line("render p --size 8x4 --pass buffer_a --out c.npy").expect(0);
     assert_eq!((b.npy("c.npy").width, b.npy("c.npy").at(3, 1)), (4, [3.5, 1.5, 0.0, 1.0]));
     let exported = b.line("export p --out p.json").expect(0);
-    assert!(exported.out.contains("Shadertoy has no sizes"), "{}", exported.out);
+    assert!(exported.out.contains("The size and format of Buffer A are left out."), "{}", exported.out);
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize
             stage.event(Event::Text(MARK.into()));
             stage.run_steps(2);
             assert!(!texts(stage).iter().any(|text| text.contains(MARK)), "{pair}: what is typed goes into the code");
-            assert!(popup || texts(stage).len() >= before.len());
+            assert!(popup || texts(stage).len() >= before.len(), "{pair}: a tab is gone");
         }
     }
     count

@@ -290,7 +290,7 @@ mod tests {
         use Action as A;
         for (typed, wanted) in [
             ("debug", A::Panel(Panel::Trace)),
-            ("export", A::SaveAs),
+            ("export", A::ExportJson),
             ("shortcuts", A::KeyFile),
             ("keybindings", A::KeyFile),
             ("preferences", A::SettingsFile),
