@@ -224,20 +224,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
         compiled(&mut window, true);
         window.keys(&["ctrl+shift+r"]);
         window.shows("button:recording");
-        let mut step = 0;
-        while window.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frames)) {
-            let at = |n: u32| 0.2 + 0.6 * f64::from(n * 37 % 100) / 100.0;
-            let to = window.picture_point(at(step), at(step + 5));
-            window.move_to(to);
-            match step % 12 {
-                1 => window.press(),
-                9 => window.release(),
-                _ => {}
-            }
-            window.wait_for("a frame", |e| e["event"] == "frame");
-            step += 1;
-        }
-        window.release();
+        window.draw_strokes_until(frames);
         window.keys(&["alt+Up"]);
         window.wait_until("the pause", "frame", |e| e["playing"] == false);
         let shot = image::open(saved(&mut window, "F12")).unwrap().to_rgba8();

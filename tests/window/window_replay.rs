@@ -71,20 +71,7 @@ fn a_recording_is_played_in_the_window_and_ends_at_the_rendered_picture() {
     from_menu(&mut window, "button:export", "export:record-input");
     window.shows("button:recording");
     let frames = 90;
-    let mut step = 0;
-    while window.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frames)) {
-        let at = |n: u32| 0.2 + 0.6 * f64::from(n * 37 % 100) / 100.0;
-        let to = window.picture_point(at(step), at(step + 5));
-        window.move_to(to);
-        match step % 12 {
-            1 => window.press(),
-            9 => window.release(),
-            _ => {}
-        }
-        window.wait_for("a frame", |e| e["event"] == "frame");
-        step += 1;
-    }
-    window.release();
+    window.draw_strokes_until(frames);
     window.click_on("button:export");
     display.shot("export-menu.png");
     window.click_on("export:record-input");

@@ -2,8 +2,8 @@
 //!
 //! A driver knows the rounds of the inner loop of de Casteljau's algorithm, `for (int n = 4; n > 0; n--) for (int i = 0;
 //! i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);`, only when the outer one is gone. Then it unrolls that as well, and
-//! the elements become registers; before, the array lies in memory, which llvmpipe stores to pixel by pixel. Mesa's GLSL compiler
-//! unrolls such loops (`loop_unroll.cpp`), and does not where it gets SPIR-V. Other loops are left to the driver.
+//! the elements become registers; before, the array lies in memory, which llvmpipe stores to pixel by pixel. Mesa's GLSL
+//! compiler unrolls such loops (`loop_unroll.cpp`), and does not where it gets SPIR-V. Other loops are left to the driver.
 
 use rustc_hash::FxHashMap;
 

@@ -254,6 +254,24 @@ impl<'a> Window<'a> {
         self.display.tool(&["mouseup", "1"]);
     }
 
+    /// Draws short strokes all over the picture, one move a frame, until this frame is drawn.
+    pub fn draw_strokes_until(&mut self, frame: i64) {
+        let mut step = 0;
+        while self.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frame)) {
+            let at = |n: u32| 0.2 + 0.6 * f64::from(n * 37 % 100) / 100.0;
+            let to = self.picture_point(at(step), at(step + 5));
+            self.move_to(to);
+            match step % 12 {
+                1 => self.press(),
+                9 => self.release(),
+                _ => {}
+            }
+            self.wait_for("a frame", |e| e["event"] == "frame");
+            step += 1;
+        }
+        self.release();
+    }
+
     pub fn click(&self, at: (i64, i64)) {
         self.move_to(at);
         self.display.tool(&["click", "1"]);

@@ -3,8 +3,8 @@
 //! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were
 //! `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The
 //! comparison may lie in any exit of the loop, and the `min` in a variable, so each limit that is no constant is
-//! hidden. What the loop does not change is no counter: in `i < n` nothing counts down to `i`, and a hidden `i` would keep
-//! drivers from knowing the rounds.
+//! hidden. A variable that the loop does not change is no counter: in `i < n` nothing counts down to `i`, and a hidden
+//! `i` would keep drivers from knowing the rounds.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -120,6 +120,7 @@ struct Written {
     has_call: bool,
 }
 
+/// A variable, by which a store or a load names it.
 #[derive(PartialEq, Eq, Hash)]
 enum Root {
     Var(VarId),

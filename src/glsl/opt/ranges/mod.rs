@@ -273,7 +273,7 @@ impl Ranges {
         let (body, all) = match by {
             Step::Int(by) => {
                 let (limits, start) = (limits(ty)?, self.first_stored[var]?);
-                // `i < n` holds of no greatest number, whatever is known of n: so `i + 1` does not wrap.
+                // `i < n` implies that i is not the largest int, whatever n is: `i + 1` does not wrap.
                 let bound = self.of(r, r.value(bound)).unwrap_or(limits);
                 match test {
                     Binary::Less | Binary::LessEqual if by >= 0 => {
