@@ -1,7 +1,7 @@
 //! Hover, definition, uses, classes.
 
 use super::{CODE, COMMON, Marked};
-use crate::glsl::services::Class;
+use crate::services::Class;
 
 /// Kind, first line of the signature and text of what the mark is on.
 fn hover(m: &Marked) -> (&'static str, String, String) {
@@ -95,7 +95,7 @@ fn what_needs_no_explanation_has_none() {
         assert_eq!(m.analysis().hover(m.at.0, m.at.1), None, "{code}");
     }
     let m = Marked::code("f@");
-    assert_eq!(m.analysis().hover(crate::diag::SourceId(7), 0), None);
+    assert_eq!(m.analysis().hover(eddy_diag::SourceId(7), 0), None);
     assert_eq!(m.analysis().hover(CODE, 999), None);
 }
 
