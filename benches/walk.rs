@@ -6,11 +6,11 @@
 //! and recorded; medians over a few pixels.
 
 use eddy::{
+    debugger::trace::{self, Extent, Traced},
     engine::{Engine, FrameInputs, Program, Sources},
     gpu::{Gpu, GpuOptions},
     media,
     project::{self, PassId},
-    session::trace::{self, Extent, Traced},
 };
 use std::time::Instant;
 

@@ -13,6 +13,7 @@ pub mod cli;
 #[cfg(feature = "gui")]
 pub mod gui;
 
+pub use eddy_debugger as debugger;
 pub use eddy_diag as diag;
 pub use eddy_engine as engine;
 pub use eddy_glsl as glsl;
@@ -20,5 +21,6 @@ pub use eddy_gpu as gpu;
 pub use eddy_graph as graph;
 pub use eddy_lab as lab;
 pub use eddy_media as media;
+pub use eddy_playback as playback;
 pub use eddy_project as project;
 pub use eddy_session as session;

@@ -8,15 +8,14 @@ use super::{
     written::Written,
 };
 use crate::{
-    engine::{Pixels, Sources},
-    lab::Number,
-    project::{PassFormat, Project},
-    session::{
+    debugger::{
         audit::{self, Audit, AuditedPixel, Finding},
-        capture::Format,
-        script::ScriptedInputs,
         trace::{TraceError, ulps},
     },
+    engine::{Pixels, Sources},
+    lab::Number,
+    playback::{capture::Format, script::ScriptedInputs},
+    project::{PassFormat, Project},
 };
 use serde::Serialize;
 use std::{fmt::Write, path::PathBuf};

@@ -9,8 +9,8 @@ use super::{
 use crate::{
     engine::{CostClock, PassRole},
     graph::{FramePlan, PassFacts},
+    playback::{offline::Offline, script::ScriptedInputs},
     project::{PassId, Project},
-    session::{offline::Offline, script::ScriptedInputs},
 };
 use serde::Serialize;
 use std::{collections::HashMap, fmt::Write, io};

@@ -10,15 +10,15 @@ use super::{
     targets,
 };
 use crate::{
+    debugger::trace::Number,
     diag::{Diagnostic, SourceMap},
     engine::Pixels,
     lab::apart::{self, Apart, Times},
-    session::{
+    playback::{
         capture::Format,
         offline::Offline,
         revision::{self, Checkout},
         script::ScriptedInputs,
-        trace::Number,
     },
 };
 use anyhow::anyhow;

@@ -13,12 +13,12 @@ use crate::{
     gpu::{Gpu, GpuError, GpuOptions},
     lab::Shard,
     media,
-    project::{self, PassId, Project, ProjectError},
-    session::{
+    playback::{
         offline::{Offline, OfflineError},
         script::ScriptedInputs,
         trial::TrialSettings,
     },
+    project::{self, PassId, Project, ProjectError},
 };
 use std::{
     env,

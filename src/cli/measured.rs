@@ -2,14 +2,14 @@
 
 use super::report::{Report, Status};
 use crate::{
+    debugger::trace::Number,
     diag::Diagnostic,
     engine::{EngineError, Pixels},
-    project::{PassId, Project},
-    session::{
+    playback::{
         offline::Offline,
         reduction::{self, Assertion, Quantity},
-        trace::Number,
     },
+    project::{PassId, Project},
 };
 use serde::Serialize;
 use std::collections::HashMap;

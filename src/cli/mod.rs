@@ -28,7 +28,7 @@ mod text_place;
 mod trace;
 mod written;
 
-use crate::session::trial;
+use crate::playback::trial;
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;

@@ -7,13 +7,12 @@ use super::{
     written::Written,
 };
 use crate::{
-    project::{PassId, Project},
-    session::{
+    debugger::{
         nonfinite::{self, NonfiniteTexels},
-        offline::Offline,
-        script::ScriptedInputs,
         trace::TraceError,
     },
+    playback::{offline::Offline, script::ScriptedInputs},
+    project::{PassId, Project},
 };
 use serde::Serialize;
 use std::fmt::Write;

@@ -2,14 +2,14 @@
 
 use super::{args::TraceArgs, machine::Trouble, written::Written};
 use crate::{
-    engine::{BuildOptions, Engine, PassInputs, Snapshot, Sources},
-    media,
-    project::Project,
-    session::{
-        parting::{self, Probes, STEPS_KEPT, assignments},
-        script::ScriptedInputs,
+    debugger::{
+        divergence::{self as parting, Probes, STEPS_KEPT, assignments},
         trace::{self, Extent, Number, TraceError},
     },
+    engine::{BuildOptions, Engine, PassInputs, Snapshot, Sources},
+    media,
+    playback::script::ScriptedInputs,
+    project::Project,
 };
 use serde::Serialize;
 use std::fmt::Write;

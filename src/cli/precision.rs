@@ -13,8 +13,9 @@ use crate::{
         Rig,
         precision::{self, Comparison, PrecisionError},
     },
-    media, project,
-    session::{offline, script::ScriptedInputs},
+    media,
+    playback::{offline, script::ScriptedInputs},
+    project,
 };
 use serde::Serialize;
 use std::{fmt::Write, io};

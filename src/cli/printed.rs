@@ -1,9 +1,9 @@
 //! The values that `//@print` comments of a pass ask for, at a pixel, are walked and printed here.
 
 use crate::{
+    debugger::trace::{Examiner, Number, TraceError, Traced},
     engine::{PassInputs, Pixels},
     project::{PassId, Project, Tab, inspect_comments},
-    session::trace::{Examiner, Number, TraceError, Traced},
 };
 use serde::Serialize;
 use std::{fmt::Write, sync::Arc};

@@ -7,10 +7,11 @@ use super::{
     targets,
 };
 use crate::{
+    debugger::trace::Number,
     engine::{BuildOptions, Pixels},
     glsl::Probe,
+    playback::script::ScriptedInputs,
     project::{PassId, Project, Tab},
-    session::{script::ScriptedInputs, trace::Number},
 };
 use serde::Serialize;
 use std::{fmt::Write, io, path::PathBuf};

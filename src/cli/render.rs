@@ -7,7 +7,7 @@ use super::{
     report::{Printer, Report},
     targets::Targets,
 };
-use crate::{project::Project, session::script::ScriptedInputs};
+use crate::{playback::script::ScriptedInputs, project::Project};
 use serde::Serialize;
 use std::{io, path::PathBuf};
 

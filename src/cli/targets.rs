@@ -7,8 +7,8 @@ use super::{
 };
 use crate::{
     engine::Pixels,
+    playback::capture::{self, Format},
     project,
-    session::capture::{self, Format},
 };
 use anyhow::Context;
 use std::{

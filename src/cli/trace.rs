@@ -10,13 +10,11 @@ use super::{
     written::Written,
 };
 use crate::{
+    debugger::trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
     diag::{SourceMap, Span},
     engine,
+    playback::script::ScriptedInputs,
     project::{FillKind, PassFormat, Project},
-    session::{
-        script::ScriptedInputs,
-        trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
-    },
 };
 use serde::Serialize;
 use std::{fmt::Write, io};

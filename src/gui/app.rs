@@ -14,7 +14,10 @@ use super::{
     surface::{Presented, Surface},
     system_theme, theme,
 };
-use crate::session::{self, Command, Level, Request, Session, SessionOptions, trial::TrialSettings};
+use crate::{
+    playback::trial::TrialSettings,
+    session::{self, Command, Level, Request, Session, SessionOptions},
+};
 use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{

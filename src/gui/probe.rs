@@ -7,11 +7,11 @@ use super::{
     theme,
 };
 use crate::{
+    debugger::trace::Number,
     engine::{Paint, Pixels},
     session::{
         Command, Session,
         probe::{ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
-        trace::Number,
     },
 };
 use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Ui, vec2};

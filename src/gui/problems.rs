@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{
     diag::Severity,
-    project::Tab,
-    session::{Outcome, Place, Session, TabDiagnostic},
+    project::{Tab, TextLocation},
+    session::{Outcome, Session, TabDiagnostic},
 };
 use egui::{Align2, Color32, FontId, Frame, Label, Margin, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
@@ -91,7 +91,7 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
 /// beginning only.
 fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut Outbox) {
     let Some((tab, line)) = caret else { return };
-    let is_here = |p: &Place| p.tab.as_ref() == Some(tab) && p.line == line + 1;
+    let is_here = |p: &TextLocation| p.tab.as_ref() == Some(tab) && p.line == line + 1;
     let here = session.diagnostics().iter().filter(|d| d.place.as_ref().is_some_and(is_here));
     let Some(problem) = here.max_by_key(|d| d.severity) else { return };
     let frame =
@@ -149,7 +149,7 @@ pub fn state(session: &Session, palette: &Palette) -> (String, Color32) {
 struct Row<'a> {
     name: String,
     problem: &'a TabDiagnostic,
-    place: Option<&'a Place>,
+    place: Option<&'a TextLocation>,
     message: &'a str,
     is_label: bool,
 }
@@ -240,7 +240,7 @@ impl Row<'_> {
 }
 
 /// Returns the way to a place; `None` for one that is in no tab.
-fn wish_of(place: &Place) -> Option<Wish> {
+fn wish_of(place: &TextLocation) -> Option<Wish> {
     Some(Wish::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
 }
 

@@ -40,6 +40,7 @@ mod settings;
 mod snapshot;
 mod source;
 mod source_ids;
+mod text_location;
 mod writes;
 
 pub use advice::{advice, missing_pass};
@@ -76,4 +77,5 @@ pub use save::{name_at, remove_renamed, save};
 pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
+pub use text_location::TextLocation;
 pub use writes::{Overwrite, check_within, make_private, write_into};

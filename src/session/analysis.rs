@@ -1,7 +1,7 @@
 //! The texts as an editor understands them: the tab in front with its Common, analysed anew after each change, on a
 //! thread of its own so that no keystroke waits for it.
 
-use super::worker::Worker;
+use eddy_background::Worker;
 use eddy_diag::SourceId;
 use eddy_engine::{self as engine, KeptPreamble, Sources};
 use eddy_glsl::services::{Analysis, ClassSpan};

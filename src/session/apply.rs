@@ -2,13 +2,14 @@
 //! `files`.
 
 use super::{
-    Session, capture,
+    Session,
     command::Command,
     state::CanvasSize,
     tracing::Place,
     view::{About, Level},
 };
 use eddy_media::Keyboard;
+use eddy_playback::capture;
 use eddy_project::{self as project, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names};
 
 impl Session {
@@ -125,8 +126,8 @@ impl Session {
             Command::KeyDown(code) => self.key(code, |keyboard| keyboard.press(code)),
             Command::KeyUp(code) => self.key(code, |keyboard| keyboard.release(code)),
             Command::Focus(focused) => self.focus(focused),
-            Command::Screenshot => self.capture(super::capture::Format::Png),
-            Command::SaveTexels => self.capture(super::capture::Format::Npy),
+            Command::Screenshot => self.capture(eddy_playback::capture::Format::Png),
+            Command::SaveTexels => self.capture(eddy_playback::capture::Format::Npy),
             Command::Record => self.record(),
             Command::PlayRecording(file) => self.play_recording(file),
             Command::StopReplay => self.end_replay("the picture continues live from there"),

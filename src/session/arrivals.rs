@@ -112,7 +112,7 @@ impl Session {
         pictures: &[&Path],
         models: &[&Path],
     ) -> String {
-        let folder = super::capture::base_folder(project);
+        let folder = eddy_playback::capture::base_folder(project);
         let mut said = Vec::new();
         let mut wanted = channel;
         for picture in pictures {

@@ -1,12 +1,11 @@
 //! The audit that a person asks for of the picture that is shown: taken of the pass after a frame, done on a thread of
 //! its own, told in the list of problems until the next compile.
 
-use super::{
+use super::{tracing::Taken, view::TabDiagnostic};
+use eddy_background::{Panicked, Worker};
+use eddy_debugger::{
     audit::{self, Audit, AuditedPixel, Class, Finding},
     trace::STEPS,
-    tracing::Taken,
-    view::TabDiagnostic,
-    worker::{Panicked, Worker},
 };
 use eddy_diag::{Diagnostic, Severity};
 use eddy_engine::Sources;

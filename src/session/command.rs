@@ -3,11 +3,11 @@
 
 use super::{
     buffers::BufferWatch,
-    comparing::Against,
     probe::{ProbeLook, ProbePlace},
     seeking::TimeRange,
     view::Level,
 };
+use eddy_playback::comparing::Against;
 use eddy_project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 

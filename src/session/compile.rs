@@ -176,7 +176,7 @@ impl Media {
             p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| (d.mesh.clone(), d.normals)).collect()
         };
         let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
-        let base = super::capture::base_folder(&job.project).unwrap_or_default();
+        let base = eddy_playback::capture::base_folder(&job.project).unwrap_or_default();
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }
     }
 

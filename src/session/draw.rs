@@ -1,18 +1,17 @@
 //! A session hands the engine its jobs, and takes what comes back.
 
 use super::{
-    Session, capture,
+    Session,
     clock::FrameTime,
-    comparing::Order,
-    date,
-    drawing::{Capture, Done, DrawnFrame, Job, Reads, Replay, ReplayFrom, Run, TileLimit},
-    nonfinite::SearchJob,
-    parting::PartingJob,
+    drawing::{Capture, Done, DrawnFrame, Job, Reads, TileLimit},
     tracing::{self, Taken},
     view::{About, Level},
 };
+use eddy_debugger::{divergence::PartingJob, nonfinite::SearchJob};
 use eddy_engine::{EngineError, FrameInputs, Pixels};
 use eddy_gpu::{Gpu, GpuError};
+use eddy_playback::run::{Replay, ReplayFrom, Run};
+use eddy_playback::{capture, comparing::Order, date};
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -1,7 +1,7 @@
 //! Opening, saving, leaving; the questions that keep anything unsaved from being lost, and their answers.
 
 use super::{
-    Session, capture,
+    Session,
     command::{Answer, Command, Question, Request, Then},
     documents::Documents,
     recovery::{KEPT_DAYS, place_for_replaced},
@@ -9,6 +9,7 @@ use super::{
     view::{About, Level, TabDiagnostic},
 };
 use eddy_diag::{Diagnostic, SourceMap};
+use eddy_playback::capture;
 use eddy_project::{self as project, Origin, Overwrite, Project, ProjectError, Tab};
 use std::{
     fs,

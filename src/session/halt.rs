@@ -7,8 +7,8 @@ use super::{
     Session, compile,
     drawing::ProgramOrigin,
     view::{About, Halt, Level, TabDiagnostic},
-    worker::Worker,
 };
+use eddy_background::Worker;
 use std::time::{Duration, Instant};
 
 /// Limits of a frame after which a device that still draws it is given up.

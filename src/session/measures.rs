@@ -3,11 +3,10 @@
 use super::{
     Session,
     buffers::reason,
-    capture,
     measuring::{self, Measure},
-    reduction::Unmeasured,
     view::{About, Level},
 };
+use eddy_playback::{capture, reduction::Unmeasured};
 use std::borrow::Cow;
 
 impl Session {

@@ -13,7 +13,6 @@ use super::{
     debounce::Debounce,
     documents::Documents,
     fps::FpsMeter,
-    mouse::Mouse,
     options::SessionOptions,
     probe::Probing,
     replay::Replay,
@@ -22,6 +21,7 @@ use super::{
     view::CompileState,
 };
 use eddy_media::Keyboard;
+use eddy_playback::mouse::Mouse;
 use eddy_project::PassId;
 
 impl Session {

@@ -1,7 +1,8 @@
 //! The settings that a session starts with, and the reasons why it may not start.
 
-use super::{drawing, trial::TrialSettings};
+use super::drawing;
 use eddy_engine::EngineError;
+use eddy_playback::trial::TrialSettings;
 use std::{path::PathBuf, time::Duration};
 
 /// Holds how a session is set up. The defaults are what the window uses, but for recovery files.

@@ -3,10 +3,10 @@
 use super::{
     Session,
     auditing::{AuditMap, Told},
-    parting::PartingView,
     tracing::Taken,
     view::{About, Level},
 };
+use eddy_debugger::divergence::PartingView;
 
 impl Session {
     /// Returns how far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while

@@ -4,15 +4,15 @@ use super::{
     Session, TraceView,
     buffers::BufferRead,
     command::Question,
-    comparing::{Compared, ComparisonView},
     costs::PassCosts,
-    nonfinite::SearchView,
     probe::ProbeView,
     recent::RecentProject,
     view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
 };
+use eddy_debugger::nonfinite::SearchView;
 use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
 use eddy_gpu::Gpu;
+use eddy_playback::comparing::{Compared, ComparisonView};
 use eddy_project::{CustomUniform, CustomUniformValue, PassId, Project, Tab};
 use std::{
     path::{Path, PathBuf},

@@ -1,9 +1,7 @@
 //! The session decides what is read behind a frame: pictures, numbers, and what a walk or a comparison needs.
 
-use super::{
-    Session,
-    drawing::{Reads, ReplayFrom},
-};
+use super::{Session, drawing::Reads};
+use eddy_playback::run::ReplayFrom;
 use std::mem::take;
 
 impl Session {

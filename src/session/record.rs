@@ -1,12 +1,12 @@
 //! Records the inputs of what is drawn, and writes them to a file.
 
 use super::{
-    Session, capture,
+    Session,
     recorder::Recorder,
-    recording::EXTENSION,
     view::{About, Level},
 };
 use eddy_engine::FrameInputs;
+use eddy_playback::{capture, recording::EXTENSION};
 
 impl Session {
     /// Begins anew at frame 0 and records every frame; the second time, ends that and writes the file.

@@ -1,10 +1,8 @@
 //! A recording under way.
 
-use super::{
-    drawing::Changes,
-    recording::{RecordedFrame, Recording},
-};
+use super::drawing::Changes;
 use eddy_engine::FrameInputs;
+use eddy_playback::recording::{RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 
 /// Takes down what each frame is drawn with.

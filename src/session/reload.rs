@@ -1,12 +1,13 @@
 //! A session follows the project's files when they change under it.
 
 use super::{
-    Session, capture,
+    Session,
     command::Question,
     documents::{self, Merge},
     view::{About, Level},
     watch::Watch,
 };
+use eddy_playback::capture;
 use eddy_project::{self as project, Included, Loaded, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 

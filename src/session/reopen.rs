@@ -8,7 +8,7 @@
 use super::{
     Session,
     clock::Clock,
-    drawing::{Done, Job, Run},
+    drawing::{Done, Job},
     kept_files,
     recent::{Left, RecentProject},
     seeking::Goal,
@@ -16,6 +16,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_engine::Picture;
+use eddy_playback::run::Run;
 use std::{
     path::Path,
     time::{Duration, Instant},

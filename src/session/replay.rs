@@ -1,6 +1,6 @@
 //! A recording on its way: which of its frames is next, and when that is due. What is drawn of it is in `replaying`.
 
-use super::recording::{ReadError, RecordedFrame, Recording};
+use eddy_playback::recording::{ReadError, RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 use std::{
     fs::File,
@@ -161,7 +161,7 @@ impl Playing {
     }
 
     /// Takes the next frame, and says whether the canvas, the values and the buffers are others than before it.
-    pub fn take(&mut self, now: Instant) -> Option<(RecordedFrame, super::recording::Change)> {
+    pub fn take(&mut self, now: Instant) -> Option<(RecordedFrame, eddy_playback::recording::Change)> {
         let (change, _) = self.recording.change(self.next)?;
         let frame = self.recording.frames[self.next].clone();
         if change.reset {

@@ -4,11 +4,9 @@
 //! Owns the files, one a project, in the folder of what is remembered between two starts. Each is a recording
 //! ([`Recording`]). A project whose passes read nothing of the last frame needs none.
 
-use super::{
-    drawing::Frame,
-    kept_files,
-    recording::{EXTENSION, RecordedFrame, Recording},
-};
+use super::kept_files;
+use eddy_playback::recording::{EXTENSION, RecordedFrame, Recording};
+use eddy_playback::run::Frame;
 use eddy_project::{self as project, Origin, limits};
 use std::{
     fs::{self, File},

@@ -2,7 +2,7 @@
 //!
 //! Used on the compile worker alone, as models and pictures are large and what a name leads to may be slow.
 
-use super::capture;
+use eddy_playback::capture;
 use eddy_project::{self as project, FillValue, Media, MeshSource, Project, confine, limits};
 use std::{
     collections::{BTreeMap, HashMap},

@@ -8,7 +8,6 @@ use super::{
     buffers::Watching,
     clock::Clock,
     command::{Question, Request, Then},
-    comparing::Comparing,
     compile,
     costs::Costs,
     debounce::Debounce,
@@ -19,8 +18,6 @@ use super::{
     last_pictures::LastPictures,
     measuring::Measuring,
     miniatures::Miniatures,
-    mouse::Mouse,
-    nonfinite::Searching,
     pass_history::PassHistory,
     probe::Probing,
     recent::Recent,
@@ -32,10 +29,12 @@ use super::{
     tracing::Tracing,
     view::{About, CompileState, Level, Notice, TabDiagnostic},
     watch::Watch,
-    worker::Worker,
 };
+use eddy_background::Worker;
+use eddy_debugger::nonfinite::Searching;
 use eddy_gpu::Gpu;
 use eddy_media::Keyboard;
+use eddy_playback::{comparing::Comparing, mouse::Mouse};
 use eddy_project::{PassId, Project};
 use std::{
     collections::VecDeque,

@@ -3,11 +3,8 @@
 //! The inputs of the pass are taken after the frame, from textures that still hold them, so that nothing is drawn anew
 //! and no simulation goes on. The walk is done on a thread of its own.
 
-use super::{
-    parting::Finding,
-    trace::Traced,
-    worker::{Panicked, Worker},
-};
+use eddy_background::{Panicked, Worker};
+use eddy_debugger::{divergence::Finding, trace::Traced};
 use eddy_engine::{PassInputs, Pixels};
 use eddy_project::{PassId, Project};
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! A front end shows these plain values of a session.
 
-use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceMap, Span};
-use eddy_project::{Project, Tab};
+use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceMap};
+use eddy_project::{Project, Tab, TextLocation};
 use std::{
     ops::Range,
     time::{Duration, Instant},
@@ -87,7 +87,7 @@ pub struct Notice {
 pub struct TabDiagnostic {
     pub severity: Severity,
     /// `None`: it is about no text.
-    pub place: Option<Place>,
+    pub place: Option<TextLocation>,
     pub message: String,
     /// Further places: the declaration that a call does not fit, the macro that a name comes from.
     pub labels: Vec<TabLabel>,
@@ -131,37 +131,8 @@ impl TabFix {
 /// A further place of a diagnostic, and what it has to do with it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabLabel {
-    pub place: Place,
+    pub place: TextLocation,
     pub message: String,
-}
-
-/// A place in a text of the project.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// `None`: the text is no tab, as an included file is not.
-    pub tab: Option<Tab>,
-    /// The text's name.
-    pub text: String,
-    /// Line and column of the start, counted from 1; columns count characters.
-    pub line: usize,
-    pub column: usize,
-    /// Bytes of the text as it was compiled.
-    pub range: Range<usize>,
-}
-
-impl Place {
-    /// Returns `None` for a span of a text that `sources` does not have.
-    pub(super) fn new(span: Span, sources: &SourceMap, project: &Project) -> Option<Self> {
-        let at = sources.line_column(span)?;
-        let text = sources.get(span.source)?.name.clone();
-        let tab = project.tab_of(span.source);
-        Some(Self { tab, text, line: at.line, column: at.column, range: span.range() })
-    }
-
-    /// The tab's title, or the text's own name where it is no tab.
-    pub fn title(&self) -> String {
-        self.tab.as_ref().map_or_else(|| self.text.clone(), Tab::title)
-    }
 }
 
 impl TabDiagnostic {
@@ -180,12 +151,12 @@ impl TabDiagnostic {
     /// `sources` are those of `project`.
     pub(super) fn new(d: &Diagnostic, sources: &SourceMap, project: &Project) -> Self {
         let labels = d.labels.iter().filter_map(|label| {
-            let place = Place::new(label.span, sources, project)?;
+            let place = TextLocation::new(label.span, sources, project)?;
             Some(TabLabel { place, message: label.message.clone() })
         });
         Self {
             severity: d.severity,
-            place: d.span.and_then(|span| Place::new(span, sources, project)),
+            place: d.span.and_then(|span| TextLocation::new(span, sources, project)),
             message: d.message.clone(),
             labels: labels.collect(),
             hints: d.hints.clone(),

@@ -7,14 +7,12 @@
 
 use crate::support::{clock::Clock, *};
 use eddy::{
+    debugger::trace::{self, Extent},
     engine::{BuildOptions, FrameInputs, Sources},
     glsl::Probe,
     gpu::GpuOptions,
     project::{self, PassId},
-    session::{
-        Command, Session,
-        trace::{self, Extent},
-    },
+    session::{Command, Session},
 };
 use std::{
     sync::Arc,

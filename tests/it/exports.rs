@@ -6,8 +6,9 @@ use eddy::{
     engine::BuildOptions,
     gpu::Gpu,
     media,
+    playback::{npy, offline::Offline, script::ScriptedInputs},
     project::{self, PassId},
-    session::{Answer, Command, Level, Question, npy, offline::Offline, script::ScriptedInputs},
+    session::{Answer, Command, Level, Question},
 };
 use std::{fs, path::Path};
 

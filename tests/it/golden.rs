@@ -10,8 +10,8 @@ use crate::support::*;
 use eddy::{
     engine::BuildOptions,
     media::MediaSet,
+    playback::script::{ScriptedInputs, parse_keys, parse_mouse},
     project::{PassId, presets},
-    session::script::{ScriptedInputs, parse_keys, parse_mouse},
 };
 use image::{Rgba, RgbaImage};
 use serde::Deserialize;

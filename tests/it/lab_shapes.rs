@@ -10,8 +10,8 @@ use eddy::{
         studies::{brick_breaker, edges, outline, particles},
     },
     media::MediaSet,
+    playback::script::ScriptedInputs,
     project::{PassId, Project},
-    session::script::ScriptedInputs,
 };
 
 fn rig() -> Option<Rig> {

@@ -3,10 +3,11 @@
 use crate::support::{self, stage::*};
 use eddy::{
     gpu::Gpu,
+    playback::comparing::Against,
     project::{PassId, Tab},
     session::{
-        Answer, Command, Level, Question, Session, SessionOptions, buffers::BufferWatch, comparing::Against,
-        probe::ProbePlace, seeking::TimeRange,
+        Answer, Command, Level, Question, Session, SessionOptions, buffers::BufferWatch, probe::ProbePlace,
+        seeking::TimeRange,
     },
 };
 use std::{

@@ -6,8 +6,9 @@ use eddy::{
     engine::BuildOptions,
     gpu::Gpu,
     media,
+    playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
     project::{self, PassId},
-    session::{Answer, Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs},
+    session::{Answer, Command, Level},
 };
 use std::{
     fs::{self, File},

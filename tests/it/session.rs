@@ -4,12 +4,14 @@ use crate::support::{self, stage::*};
 use eddy::{
     engine::BuildOptions,
     media,
-    project::{self, Channel, Input, PassEdit, PassId, Sampler, Tab},
-    session::{
-        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, SessionOptions, TabDiagnostic, Then,
+    playback::{
         capture,
         offline::Offline,
         script::{ScriptedInputs, parse_keys, parse_mouse},
+    },
+    project::{self, Channel, Input, PassEdit, PassId, Sampler, Tab},
+    session::{
+        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, SessionOptions, TabDiagnostic, Then,
     },
 };
 use std::{

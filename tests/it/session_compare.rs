@@ -2,12 +2,12 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::PassId,
-    session::{
-        Command, Session,
+    playback::{
         comparing::{Against, Compared, Comparison},
         trial::TrialSettings,
     },
+    project::PassId,
+    session::{Command, Session},
 };
 use std::{fs, sync::Arc};
 

@@ -7,11 +7,11 @@ use crate::support::*;
 use eddy::{
     engine::BuildOptions,
     media,
-    project::{PassId, presets},
-    session::{
+    playback::{
         offline::Offline,
         script::{ScriptedInputs, parse_mouse},
     },
+    project::{PassId, presets},
 };
 use image::{DynamicImage, RgbImage, codecs::jpeg::JpegEncoder, imageops};
 use std::{

@@ -4,10 +4,9 @@ use crate::support::{self, stage::*};
 use eddy::{
     engine::{BuildOptions, Engine, Pixels},
     media,
+    playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
     project::{self, PassId, Tab},
-    session::{
-        Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs, seeking::TimeRange,
-    },
+    session::{Command, Level, seeking::TimeRange},
 };
 use std::{
     fs::{self, File},

@@ -5,10 +5,10 @@ use crate::{
     walker_presets::inputs,
 };
 use eddy::{
+    debugger::trace::{self, Event, Extent},
     engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
     media,
     project::{self, PassId, Project, presets},
-    session::trace::{self, Event, Extent},
 };
 
 const SIZE: (u32, u32) = (64, 36);

@@ -13,13 +13,13 @@ use crate::support::{
     *,
 };
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
-    media,
-    project::{self, PassId, Project},
-    session::{
+    debugger::{
         audit::spread,
         trace::{Extent, TraceError, Tracer, ulps},
     },
+    engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
+    media,
+    project::{self, PassId, Project},
 };
 use std::{
     collections::BTreeMap,

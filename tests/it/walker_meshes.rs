@@ -8,14 +8,14 @@
 
 use crate::support::{gpu, meshes::*, program::Bench, *};
 use eddy::{
+    debugger::{
+        audit,
+        trace::{Examiner, Extent, MomentKind, Origin, STEPS, TraceError, Traced, Tracer},
+    },
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
     project::{self, Camera, Cull, DepthTest, MeshDraw, PassFormat, PassId, Project, Stage},
-    session::{
-        audit,
-        trace::{Examiner, Extent, MomentKind, Origin, STEPS, TraceError, Traced, Tracer},
-    },
 };
 use std::sync::Arc;
 

@@ -11,11 +11,11 @@ use crate::support::{
     *,
 };
 use eddy::{
+    debugger::trace::{Extent, Tracer, ulps},
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
     project::{self, Pass, PassFormat, PassId, Project, presets},
-    session::trace::{Extent, Tracer, ulps},
 };
 use std::collections::BTreeSet;
 

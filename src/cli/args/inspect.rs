@@ -6,8 +6,9 @@ use super::{
 };
 use crate::{
     cli::text_place::TextPlace,
+    debugger::{divergence::MOST, trace::STEPS},
+    playback::capture::Format,
     project::{self, PassId},
-    session::{capture::Format, parting::MOST, trace::STEPS},
 };
 use clap::Args;
 use std::path::PathBuf;

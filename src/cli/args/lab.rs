@@ -4,7 +4,7 @@ use super::{
     run::RunArgs,
     values::{PROJECT, Picture, picture, size},
 };
-use crate::{lab::stability::BoundArgument, session::trace::STEPS};
+use crate::{debugger::trace::STEPS, lab::stability::BoundArgument};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 

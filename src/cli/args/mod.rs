@@ -13,7 +13,7 @@ pub use values::{Picture, format_of};
 use super::sweep::Sweep;
 use crate::{
     glsl::opt::PassSet,
-    session::{
+    playback::{
         capture::Format,
         reduction::{Assertion, Quantity},
         script::ScriptedInputs,

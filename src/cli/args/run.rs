@@ -3,7 +3,7 @@
 use super::values::{fps, recording, seconds, size};
 use crate::{
     glsl::opt::PassSet,
-    session::{
+    playback::{
         date,
         recording::Recording,
         script::{ScriptedInputs, parse_keys, parse_mouse},

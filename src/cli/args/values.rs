@@ -1,8 +1,8 @@
 //! Values of options, as a person writes them.
 
 use crate::{
+    playback::{capture::Format, recording::Recording},
     project::PassId,
-    session::{capture::Format, recording::Recording},
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 

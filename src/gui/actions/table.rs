@@ -5,15 +5,15 @@ use super::{
     picture::{SCALES, SIZES},
 };
 use crate::{
+    debugger::trace::travel::{
+        Direction::{self, Back, Forward},
+        Stride,
+    },
     gui::{
         dock::{Panel, Side},
         editor::{EditorAction as Code, Motion, Way},
         geometry::Shape,
         settings::Theme,
-    },
-    session::trace::travel::{
-        Direction::{self, Back, Forward},
-        Stride,
     },
 };
 

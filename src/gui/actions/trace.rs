@@ -1,6 +1,6 @@
 //! Owns what keys and the palette can ask of the debugger.
 
-use crate::session::trace::travel::{Direction, Stride};
+use crate::debugger::trace::travel::{Direction, Stride};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TraceAction {

@@ -5,11 +5,11 @@ use super::{
     state::{Buffers, Page, title},
 };
 use crate::{
+    debugger::nonfinite::{Search, SearchEnd},
     engine::{PassCost, When},
     session::{
         Session,
         buffers::{Target, reason},
-        nonfinite::{Search, SearchEnd},
     },
 };
 use serde_json::{Value, json};

@@ -2,14 +2,12 @@
 
 use super::state::Buffers;
 use crate::{
+    debugger::nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, Search, SearchEnd},
     gui::{
         outbox::{Outbox, Wish},
         theme,
     },
-    session::{
-        Command, Session,
-        nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, Search, SearchEnd},
-    },
+    session::{Command, Session},
 };
 use egui::{Label, RichText, Ui};
 

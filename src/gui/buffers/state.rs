@@ -5,12 +5,12 @@ use super::{
     zoom::{self, Zoom},
 };
 use crate::{
+    debugger::nonfinite::drawn,
     engine::TexelAt,
     project::{PassId, Project},
     session::{
         Command, Session,
         buffers::{BufferLook, BufferRead, BufferWatch, Target},
-        nonfinite::drawn,
     },
 };
 use egui::TextureHandle;

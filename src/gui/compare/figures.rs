@@ -3,7 +3,7 @@
 use crate::{
     engine::Pixels,
     lab::apart::{Apart, Times},
-    session::comparing::Comparison,
+    playback::comparing::Comparison,
 };
 use egui::ColorImage;
 use std::sync::{

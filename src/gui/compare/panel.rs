@@ -11,10 +11,8 @@ use crate::{
         theme,
     },
     lab::apart::{Apart, Times},
-    session::{
-        Command, Outcome, Session,
-        comparing::{Compared, Comparison},
-    },
+    playback::comparing::{Compared, Comparison},
+    session::{Command, Outcome, Session},
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 

@@ -4,10 +4,7 @@ use super::{
     panel::{distance, pace},
     state::{Compare, Under, View},
 };
-use crate::{
-    lab::Number,
-    session::{Session, comparing::Compared},
-};
+use crate::{lab::Number, playback::comparing::Compared, session::Session};
 use serde_json::{Value, json};
 
 pub fn report(state: &Compare, session: &Session) -> Value {

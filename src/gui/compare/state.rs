@@ -3,10 +3,8 @@
 use super::figures::{self, Figures};
 use crate::{
     lab::apart,
-    session::{
-        Session,
-        comparing::{Against, Compared, Comparison},
-    },
+    playback::comparing::{Against, Compared, Comparison},
+    session::Session,
 };
 use egui::{TextureHandle, TextureOptions};
 use std::{

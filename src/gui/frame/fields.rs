@@ -3,11 +3,8 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
     gui::dock::Panel,
-    session::{
-        Command,
-        comparing::{Against, Compared},
-        probe::ProbePlace,
-    },
+    playback::comparing::{Against, Compared},
+    session::{Command, probe::ProbePlace},
 };
 use egui::{
     Event, Id, Key, Modifiers, Pos2, Rect,

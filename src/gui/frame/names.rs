@@ -4,11 +4,8 @@
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
 use crate::{
     gui::dock::Panel,
-    session::{
-        Command, Level, Question, SessionOptions,
-        comparing::{Against, Compared},
-        probe::ProbePlace,
-    },
+    playback::comparing::{Against, Compared},
+    session::{Command, Level, Question, SessionOptions, probe::ProbePlace},
 };
 use egui::{Key, Modifiers};
 use std::time::{Duration, Instant};

@@ -6,10 +6,8 @@ use crate::{
         outbox::{Outbox, Wish},
         theme,
     },
-    session::{
-        measuring::{Measure, Record},
-        reduction::Unmeasured,
-    },
+    playback::reduction::Unmeasured,
+    session::measuring::{Measure, Record},
 };
 use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 

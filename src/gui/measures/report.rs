@@ -1,7 +1,7 @@
 //! Owns what scripts are told.
 
 use super::state::Measurements;
-use crate::session::{Session, trace::Number};
+use crate::{debugger::trace::Number, session::Session};
 use serde_json::{Value, json};
 
 pub fn report(state: &Measurements, session: &Session) -> Value {

@@ -13,8 +13,9 @@ use crate::{
         settings_page::SettingsPage,
         timeline,
     },
+    playback::capture::file_stem,
     project::{PassId, Tab},
-    session::{Command, Level, Session, capture::file_stem, probe::ProbePlace},
+    session::{Command, Level, Session, probe::ProbePlace},
 };
 use egui::Ui;
 use std::path::Path;

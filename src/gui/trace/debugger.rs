@@ -2,16 +2,14 @@
 
 use super::moment::{AtMoment, Rows};
 use crate::{
+    debugger::trace::{
+        Breakpoint, Examiner, Printed, Traced,
+        travel::{self, Direction},
+    },
     diag::follow_line,
     gui::{actions::TraceAction, editor::Debug},
     project::Tab,
-    session::{
-        Session,
-        trace::{
-            Breakpoint, Examiner, Printed, Traced,
-            travel::{self, Direction},
-        },
-    },
+    session::Session,
 };
 use std::{collections::HashMap, sync::Arc};
 

@@ -1,7 +1,7 @@
 //! The debugger: a pixel's way through its pass, gone forwards and backwards.
 //!
 //! Owns where in it one is, breakpoints and watches ([`Debugger`]), and the panel that shows them. What a moment holds,
-//! and where a step leads to, is [`crate::session::trace`]'s.
+//! and where a step leads to, is [`crate::debugger::trace`]'s.
 
 mod debugger;
 mod moment;

@@ -1,8 +1,8 @@
 //! Owns what there is to see at a moment, found once for it.
 
 use crate::{
+    debugger::trace::{Breakpoint, Examiner, Number, Shown, Turn, Value, Watched},
     project::Tab,
-    session::trace::{Breakpoint, Examiner, Number, Shown, Turn, Value, Watched},
 };
 
 /// A value is shown with so many numbers at most.

@@ -8,6 +8,7 @@ use super::{
     signs,
 };
 use crate::{
+    debugger::trace::{MomentKind, Traced},
     gui::{
         accessible,
         actions::{Action, TraceAction},
@@ -15,10 +16,7 @@ use crate::{
         outbox::{Outbox, Wish},
         theme,
     },
-    session::{
-        Command, Session,
-        trace::{MomentKind, Traced},
-    },
+    session::{Command, Session},
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 

@@ -3,15 +3,15 @@
 
 use super::parts;
 use crate::{
+    debugger::{
+        divergence::{Parted, PartingView},
+        trace::{Number, Traced},
+    },
     gui::{
         outbox::{Outbox, Wish},
         theme,
     },
-    session::{
-        Command, Session,
-        parting::{Parted, PartingView},
-        trace::{Number, Traced},
-    },
+    session::{Command, Session},
 };
 use egui::{Id, Label, RichText, Ui};
 

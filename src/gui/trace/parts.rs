@@ -2,8 +2,8 @@
 
 use super::moment::words;
 use crate::{
+    debugger::trace::Value,
     gui::{outbox::Outbox, theme},
-    session::trace::Value,
 };
 use egui::{Color32, Label, Rect, Response, RichText, Sense, StrokeKind, Ui, vec2};
 

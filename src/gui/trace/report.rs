@@ -1,10 +1,12 @@
 //! Owns what scripts are told of the debugger.
 
 use super::{debugger::Debugger, moment::words};
-use crate::session::{
-    Session,
-    parting::PartingView,
-    trace::{Printed, Watched},
+use crate::{
+    debugger::{
+        divergence::PartingView,
+        trace::{Printed, Watched},
+    },
+    session::Session,
 };
 use serde_json::{Map, Value, json};
 

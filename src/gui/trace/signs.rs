@@ -1,12 +1,12 @@
 //! The buttons that go from moment to moment.
 
 use crate::{
+    debugger::trace::travel::{Direction, Stride},
     gui::{
         actions::{Action, TraceAction},
         outbox::Outbox,
         theme,
     },
-    session::trace::travel::{Direction, Stride},
 };
 use egui::{Color32, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 

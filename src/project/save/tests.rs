@@ -443,10 +443,7 @@ fn a_full_disk_loses_nothing() {
     };
     let old = files(&folder);
     let run = std::process::Command::new("sh")
-        .args([
-            "-c",
-            "trap '' XFSZ; ulimit -f 16; exec \"$0\" --exact save::tests::save_on_a_full_disk --ignored",
-        ])
+        .args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" --exact save::tests::save_on_a_full_disk --ignored"])
         .arg(std::env::current_exe().unwrap())
         .env("EDDY_TEST_FOLDER", &folder)
         .output()

@@ -1,7 +1,8 @@
 //! Keeps what is looked at, when it is due, and the newest of it.
 
 use super::BufferLook;
-use crate::{nonfinite::NonfiniteTexels, probe::Statistics};
+use crate::probe::Statistics;
+use eddy_debugger::nonfinite::NonfiniteTexels;
 use eddy_engine::{Picture, Pixels, TexelAt};
 use eddy_project::PassId;
 use std::{

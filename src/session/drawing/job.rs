@@ -1,10 +1,9 @@
 //! The engine is asked to do a job at once, and gives an answer.
 
 use super::gate::Gate;
-use super::history::{Frame, Replay, ReplayFrom, Run, Travelled};
+use super::history::Travelled;
 use crate::{
     buffers::{BuffersRead, BuffersWanted},
-    capture::Format,
     measuring::{Measured, MeasuresWanted},
     probe::{NumbersWanted, ProbeNumbers},
     seeking::{Goal, Reach},
@@ -13,6 +12,8 @@ use crate::{
 use eddy_engine::{
     CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook,
 };
+use eddy_playback::capture::Format;
+use eddy_playback::run::{Frame, Replay, ReplayFrom, Run};
 use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};
 use std::{path::PathBuf, time::Duration};
 

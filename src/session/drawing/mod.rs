@@ -14,7 +14,7 @@ mod studio;
 pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
 pub(super) use gate::Way;
-pub(super) use history::{Frame, Replay, ReplayFrom, Run, Travelled};
+pub(super) use history::Travelled;
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, Reads, TileLimit};
 
 use crate::seeking::Reach;

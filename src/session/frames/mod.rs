@@ -5,8 +5,8 @@ use super::{
     compile::{self, Compiled, Done, Job},
     drawing::{Coming, Way},
     view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
-    worker::Panicked,
 };
+use eddy_background::Panicked;
 use eddy_diag::Severity;
 use eddy_engine::EngineError;
 use eddy_gpu::GpuError;

@@ -4,9 +4,9 @@ use super::super::{
     Command, SessionOptions,
     compile::{Done, Job},
     drawing::Drawing,
-    worker::Worker,
 };
 use super::*;
+use eddy_background::Worker;
 use eddy_gpu::{Gpu, testing};
 use eddy_project::{PassId, Tab};
 use std::{

@@ -1,11 +1,9 @@
 //! The comments, which of them is looked at, when they are due, and what was measured.
 
 use super::record::{Record, Sample};
-use crate::{
-    reduction::{self, Quantity, Unmeasured},
-    view::Place,
-};
+use eddy_playback::reduction::{self, Quantity, Unmeasured};
 use eddy_project::Project;
+use eddy_project::TextLocation;
 use std::time::{Duration, Instant};
 
 /// Measuring takes this part of the time at most: each time waits for the device.
@@ -18,7 +16,7 @@ pub struct Measure {
     pub serial: u64,
     /// The quantity that is asked for, as it was written.
     pub text: String,
-    pub place: Place,
+    pub place: TextLocation,
     pub quantity: Result<Quantity, Unmeasured>,
     pub record: Record,
     /// Frames have been drawn since the newest sample that were not measured because nobody looked, or could not be.
@@ -72,7 +70,7 @@ impl Measuring {
         let sources = project.texts();
         let mut before = std::mem::take(&mut self.measures);
         for comment in reduction::declared(project) {
-            let Some(place) = Place::new(comment.span, &sources, project) else { continue };
+            let Some(place) = TextLocation::new(comment.span, &sources, project) else { continue };
             let same = before.iter().position(|old| old.text == comment.text && old.place.text == place.text);
             let measure = match same.map(|at| before.remove(at)) {
                 Some(old) => Measure { place, quantity: comment.quantity, ..old },

@@ -3,7 +3,7 @@
 //! Owns where they lie and how long. The copying itself is done by [`project::save`](eddy_project::save), before
 //! anything is written.
 
-use super::super::capture::file_stem;
+use eddy_playback::capture::file_stem;
 use std::{
     fs,
     path::{Path, PathBuf},

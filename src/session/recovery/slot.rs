@@ -3,7 +3,7 @@
 //! Slots are taken, found and given back in turns, under a lock of the whole folder that is held for moments: so no two
 //! processes take one slot, and none removes a lock that another is about to hold.
 
-use super::super::capture::file_stem;
+use eddy_playback::capture::file_stem;
 use eddy_project::{Origin, Project};
 use std::{
     fs::{self, DirBuilder, File, TryLockError},

@@ -11,10 +11,10 @@ mod tree;
 
 use crate::support::{env::number, walked::all_pixels, *};
 use eddy::{
+    debugger::trace::{Extent, Tracer},
     engine::{BuildOptions, Sources},
     gpu::Gpu,
     media::MediaSet,
-    session::trace::{Extent, Tracer},
 };
 use operands::{SIDE, operands, program};
 use operations::{Grade, Operation, operations, ulp};

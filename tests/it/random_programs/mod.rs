@@ -9,11 +9,11 @@ mod random;
 
 use crate::support::{env::number, *};
 use eddy::{
+    debugger::trace::{Extent, Tracer},
     diag::render_all,
     engine::{BuildError, BuildOptions, Engine, FrameInputs, PassInputs, Program as Built, Sources},
     gpu::Gpu,
     project::Project,
-    session::trace::{Extent, Tracer},
 };
 use random::{
     Program,

@@ -2,8 +2,8 @@
 
 use crate::support::*;
 use eddy::{
+    debugger::trace::{self, Extent},
     engine::FrameInputs,
-    session::trace::{self, Extent},
 };
 
 /// Where a program says what it computed.

@@ -2,12 +2,12 @@
 
 use super::walked::{all_pixels, is_same};
 use eddy::{
-    engine::{LevelBy, PassInputs, Sources, TextureCopy},
-    project::Filter,
-    session::{
+    debugger::{
         audit::{Class, audit, jittered},
         trace::{Extent, Tracer},
     },
+    engine::{LevelBy, PassInputs, Sources, TextureCopy},
+    project::Filter,
 };
 
 /// Statements of a pixel.

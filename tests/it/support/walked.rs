@@ -3,10 +3,10 @@
 use super::texel;
 use bytemuck::Zeroable;
 use eddy::{
+    debugger::trace::{Extent, Tracer},
     engine::{Engine, PassInputs, Sources, TextureCopy},
     glsl::interface::UniformBlock,
     project::{PassId, Project},
-    session::trace::{Extent, Tracer},
 };
 
 /// A place in a picture, counted from the bottom left.

@@ -8,12 +8,12 @@ use super::{
 use crate::{
     buffers::{BufferRead, BuffersRead, BuffersWanted},
     measuring::{Measured, MeasuresWanted},
-    nonfinite::NonfiniteTexels,
     probe::{NumbersWanted, ProbeNumbers, Statistics},
-    reduction::Quantity,
 };
+use eddy_debugger::nonfinite::NonfiniteTexels;
 use eddy_engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program};
 use eddy_gpu::Gpu;
+use eddy_playback::reduction::Quantity;
 use eddy_project::PassId;
 use std::{
     collections::HashMap,

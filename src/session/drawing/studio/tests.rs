@@ -70,7 +70,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
             1 => {
                 let capture = Capture {
                     pass: PassId::Image,
-                    format: crate::capture::Format::Npy,
+                    format: eddy_playback::capture::Format::Npy,
                     folder: "".into(),
                     stem: "".into(),
                 };

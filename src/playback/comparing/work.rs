@@ -2,8 +2,8 @@
 
 use super::comparison::{Against, Comparison, Progress};
 use crate::{
-    drawing::{Frame, Run},
     revision,
+    run::{Frame, Run},
 };
 use eddy_diag as diag;
 use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial};

@@ -7,4 +7,4 @@ mod work;
 
 pub use comparison::{Against, Compared, Comparison, ComparisonView};
 
-pub(super) use order::{Comparing, Order};
+pub use order::{Comparing, Order};

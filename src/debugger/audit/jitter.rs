@@ -3,8 +3,8 @@
 
 use super::run::walk;
 use crate::{
+    fragment::{AtPixel, WalkedPass},
     trace::TraceError,
-    walked::{AtPixel, WalkedPass},
 };
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{

@@ -3,9 +3,8 @@ use super::{
     travel::{self, Direction, Stride},
     ulps,
 };
-use crate::template;
 use eddy_engine::{PassInputs, Pixels, TextureCopy};
-use eddy_project::{PassId, Tab};
+use eddy_project::{PassId, Project, Tab};
 use std::sync::Arc;
 
 const CODE: &str = "float glow = 0.25;
@@ -31,8 +30,7 @@ void mainImage(out vec4 o, in vec2 c) {
 ";
 
 fn traced(code: &str) -> Traced {
-    let mut project = template::project();
-    project.passes[0].source.text = code.into();
+    let project = Project::of_image("Untitled".into(), code.into());
     let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
     Traced::new(project, &PassId::Image, 3, (inputs(), &drawn), [0.3, 0.3]).unwrap()
 }
@@ -237,8 +235,7 @@ fn distances_are_counted_in_numbers() {
 #[test]
 fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
     use eddy_project::{Boundary, Fill, Region};
-    let mut project = template::project();
-    project.passes[0].source.text = CODE.into();
+    let mut project = Project::of_image("Untitled".into(), CODE.into());
     let settings = &mut project.passes[0].settings;
     settings.region = Some(Region { x: 1, y: 1, width: 2, height: 3 });
     let refused = |project: &eddy_project::Project, place| {

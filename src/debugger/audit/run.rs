@@ -7,8 +7,8 @@ use super::{
     watch::Watch,
 };
 use crate::{
+    fragment::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
     trace::TraceError,
-    walked::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
 };
 use eddy_diag::SourceId;
 use eddy_engine::{PassInputs, Sources};

@@ -3,7 +3,7 @@
 //! Events of frame i happen before frame i is drawn, so a script gives the same pictures on every machine. A
 //! [`Recording`] takes the place of both.
 
-use super::{
+use crate::{
     date,
     mouse::Mouse,
     recording::{Change, Recording},

@@ -1,15 +1,13 @@
 //! The search for the first NaN among the frames that are kept: drawn once more beside the picture, which goes on.
 
 use super::texels::{NonfiniteTexels, born, drawn, stored};
-use crate::{
-    trace::STEPS,
-    view::Place,
-    worker::{Panicked, Worker},
-};
+use crate::trace::STEPS;
+use eddy_background::{Panicked, Worker};
 use eddy_diag::Span;
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot};
 use eddy_gpu::Gpu;
 use eddy_media as media;
+use eddy_project::TextLocation;
 use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
     path::PathBuf,
@@ -39,7 +37,7 @@ pub struct FirstNonfinite {
 pub struct BornAt {
     pub message: &'static str,
     /// `None` for what Eddy adds to the author's code.
-    pub place: Option<Place>,
+    pub place: Option<TextLocation>,
     /// The text that the author wrote there, its first line.
     pub text: String,
     /// The numbers there, as in `pow(-0.5, 2)`.
@@ -73,7 +71,7 @@ pub enum Search<'s> {
 pub type SearchView<'s> = Option<Search<'s>>;
 
 /// Frames, and what they are drawn by.
-pub(crate) struct SearchJob {
+pub struct SearchJob {
     pub gpu: Gpu,
     pub project: Project,
     pub shown: PassId,
@@ -91,7 +89,7 @@ struct Progress {
 }
 
 /// A search, if somebody has asked for one.
-pub(crate) struct Searching {
+pub struct Searching {
     worker: Worker<(SearchJob, Arc<Progress>), Option<SearchEnd>>,
     /// The frames are to be handed out.
     pub is_due: bool,
@@ -208,7 +206,7 @@ fn search(job: SearchJob, progress: &Progress, tell: &dyn Fn()) -> Option<Search
             };
             let born = born.map(|finding| BornAt {
                 message: finding.kind.message(),
-                place: finding.span.and_then(|span| Place::new(span, &project.sources(), &project)),
+                place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
                 text: finding.span.map_or_else(String::new, |span| written(&project, span)),
                 numbers: finding.numbers,
             });

@@ -12,14 +12,14 @@ mod step;
 pub mod travel;
 mod watch;
 
-pub use super::walked::{MeshFragment, Origin};
+pub use crate::fragment::{MeshFragment, Origin};
 pub use examine::{Breakpoint, Examiner, Printed, Traced};
 pub use history::{Call, History, Moment, MomentKind, Shown, Turn, Value};
 pub use number::Number;
 pub use step::{Event, Step};
 pub use watch::Watched;
 
-use crate::walked::{AtPixel, WalkError, WalkedPass};
+use crate::fragment::{AtPixel, WalkError, WalkedPass};
 use eddy_diag::Diagnostic;
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{

@@ -6,4 +6,4 @@ mod texels;
 pub use search::{BornAt, FirstNonfinite, Search, SearchEnd, SearchView};
 pub use texels::{NonfiniteTexels, born, drawn, stored};
 
-pub(super) use search::{SearchJob, Searching};
+pub use search::{SearchJob, Searching};

@@ -1,11 +1,11 @@
 //! Faults that were planted, and code without any.
 
 use super::*;
-use crate::{template, trace::STEPS};
+use crate::trace::STEPS;
 use bytemuck::Zeroable;
 use eddy_engine::{Level as TextureLevel, PassInputs, Sources, TextureCopy};
 use eddy_glsl::interface::UniformBlock;
-use eddy_project::Filter;
+use eddy_project::{Filter, Project};
 
 fn inputs() -> PassInputs {
     let uniforms = UniformBlock { resolution: [8.0, 4.0, 1.0], time: 0.5, ..UniformBlock::zeroed() };
@@ -14,8 +14,7 @@ fn inputs() -> PassInputs {
 }
 
 fn audited(code: &str) -> Audit {
-    let mut project = template::project();
-    project.passes[0].source.text = code.into();
+    let project = Project::of_image("Untitled".into(), code.into());
     let pixels: Vec<(u32, u32)> = (0..4).flat_map(|y| (0..8).map(move |x| (x, y))).collect();
     audit(&Sources::new(&project), 0, &inputs(), &pixels, STEPS).unwrap()
 }
@@ -58,8 +57,7 @@ fn a_cancellation_is_where_the_error_is_born() {
 #[test]
 fn other_roundings_move_what_is_ill_conditioned_and_nothing_that_is_exact() {
     let moved = |body: &str| {
-        let mut project = template::project();
-        project.passes[0].source.text = image(body).into();
+        let project = Project::of_image("Untitled".into(), image(body));
         let (sources, inputs) = (Sources::new(&project), inputs());
         let values: Vec<[f32; 4]> =
             (0..8).map(|seed| jittered(&sources, 0, &inputs, (5, 2), (STEPS, seed)).unwrap()).collect();
@@ -155,8 +153,7 @@ fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
 fn derivatives_where_neighbours_part_are_listed() {
     let read = "texture(iChannel0, p / 8.)";
     let listed = |code: &str, filter: Filter| {
-        let mut project = template::project();
-        project.passes[0].source.text = code.into();
+        let project = Project::of_image("Untitled".into(), code.into());
         let mut inputs = inputs();
         let level = |width| TextureLevel { width, height: width, texels: vec![[0.5; 4]; (width * width) as usize] };
         (inputs.channels[0].levels, inputs.channels[0].filter) = (vec![level(2), level(1)], filter);

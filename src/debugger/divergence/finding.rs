@@ -6,10 +6,8 @@ use super::{
     probes::Probes,
     search::{Parted, search},
 };
-use crate::{
-    trace::{Extent, STEPS, Traced},
-    worker::{Panicked, Worker},
-};
+use crate::trace::{Extent, STEPS, Traced};
+use eddy_background::{Panicked, Worker};
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot, Sources};
 use eddy_gpu::Gpu;
 use eddy_media as media;
@@ -29,7 +27,7 @@ pub enum PartingView<'s> {
 }
 
 /// A traced pixel, and the frames that lead to it.
-pub(crate) struct PartingJob {
+pub struct PartingJob {
     pub gpu: Gpu,
     pub traced: Arc<Traced>,
     pub shown: PassId,
@@ -42,7 +40,7 @@ pub(crate) struct PartingJob {
 }
 
 /// A search, if somebody has asked for one.
-pub(crate) struct Finding {
+pub struct Finding {
     worker: Worker<PartingJob, (Arc<Traced>, Result<Parted, String>)>,
     /// The frames are to be handed out.
     is_due: bool,

@@ -45,7 +45,7 @@ pub struct Comparison {
     /// The run's first frames are no longer kept: both began later, from empty buffers.
     pub is_cut: bool,
     /// The revision of the project that was compared.
-    pub(crate) revision: u64,
+    pub revision: u64,
 }
 
 /// A comparison, from its begin on.

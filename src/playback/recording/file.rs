@@ -120,7 +120,7 @@ impl Recording {
     }
 
     /// Reads at most `limit` of a file, into frames of at most `most` bytes.
-    pub(crate) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
+    pub fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
         let mut text = text.take(limit.bytes + 1);
         let read = Self::read_lines(&mut text, most);
         if text.limit() == 0 { Err(ReadError::TooLarge(limit)) } else { read }

@@ -21,7 +21,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{offline::Offline, script::ScriptedInputs};
+use crate::{offline::Offline, script::ScriptedInputs};
 
 /// The command of this program that [`serve`] answers.
 pub const COMMAND: &str = "try-compile";
@@ -250,7 +250,10 @@ fn page_size() -> u64 {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+    use eddy_project::Project;
     use std::os::unix::fs::PermissionsExt;
+
+    const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
 
     /// Runs a trial whose child is this script.
     fn tried(script: &str, jobs: &AtomicU64) -> Result<(), TrialError> {
@@ -259,7 +262,7 @@ mod tests {
         std::fs::write(&program, format!("#!/bin/sh\ncat > /dev/null\n{script}\n")).expect("a script");
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o700)).expect("it may run");
         let settings = TrialSettings { program, limit: Duration::from_secs(60) };
-        let project = super::super::template::project();
+        let project = Project::of_image("Untitled".into(), IMAGE.into());
         settings.run(TrialOrder { project: &project, wanted: &[], skip: true }, None, jobs)
     }
 
@@ -277,7 +280,7 @@ mod tests {
     fn a_child_that_fails_or_does_not_start_refuses_nothing() {
         assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
         let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
-        let project = super::super::template::project();
+        let project = Project::of_image("Untitled".into(), IMAGE.into());
         let order = TrialOrder { project: &project, wanted: &[], skip: true };
         assert_eq!(settings.run(order, None, &AtomicU64::new(0)), Ok(()));
     }

@@ -7,7 +7,7 @@ use super::{
     ulps,
     watch::{Watched, Watches},
 };
-use crate::walked::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel};
+use crate::fragment::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel};
 use eddy_diag::{SourceId, Span};
 use eddy_engine::{PassInputs, Pixels, Sources};
 use eddy_glsl::{

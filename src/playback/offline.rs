@@ -3,7 +3,7 @@
 //! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
 //! the same.
 
-use super::{recording::Change, script::ScriptedInputs};
+use crate::{recording::Change, script::ScriptedInputs};
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
     BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels, Program,

@@ -4,10 +4,8 @@ use super::{
     comparison::{Against, Compared, Comparison, ComparisonView, Progress},
     work::{self, Job, Reference},
 };
-use crate::{
-    drawing::Run,
-    worker::{Panicked, Worker},
-};
+use crate::run::Run;
+use eddy_background::{Panicked, Worker};
 use eddy_engine::Trial;
 use eddy_gpu::Gpu;
 use eddy_project::{Origin, PassId, Project};
@@ -21,7 +19,7 @@ use std::{
 };
 
 /// Holds the projects that are to be compared.
-pub(crate) struct Order {
+pub struct Order {
     pub gpu: Gpu,
     pub project: Project,
     pub saved: Project,
@@ -36,7 +34,7 @@ pub(crate) struct Order {
 /// `None`: nobody wants it any more.
 type End = Option<Result<Arc<Comparison>, String>>;
 
-pub(crate) struct Comparing {
+pub struct Comparing {
     worker: Worker<(Job, Arc<Progress>), End>,
     against: Option<Against>,
     /// The frames are to be handed out.

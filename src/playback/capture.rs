@@ -4,7 +4,7 @@
 //! the user's pictures folder, or where there is none in the home folder. The file is `NAME-0001.png`, with the first
 //! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
 
-use super::npy;
+use crate::npy;
 use eddy_engine::Pixels;
 use eddy_project::{Origin, PassId, Project, confine};
 use std::{
@@ -64,7 +64,7 @@ pub fn save_new(folder: &Path, stem: &str, pixels: &Pixels, format: Format) -> R
 }
 
 /// Writes to the first file of `name(1)`, `name(2)` … that is not there yet.
-pub(super) fn write_new(
+pub fn write_new(
     folder: &Path,
     name: impl Fn(u32) -> String,
     stem: &str,
@@ -104,7 +104,7 @@ pub fn folder_for(project: &Project, pictures: &Path) -> PathBuf {
 }
 
 /// The folder a project on disk lies in.
-pub(super) fn base_folder(project: &Project) -> Option<PathBuf> {
+pub fn base_folder(project: &Project) -> Option<PathBuf> {
     let dir = match &project.origin {
         Origin::Unsaved | Origin::Preset(_) => return None,
         Origin::Folder { path, .. } => path.as_path(),

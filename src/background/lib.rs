@@ -15,9 +15,9 @@ use std::{
 
 /// A job ended in a panic; what it said.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Panicked(pub String);
+pub struct Panicked(pub String);
 
-pub(super) struct Worker<Job, Done> {
+pub struct Worker<Job, Done> {
     /// `None` when no more will come.
     jobs: Option<Sender<(u64, Job)>>,
     results: Receiver<(u64, Result<Done, Panicked>)>,

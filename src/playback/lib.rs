@@ -1,0 +1,19 @@
+//! Runs of frames: scripted or recorded input, drawn again, measured, compared and written to files.
+//!
+//! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
+//! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
+//! a project ([`comparing`], [`revision`]), and pictures on disk ([`capture`], [`npy`]). Needs no session; time is an
+//! argument.
+
+pub mod capture;
+pub mod comparing;
+pub mod date;
+pub mod mouse;
+pub mod npy;
+pub mod offline;
+pub mod recording;
+pub mod reduction;
+pub mod revision;
+pub mod run;
+pub mod script;
+pub mod trial;
