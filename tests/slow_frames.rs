@@ -66,7 +66,7 @@ fn endless() -> String {
 }
 
 fn options() -> SessionOptions {
-    SessionOptions { draws_apart: true, frame_limit: LIMIT, ..SessionOptions::default() }
+    SessionOptions { draws_on_thread: true, frame_limit: LIMIT, ..SessionOptions::default() }
 }
 
 /// A stage that draws apart on a canvas of a few pixels; its project's picture is there.

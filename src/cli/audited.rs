@@ -36,7 +36,7 @@ pub struct Audited {
     /// Pixels that a screen of 8 bits would show otherwise.
     visible: usize,
     worst: Vec<Worst>,
-    /// Against the walker; null where the pass stores fewer bits than it computes with.
+    /// Baseline the walker; null where the pass stores fewer bits than it computes with.
     walker: Option<Walked>,
     findings: Vec<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]

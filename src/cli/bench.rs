@@ -117,7 +117,7 @@ fn measure(
         millis.push(frame.millis);
         report.frames += 1;
     }
-    // Apart from the others: timestamps cost a little in every frame, and waiting for each pass more.
+    // PictureDifference from the others: timestamps cost a little in every frame, and waiting for each pass more.
     let clock = offline.engine()?.cost_clock();
     if is_replay {
         offline.rewind()?;

@@ -13,7 +13,7 @@ use crate::{
     debugger::trace::Number,
     diag::{Diagnostic, SourceMap},
     engine::Pixels,
-    lab::apart::{self, Apart, Times},
+    lab::difference::{self, PictureDifference, Times},
     playback::{
         capture::Format,
         offline::Offline,
@@ -117,7 +117,7 @@ fn compare(
         report.frames += 1;
     }
     let (a, b) = (ours.read(&pass.pass, pass.target)?, theirs.read(&pass.pass, pass.target)?);
-    let Some(apart) = Apart::new(&a, &b) else {
+    let Some(apart) = PictureDifference::new(&a, &b) else {
         let size = |p: &Pixels| format!("{} x {}", p.width, p.height);
         return Err(anyhow!("cannot compare pictures of different sizes: {} and {}", size(&a), size(&b)).into());
     };
@@ -135,7 +135,7 @@ fn compare(
 }
 
 impl Compared {
-    fn new(args: &CompareArgs, shown: &Pixels, apart: &Apart) -> Self {
+    fn new(args: &CompareArgs, shown: &Pixels, apart: &PictureDifference) -> Self {
         Self {
             frame: args.frame,
             pass: args.pass.pass.key(),
@@ -154,7 +154,7 @@ impl Compared {
 }
 
 /// One picture of both.
-fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &Apart) -> Pixels {
+fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &PictureDifference) -> Pixels {
     let (width, height) = (a.width as usize, a.height as usize);
     let rows =
         |pixels: &Pixels| -> Vec<Vec<[f32; 4]>> { pixels.texels.chunks_exact(width).map(<[_]>::to_vec).collect() };
@@ -164,7 +164,7 @@ fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &Apart) -> Pixels {
             let halves = |(a, b): (Vec<[f32; 4]>, Vec<[f32; 4]>)| [&a[..width / 2], &b[width / 2..]].concat();
             rows(a).into_iter().zip(rows(b)).flat_map(halves).collect()
         }
-        CompareView::Difference => return apart::difference(a, b, 1.0),
+        CompareView::Difference => return difference::difference(a, b, 1.0),
         CompareView::Flip => {
             // A screen's rows go from the top down.
             let grey = |&x: &f64| [x as f32, x as f32, x as f32, 1.0];

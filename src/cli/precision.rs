@@ -38,7 +38,7 @@ struct Line<'a> {
     report: &'a Report,
     #[serde(flatten)]
     compared: Option<&'a Compared>,
-    /// Against double precision.
+    /// Baseline double precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     double: Option<&'a Audited>,
 }

@@ -2,9 +2,9 @@
 
 use super::{
     args::TraceArgs,
+    divergence::{self, DivergenceReport},
     machine::{Machine, Trouble, open},
     nonfinite::{self, Begin},
-    parted::{self, Parted},
     printed::{self, Printed},
     report::{Printer, Report},
     written::Written,
@@ -69,7 +69,7 @@ struct Traced {
     ulps: Option<Vec<u32>>,
     /// Says where the device parts from the walker, if their values are not the same.
     #[serde(skip_serializing_if = "Option::is_none")]
-    parted: Option<Parted>,
+    parted: Option<DivergenceReport>,
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
@@ -156,7 +156,9 @@ fn traced(
     let texel = device.texels[(y * device.width + x) as usize];
     let printed = printed::printed(&project, pass, args.frame, (&read, &device), pixel).map_err(anyhow::Error::from)?;
     let parted = match before.filter(|_| parts(&project, args, texel, &trace)) {
-        Some(before) => Some(parted::find(args, &project, (offline.into_engine()?, before), (index, &read), inputs)?),
+        Some(before) => {
+            Some(divergence::find(args, &project, (offline.into_engine()?, before), (index, &read), inputs)?)
+        }
         None => None,
     };
     Ok(Traced { parted, ..placed(&project, args, texel, trace, printed) })
@@ -291,7 +293,7 @@ fn words(spec: &str, traced: &Traced) -> String {
     }
     let _ = writeln!(out, "  double  {}", vector(double));
     if let Some(parted) = &traced.parted {
-        out.push_str(&parted::words(parted));
+        out.push_str(&divergence::words(parted));
     }
     out
 }

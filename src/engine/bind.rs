@@ -3,7 +3,7 @@
 
 use super::{
     pipelines::StagePipeline,
-    program::{BoundChannel, CompiledDraw, FillProgram, Mixing, Program},
+    program::{BoundChannel, CompiledDraw, FillProgram, FilterMode, Program},
     shared::Shared,
     targets::Target,
     uniforms::Uniforms,
@@ -158,9 +158,9 @@ fn view<'a>(
         // Whether that is this frame's or one before it is the plan's order.
         (Some(Source::Target { index, .. }), _) => {
             let texture = targets[*index].newest();
-            // Mixing by hand goes by the levels it finds.
+            // FilterMode by hand goes by the levels it finds.
             let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);
-            let one_level = is_linear && channel.mixing == Mixing::ByHand;
+            let one_level = is_linear && channel.filter_mode == FilterMode::Shader;
             if one_level { &texture.level_0 } else { &texture.all_levels }
         }
         (Some(Source::Keyboard), _) => &shared.keyboard.texture.all_levels,
@@ -172,12 +172,12 @@ fn view<'a>(
 
 fn sampler<'a>(shared: &'a Shared, channel: &BoundChannel, read: Option<&Read>) -> &'a wgpu::Sampler {
     let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
-    let filtering = match (channel.mixing, filter) {
+    let filtering = match (channel.filter_mode, filter) {
         // The shader asks for the level.
-        (Mixing::ByHand | Mixing::Nearest, Filter::Mipmap) => Filtering::NearestOfLevel,
-        (Mixing::ByHand | Mixing::Nearest, _) | (_, Filter::Nearest) => Filtering::Nearest,
-        (Mixing::BySampler, Filter::Linear) => Filtering::Linear,
-        (Mixing::BySampler, Filter::Mipmap) => Filtering::Trilinear,
+        (FilterMode::Shader | FilterMode::Nearest, Filter::Mipmap) => Filtering::NearestOfLevel,
+        (FilterMode::Shader | FilterMode::Nearest, _) | (_, Filter::Nearest) => Filtering::Nearest,
+        (FilterMode::Sampler, Filter::Linear) => Filtering::Linear,
+        (FilterMode::Sampler, Filter::Mipmap) => Filtering::Trilinear,
     };
     let address = match wrap {
         Wrap::Clamp => Address::Clamp,

@@ -2,13 +2,13 @@
 
 use super::{
     BuildError, EngineError, Sources,
-    channels::{ChannelBinder, mixing, mixing_of_fill},
+    channels::{ChannelBinder, filter_mode, filter_mode_of_fill},
     compile::PassOptions,
     compiled::CompiledPass,
     draft::{CompiledParts, DrawDraft},
     pipelines::PipelineCache,
     preamble::KeptPreamble,
-    program::{Mixing, Program},
+    program::{FilterMode, Program},
     stage_cache::StageCache,
     trial::{Trial, TrialOrder},
     uploads::Uploads,
@@ -180,10 +180,10 @@ impl Builder {
 
     /// Returns what the compiler is told of `project.passes[index]` besides its texts.
     fn options(&self, project: &Project, media: &MediaSet, index: usize, build: &BuildOptions) -> PassOptions {
-        let mixing = mixing(&self.gpu, project, media, index);
+        let filter_mode = filter_mode(&self.gpu, project, media, index);
         let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
         let probe = build.probed_buffer().filter(|(id, _)| **id == project.passes[index].id).map(|(_, probe)| probe);
-        PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver, probe }
+        PassOptions { bilinear_by_hand: filter_mode.map(|m| m == FilterMode::Shader), driver, probe }
     }
 
     /// Compiles every pass that can be drawn, and its fills.
@@ -215,7 +215,7 @@ impl Builder {
             let mut said = Vec::new();
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
-                let by_hand = texels.is_some_and(|t| mixing_of_fill(&self.gpu, t) == Mixing::ByHand);
+                let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);
                 let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], probe: None, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
@@ -234,8 +234,8 @@ impl Builder {
             if let Some((PassId::Image, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
                     Ok(compiled) => {
-                        let mixing = mixing(&self.gpu, project, media, index);
-                        let parts = CompiledParts { compiled, fills: [None, None], mixing };
+                        let filter_mode = filter_mode(&self.gpu, project, media, index);
+                        let parts = CompiledParts { compiled, fills: [None, None], filter_mode };
                         probe_of_image = Some((without_cubemap_passes(probed(pass)), parts));
                     }
                     Err(errors) => said.extend(errors),
@@ -245,8 +245,8 @@ impl Builder {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
                     drawable.passes.push(without_cubemap_passes(pass.clone()));
-                    let mixing = mixing(&self.gpu, project, media, index);
-                    passes.push(CompiledParts { compiled, fills, mixing });
+                    let filter_mode = filter_mode(&self.gpu, project, media, index);
+                    passes.push(CompiledParts { compiled, fills, filter_mode });
                 }
                 Err(errors) => said.extend(errors),
             }

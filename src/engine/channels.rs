@@ -1,7 +1,7 @@
 //! The textures that the channels of a pass are bound to, and the way they are read on a device.
 
 use super::{
-    program::{BoundChannel, Mixing},
+    program::{BoundChannel, FilterMode},
     sources::channel_kind,
     uploads::Uploads,
 };
@@ -13,9 +13,9 @@ use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
 use std::sync::Arc;
 
 /// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
-pub(super) fn mixing(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [Mixing; 4] {
+pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; 4] {
     std::array::from_fn(|index| {
-        let Some(sampler) = effective_sampler(project, pass, index) else { return Mixing::Nearest };
+        let Some(sampler) = effective_sampler(project, pass, index) else { return FilterMode::Nearest };
         let channel = project.passes[pass].channels[index].as_ref();
         let is_float = channel.and_then(|c| settings_of(project, c)).is_some_and(|s| s.format.is_32_bit())
             || channel.and_then(|c| picture(media, c)).is_some_and(|t| t.format == TexelFormat::Rgba32Float);
@@ -24,15 +24,15 @@ pub(super) fn mixing(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize
 }
 
 /// Returns how the picture of a fill is mixed.
-pub(super) fn mixing_of_fill(gpu: &Gpu, texels: &Texels) -> Mixing {
+pub(super) fn filter_mode_of_fill(gpu: &Gpu, texels: &Texels) -> FilterMode {
     mixing_of(gpu, Filter::Linear, texels.format == TexelFormat::Rgba32Float)
 }
 
-fn mixing_of(gpu: &Gpu, filter: Filter, is_float: bool) -> Mixing {
+fn mixing_of(gpu: &Gpu, filter: Filter, is_float: bool) -> FilterMode {
     match filter {
-        Filter::Nearest => Mixing::Nearest,
-        Filter::Linear | Filter::Mipmap if is_float && !gpu.filters_float32 => Mixing::ByHand,
-        Filter::Linear | Filter::Mipmap => Mixing::BySampler,
+        Filter::Nearest => FilterMode::Nearest,
+        Filter::Linear | Filter::Mipmap if is_float && !gpu.filters_float32 => FilterMode::Shader,
+        Filter::Linear | Filter::Mipmap => FilterMode::Sampler,
     }
 }
 
@@ -50,7 +50,7 @@ impl ChannelBinder<'_> {
         uploads: &mut Uploads,
         channel: Option<&Channel>,
         used: ChannelUse,
-        mixing: Mixing,
+        filter_mode: FilterMode,
         mips: bool,
     ) -> Result<BoundChannel, GpuError> {
         let texels = channel.and_then(|c| picture(self.media, c));
@@ -59,7 +59,7 @@ impl ChannelBinder<'_> {
             kind: channel_kind(channel),
             texture: used.texture,
             sampler: used.sampler,
-            mixing,
+            filter_mode,
             media: match texels.filter(|_| is_used) {
                 Some(texels) => Some(uploads.picture(self.gpu, texels, mips)?),
                 None => None,
@@ -82,7 +82,7 @@ impl ChannelBinder<'_> {
         Ok(BoundChannel {
             texture: used.texture,
             sampler: used.sampler,
-            mixing: mixing_of_fill(self.gpu, texels),
+            filter_mode: filter_mode_of_fill(self.gpu, texels),
             resolution: resolution(texels),
             media: Some(uploads.picture(self.gpu, texels, false)?),
             ..BoundChannel::default()
@@ -122,7 +122,7 @@ pub(super) fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec
         // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third
         // case.
         let is_keyboard = matches!(draw.reads[index].as_ref().map(|r| &r.source), Some(Source::Keyboard));
-        let filterable = channel.mixing == Mixing::BySampler && !is_keyboard;
+        let filterable = channel.filter_mode == FilterMode::Sampler && !is_keyboard;
         if channel.texture {
             bindings.push((interface::texture_binding(index), Binding::Texture { dimension, filterable }));
         }

@@ -6,7 +6,7 @@ use super::{
     compiled::{CompiledPass, CompiledProgram},
     pipelines::{MeshState, PipelineOrder, StagePipeline},
     placed::PlacedMesh,
-    program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, Meshes, Mixing},
+    program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
     uploads::Uploads,
 };
 use eddy_glsl::{Reflection, interface};
@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub(super) struct CompiledParts {
     pub compiled: CompiledPass,
     pub fills: [Option<CompiledPass>; 2],
-    pub mixing: [Mixing; 4],
+    pub filter_mode: [FilterMode; 4],
 }
 
 /// A draw that waits for its pipelines.
@@ -38,12 +38,12 @@ impl DrawDraft {
         parts: CompiledParts,
     ) -> Result<Self, EngineError> {
         let pass = &binder.project.passes[draw.pass];
-        let CompiledParts { compiled, fills, mixing } = parts;
+        let CompiledParts { compiled, fills, filter_mode } = parts;
         let mut channels: [BoundChannel; 4] = Default::default();
         for (index, bound) in channels.iter_mut().enumerate() {
             let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
             let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
-            *bound = binder.bind(uploads, channel, used, mixing[index], mips)?;
+            *bound = binder.bind(uploads, channel, used, filter_mode[index], mips)?;
         }
         let body = match &pass.settings.body {
             PassBody::Screen => BodyDraft::Screen,

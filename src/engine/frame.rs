@@ -3,7 +3,7 @@
 use super::{
     EngineError, FrameInputs, FrameStats,
     display::Display,
-    running::{Rest, Running},
+    running::{RemainingRows, Running},
 };
 use super::{
     bind::draw_fill, inspect::Capture, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms,
@@ -18,14 +18,14 @@ use eddy_project::Boundary;
 const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
 
 /// The way in which a frame is handed to the device.
-pub(super) enum Manner<'a, 'b> {
+pub(super) enum DrawMode<'a, 'b> {
     /// All of it at once.
     Whole,
     /// Each draw by itself, and timed.
     Watched(&'a mut Watch<'b>),
     /// All of it, and what one pass reads is taken before it is drawn.
     Inspected(&'a mut Capture<'b>),
-    /// All but a last draw that can be done in pieces, which [`Running::draw_rest`] does.
+    /// All but a last draw that can be done in pieces, which [`Running::draw_remaining`] does.
     Divided,
 }
 
@@ -44,9 +44,9 @@ impl Running {
         shared: &mut Shared,
         display: Option<&Display>,
         inputs: &FrameInputs,
-        mut manner: Manner<'_, '_>,
+        mut mode: DrawMode<'_, '_>,
     ) -> Result<FrameStats, EngineError> {
-        self.drop_rest();
+        self.drop_remaining();
         shared.keyboard.show(&shared.gpu, &inputs.keyboard);
         let shared = &*shared;
         let gpu = &shared.gpu;
@@ -55,12 +55,12 @@ impl Running {
         let reads: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(shared, index)).collect();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         // Stamps of a frame in pieces would not be of one submission.
-        let is_in_pieces = matches!(manner, Manner::Watched(_) | Manner::Divided);
+        let is_in_pieces = matches!(mode, DrawMode::Watched(_) | DrawMode::Divided);
         if let Some(timer) = self.timer.as_mut().filter(|_| !is_in_pieces) {
             timer.begin();
         }
-        let left_over = if matches!(manner, Manner::Divided) { self.divisible_draw() } else { None };
-        if let Manner::Watched(watch) = &mut manner {
+        let left_over = if matches!(mode, DrawMode::Divided) { self.divisible_draw() } else { None };
+        if let DrawMode::Watched(watch) = &mut mode {
             // What was handed in before is not this frame's.
             flush(gpu, &mut encoder)?;
             let began = watch.now();
@@ -73,7 +73,7 @@ impl Running {
         for run in 0..self.program.plan.runs.len() {
             for _ in 0..self.program.plan.runs[run].steps {
                 for index in self.program.plan.runs[run].draws.clone() {
-                    if let Manner::Inspected(capture) = &mut manner
+                    if let DrawMode::Inspected(capture) = &mut mode
                         && capture.wants(&self.program.draws[index])
                     {
                         flush(gpu, &mut encoder)?;
@@ -84,11 +84,11 @@ impl Running {
                     }
                     self.steps_drawn[index] += 1;
                     if left_over == Some(index) {
-                        self.rest = Some(Rest { draw: index, row: 0 });
+                        self.rest = Some(RemainingRows { draw: index, row: 0 });
                         gpu.queue.submit([encoder.finish()]);
                         return Ok(stats);
                     }
-                    let Manner::Watched(watch) = &mut manner else {
+                    let DrawMode::Watched(watch) = &mut mode else {
                         self.encode(shared, &mut encoder, index, None);
                         continue;
                     };
@@ -112,9 +112,9 @@ impl Running {
         Ok(stats)
     }
 
-    /// Does the draw that [`Manner::Divided`] has left over, so many rows at a time, and waits for each. Before each,
+    /// Does the draw that [`DrawMode::Divided`] has left over, so many rows at a time, and waits for each. Before each,
     /// `goes_on` is asked. Says whether all is drawn; if not, another call draws what is left.
-    pub fn draw_rest(
+    pub fn draw_remaining(
         &mut self,
         shared: &Shared,
         display: &Display,
@@ -122,7 +122,7 @@ impl Running {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<bool, EngineError> {
         let gpu = &shared.gpu;
-        while let Some(Rest { draw, row }) = self.rest {
+        while let Some(RemainingRows { draw, row }) = self.rest {
             if !goes_on() {
                 return Ok(false);
             }
@@ -131,7 +131,7 @@ impl Running {
             let descriptor = wgpu::CommandEncoderDescriptor { label: Some("rows of a frame") };
             let mut encoder = gpu.device.create_command_encoder(&descriptor);
             self.encode(shared, &mut encoder, draw, Some(row..end));
-            self.rest = (end < height).then_some(Rest { draw, row: end });
+            self.rest = (end < height).then_some(RemainingRows { draw, row: end });
             if self.rest.is_none() {
                 display.present(gpu, &mut encoder, &self.targets);
             }

@@ -76,14 +76,14 @@ pub(super) struct FillProgram {
 
 /// The way in which the texels that a channel reads are mixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Mixing {
+pub(super) enum FilterMode {
     /// Each read takes one texel.
     #[default]
     Nearest,
     /// The sampler mixes.
-    BySampler,
+    Sampler,
     /// The shader mixes, because the device cannot filter the texture's format.
-    ByHand,
+    Shader,
 }
 
 /// One channel of a compiled pass.
@@ -92,7 +92,7 @@ pub(super) struct BoundChannel {
     pub kind: ChannelKind,
     pub texture: bool,
     pub sampler: bool,
-    pub mixing: Mixing,
+    pub filter_mode: FilterMode,
     /// The picture, where the channel reads one and it is there.
     pub media: Option<Texture>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.

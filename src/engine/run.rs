@@ -2,7 +2,7 @@
 
 use super::{
     EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, TexelAt, display::Display,
-    frame::Manner, running::Running,
+    frame::DrawMode, running::Running,
 };
 use super::{
     inspect::{Capture, PassInputs},
@@ -67,7 +67,7 @@ impl Engine {
         inputs: &FrameInputs,
     ) -> Result<Program, EngineError> {
         let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
-        running.draw(&mut self.shared, None, inputs, Manner::Whole)?;
+        running.draw(&mut self.shared, None, inputs, DrawMode::Whole)?;
         self.shared.gpu.wait()?;
         Ok(running.program)
     }
@@ -105,7 +105,7 @@ impl Engine {
     /// Draws one frame. Does not wait for the device.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Whole)?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Whole)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok(stats)
     }
@@ -121,15 +121,15 @@ impl Engine {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<bool, EngineError> {
         let Some(running) = &mut self.running else { return Ok(true) };
-        running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Divided)?;
+        running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Divided)?;
         self.shared.gpu.wait()?;
-        running.draw_rest(&self.shared, &self.display, rows, goes_on)
+        running.draw_remaining(&self.shared, &self.display, rows, goes_on)
     }
 
     /// Draws what [`Engine::draw_in_bands`] left over. Says whether that was anything.
     pub fn finish(&mut self) -> Result<bool, EngineError> {
         let Some(running) = self.running.as_mut().filter(|running| running.rest.is_some()) else { return Ok(false) };
-        running.draw_rest(&self.shared, &self.display, u32::MAX, &mut || true)
+        running.draw_remaining(&self.shared, &self.display, u32::MAX, &mut || true)
     }
 
     /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how
@@ -142,7 +142,7 @@ impl Engine {
     ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
         let Some(running) = &mut self.running else { return Ok(Default::default()) };
         let mut watch = Watch::new(now, &running.program);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Watched(&mut watch))?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Watched(&mut watch))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, watch.times(&running.program)))
     }
@@ -158,7 +158,7 @@ impl Engine {
         let running = self.running.as_mut().ok_or_else(none)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let mut capture = Capture::new(pass, converter);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Inspected(&mut capture))?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Inspected(&mut capture))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, capture.taken.ok_or_else(none)?))
     }

@@ -29,12 +29,12 @@ pub(super) struct Running {
     /// The number of times that each draw was done in the newest frame.
     pub steps_drawn: Vec<u32>,
     /// The draw of the newest frame that is not done yet.
-    pub rest: Option<Rest>,
+    pub rest: Option<RemainingRows>,
 }
 
 /// A last draw of a frame that is not done yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rest {
+pub(super) struct RemainingRows {
     pub draw: usize,
     /// The first row that is not drawn.
     pub row: u32,
@@ -103,7 +103,7 @@ impl Running {
     pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
-        self.drop_rest();
+        self.drop_remaining();
         self.changes.invalidate();
         self.take(shared, new);
         Ok(())
@@ -130,7 +130,7 @@ impl Running {
     }
 
     /// Leaves a draw undone that was begun. The next frame does it.
-    pub fn drop_rest(&mut self) {
+    pub fn drop_remaining(&mut self) {
         if self.rest.take().is_some() {
             self.changes.invalidate();
         }
@@ -138,7 +138,7 @@ impl Running {
 
     /// Sets every target to its state before frame 0.
     pub fn reset(&mut self, shared: &Shared) {
-        self.drop_rest();
+        self.drop_remaining();
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
         let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
         for target in &self.targets {

@@ -132,7 +132,7 @@ impl Running {
         if !snapshot.is_of(self) {
             return false;
         }
-        self.drop_rest();
+        self.drop_remaining();
         let gpu = &shared.gpu;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("restore") });
         for (kept, target) in snapshot.targets.iter().zip(&mut self.targets) {

@@ -219,7 +219,7 @@ impl Running {
         input.init_accesskit(event_loop, &window, proxy.clone());
         let defaults = SessionOptions::default();
         let session_options = SessionOptions {
-            draws_apart: true,
+            draws_on_thread: true,
             frame_limit: options.frame_limit.unwrap_or(defaults.frame_limit),
             state_dir,
             cache_dir: dirs::cache_dir().map(|dir| dir.join("eddy")),

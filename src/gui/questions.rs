@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{self, Answer, Command, DiffLine, Question, Recovered, Session, Then},
+    session::{self, Answer, Command, DiffLine, PendingAction, Question, Recovered, Session},
 };
 use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use std::path::{Path, PathBuf};
@@ -100,14 +100,14 @@ fn name_of(answer: &Answer) -> &'static str {
     }
 }
 
-fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut Outbox) {
+fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], out: &mut Outbox) {
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
-        Then::Open(_) | Then::OpenProject { .. } => "by opening another project",
-        Then::Keep(_) => "by opening the new one",
-        Then::New => "by starting a new shader",
-        Then::Recover(_) => "by restoring the recovered project",
-        Then::Close => "by closing the window",
+        PendingAction::Open(_) | PendingAction::OpenProject { .. } => "by opening another project",
+        PendingAction::Keep(_) => "by opening the new one",
+        PendingAction::New => "by starting a new shader",
+        PendingAction::Recover(_) => "by restoring the recovered project",
+        PendingAction::Close => "by closing the window",
     };
     let mut list = session.unsaved_parts();
     // A question may have come before the edit that is saved since.

@@ -6,9 +6,9 @@
 //! Owns no window, no argument and no environment variable: the command line hands them in. Reads the clock only to
 //! measure what a frame costs ([`cost`]).
 
-pub mod apart;
 pub mod background;
 pub mod cost;
+pub mod difference;
 mod error;
 mod fingerprint;
 pub mod flip;

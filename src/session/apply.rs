@@ -5,7 +5,7 @@ use super::{
     Session,
     command::Command,
     state::CanvasSize,
-    tracing::Place,
+    tracing::TracedPixel,
     view::{About, Level},
 };
 use eddy_media::Keyboard;
@@ -133,7 +133,7 @@ impl Session {
             Command::StopReplay => self.end_replay("the picture continues live from there"),
             Command::Audit => self.ask_audit(),
             Command::HideAudit => self.auditing.map = None,
-            Command::FindParting => self.tracing.find_parting(),
+            Command::FindDivergence => self.tracing.find_divergence(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
                 if self.probing.want(place, self.documents.current()) {
@@ -150,7 +150,7 @@ impl Session {
                 if at.is_some() && self.probing.want(None, self.documents.current()) {
                     self.compile_soon();
                 }
-                self.tracing.want(at.map(|at| Place { pass, at }));
+                self.tracing.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
                 self.probing.set_look(look);

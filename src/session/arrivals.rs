@@ -5,7 +5,7 @@
 
 use super::{
     Session,
-    command::{Command, Then},
+    command::{Command, PendingAction},
     view::{About, Level},
 };
 use eddy_media::mesh;
@@ -22,7 +22,7 @@ impl Session {
         match project::arrival_of_text(text) {
             Ok(TextArrival::Project(loaded)) => {
                 self.tell_diagnostics(&loaded.warnings, &loaded.sources);
-                self.unless_unsaved(Then::Keep(Box::new(loaded.project)));
+                self.unless_unsaved(PendingAction::Keep(Box::new(loaded.project)));
             }
             Ok(TextArrival::Place(place)) => {
                 let path = Path::new(&place);
@@ -68,7 +68,7 @@ impl Session {
             None => {
                 let mut project = project::new_for(first, pictures.is_empty());
                 let done = self.put_in(&mut project, &PassId::Image, None, &pictures, &models);
-                self.unless_unsaved(Then::Keep(Box::new(project)));
+                self.unless_unsaved(PendingAction::Keep(Box::new(project)));
                 self.notice(Level::Info, format!("a new shader: {done}"));
             }
             Some((pass, channel)) => {

@@ -24,7 +24,7 @@ struct Job {
 }
 
 /// Holds what came of it.
-pub(super) struct Told {
+pub(super) struct AuditSummary {
     pub pass: PassId,
     pub pixels: usize,
     /// The largest difference of a component between the device and double precision.
@@ -64,7 +64,7 @@ pub struct WorstPixel {
 }
 
 pub(super) struct Auditing {
-    worker: Worker<Job, Result<Told, String>>,
+    worker: Worker<Job, Result<AuditSummary, String>>,
     /// Says whether what the shown pass read is to be taken.
     pub is_due: bool,
     /// The pass of which it is being taken.
@@ -111,7 +111,7 @@ impl Auditing {
     }
 
     /// Takes an audit that has ended; the error says why it gives nothing.
-    pub fn take(&mut self) -> Option<Result<Told, String>> {
+    pub fn take(&mut self) -> Option<Result<AuditSummary, String>> {
         Some(match self.worker.take()? {
             Ok(told) => told,
             Err(Panicked(why)) => Err(format!("this is a bug in Eddy: the CPU interpreter failed ({why})")),
@@ -119,7 +119,7 @@ impl Auditing {
     }
 }
 
-fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, String> {
+fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<AuditSummary, String> {
     let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass was removed")?;
     let pixels = audit::grid(PIXELS, &project.passes[index].settings, inputs.size);
     let found = audit::audit(&Sources::new(&project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
@@ -149,7 +149,7 @@ fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, Str
     let sources = project.sources();
     let findings =
         found.findings.iter().map(|finding| TabDiagnostic::new(&diagnostic(finding, &found), &sources, &project));
-    Ok(Told { pass, pixels: found.pixels.len(), error: largest, findings: findings.collect(), map })
+    Ok(AuditSummary { pass, pixels: found.pixels.len(), error: largest, findings: findings.collect(), map })
 }
 
 fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {

@@ -7,7 +7,7 @@ use super::{
     seeking::TimeRange,
     view::Level,
 };
-use eddy_playback::comparing::Against;
+use eddy_playback::comparing::Baseline;
 use eddy_project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -170,7 +170,7 @@ pub enum Command {
     HideAudit,
     /// Looks for the first assignment of the traced pixel that comes out otherwise on the device, beside the picture. See
     /// [`Session::parting`](super::Session::parting).
-    FindParting,
+    FindDivergence,
     /// Says whether somebody looks at what each pass costs: only then is it gathered. See
     /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),
@@ -192,7 +192,7 @@ pub enum Command {
     FindNonfinite(bool),
     /// Draws the frames since the reset once more beside the picture, by this project and by what it is compared with,
     /// from the same inputs; `None` ends that. See [`Session::comparison`](super::Session::comparison).
-    Compare(Option<Against>),
+    Compare(Option<Baseline>),
     /// A frame that takes longer pauses the picture.
     SetFrameLimit(Duration),
     /// Says whether a reload from disk starts time and buffers anew.
@@ -214,7 +214,7 @@ pub enum Command {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
     /// Unsaved changes stand before `then`. Answers: Save, Discard, Cancel.
-    Unsaved { then: Then, tabs: Vec<Tab> },
+    Unsaved { then: PendingAction, tabs: Vec<Tab> },
     /// A text changed on disk while its tab had unsaved edits. Answers: KeepMine, TakeDisk, SaveMineAs, and each keeps
     /// the other text: the one not taken is written beside the file (`image.glsl.mine-0001`, `image.glsl.disk-0001`).
     Conflict {
@@ -265,7 +265,7 @@ pub struct RecoveredTab {
 
 /// The action that goes on once nothing unsaved stands in the way.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Then {
+pub enum PendingAction {
     Open(String),
     OpenProject {
         project: Box<Project>,

@@ -7,7 +7,7 @@ use super::{
     tracing::{self, Taken},
     view::{About, Level},
 };
-use eddy_debugger::{divergence::PartingJob, nonfinite::SearchJob};
+use eddy_debugger::{divergence::DivergenceJob, nonfinite::SearchJob};
 use eddy_engine::{EngineError, FrameInputs, Pixels};
 use eddy_gpu::{Gpu, GpuError};
 use eddy_playback::run::{Replay, ReplayFrom, Run};
@@ -161,7 +161,7 @@ impl Session {
         self.changed |= self.run.measuring.drew(has_frame, done.measured);
         match done.replay {
             Some((ReplayFrom::Oldest, replay)) => self.look_through(replay),
-            Some((ReplayFrom::Newest, replay)) => self.find_parting(replay),
+            Some((ReplayFrom::Newest, replay)) => self.find_divergence(replay),
             None => {}
         }
         if let Some(run) = done.run {
@@ -253,7 +253,7 @@ impl Session {
     }
 
     /// Hands on the frames that lead to the traced one.
-    fn find_parting(&mut self, replay: Option<Replay>) {
+    fn find_divergence(&mut self, replay: Option<Replay>) {
         self.changed = true;
         let Some(traced) = self.tracing.finding.of() else { return };
         let Some(replay) = replay else {
@@ -264,7 +264,7 @@ impl Session {
         };
         match self.drawing.device().wait() {
             Err(e) => self.tracing.finding.failed(&e.to_string()),
-            Ok(gpu) => self.tracing.finding.submit(PartingJob {
+            Ok(gpu) => self.tracing.finding.submit(DivergenceJob {
                 gpu,
                 traced,
                 shown: self.run.shown.clone(),

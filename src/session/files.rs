@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    command::{Answer, Command, Question, Request, Then},
+    command::{Answer, Command, PendingAction, Question, Request},
     documents::Documents,
     recovery::{KEPT_DAYS, place_for_replaced},
     template,
@@ -25,12 +25,12 @@ impl Session {
             _ if self.question().is_some() => {
                 self.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
-            Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
-            Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
+            Command::Open(spec) => self.unless_unsaved(PendingAction::Open(spec)),
+            Command::OpenProject { project, size } => self.unless_unsaved(PendingAction::OpenProject { project, size }),
             Command::Paste(text) => self.paste(&text),
             Command::Bring { paths, to } => self.bring(paths, to),
-            Command::New => self.unless_unsaved(Then::New),
-            Command::Close => self.unless_unsaved(Then::Close),
+            Command::New => self.unless_unsaved(PendingAction::New),
+            Command::Close => self.unless_unsaved(PendingAction::Close),
             Command::Save => {
                 self.save();
             }
@@ -45,7 +45,7 @@ impl Session {
         self.changed = true;
     }
 
-    pub(super) fn unless_unsaved(&mut self, then: Then) {
+    pub(super) fn unless_unsaved(&mut self, then: PendingAction) {
         if self.is_dirty() {
             let tabs = self.documents.dirty_tabs();
             self.ask(Question::Unsaved { then, tabs });
@@ -54,22 +54,22 @@ impl Session {
         }
     }
 
-    fn go_on(&mut self, then: Then) {
+    fn go_on(&mut self, then: PendingAction) {
         match then {
-            Then::Open(spec) => self.open(&spec),
-            Then::OpenProject { project, size } => {
+            PendingAction::Open(spec) => self.open(&spec),
+            PendingAction::OpenProject { project, size } => {
                 self.replace(Documents::new(*project));
                 if size.is_some() {
                     self.canvas.asked.fixed = size;
                 }
             }
-            Then::New => {
+            PendingAction::New => {
                 self.replace(Documents::new(template::project()));
                 self.begun += 1;
             }
-            Then::Keep(project) => self.replace(Documents::restored(*project, template::project())),
-            Then::Recover(file) => self.recover(&file),
-            Then::Close => {
+            PendingAction::Keep(project) => self.replace(Documents::restored(*project, template::project())),
+            PendingAction::Recover(file) => self.recover(&file),
+            PendingAction::Close => {
                 self.end_recording();
                 self.keep_time();
                 self.forget_unsaved();

@@ -65,7 +65,7 @@ mod watch;
 
 pub use analysis::TabAnalysis;
 pub use auditing::{AuditMap, WorstPixel};
-pub use command::{Answer, Command, DiffLine, Question, Recovered, RecoveredTab, Request, Then};
+pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use costs::{PassCosts, TimedPass};
 pub use export::directive_errors;
 pub use options::{SessionError, SessionOptions};

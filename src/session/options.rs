@@ -25,7 +25,7 @@ pub struct SessionOptions {
     pub recovery: Option<PathBuf>,
     /// Draw on a thread and a device of their own, so that no tick waits for a frame. Off, each frame is drawn in the
     /// tick that it is due in.
-    pub draws_apart: bool,
+    pub draws_on_thread: bool,
     /// A frame that is drawn apart and takes longer pauses the picture.
     pub frame_limit: Duration,
     /// The settings of trials of large programs in a process of their own, where the driver compiles on the processor;
@@ -46,7 +46,7 @@ impl Default for SessionOptions {
             pictures: dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_else(|| PathBuf::from(".")),
             media_dir: None,
             recovery: None,
-            draws_apart: false,
+            draws_on_thread: false,
             frame_limit: Duration::from_secs(2),
             trials: None,
             state_dir: None,

@@ -2,11 +2,11 @@
 
 use super::{
     Session,
-    auditing::{AuditMap, Told},
+    auditing::{AuditMap, AuditSummary},
     tracing::Taken,
     view::{About, Level},
 };
-use eddy_debugger::divergence::PartingView;
+use eddy_debugger::divergence::DivergenceView;
 
 impl Session {
     /// Returns how far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while
@@ -16,8 +16,8 @@ impl Session {
     }
 
     /// The search for where the device parts from the walker in the traced pixel
-    /// ([`Command::FindParting`](super::Command::FindParting)); `None`: nobody has asked for it.
-    pub fn parting(&self) -> Option<PartingView<'_>> {
+    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None`: nobody has asked for it.
+    pub fn divergence(&self) -> Option<DivergenceView<'_>> {
         self.tracing.finding.view(self.tracing.view().traced?)
     }
 
@@ -34,7 +34,7 @@ impl Session {
     pub(super) fn take_audited(&mut self) {
         let Some(told) = self.auditing.take() else { return };
         self.changed = true;
-        let Told { pass, pixels, error, findings, map } = match told {
+        let AuditSummary { pass, pixels, error, findings, map } = match told {
             Ok(told) => told,
             Err(why) => return self.not_checked(&why),
         };

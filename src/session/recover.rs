@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    command::{Answer, Question, Recovered, Then},
+    command::{Answer, PendingAction, Question, Recovered},
     documents::Documents,
     recovery::{Left, News, Recovery},
     view::{About, Level},
@@ -53,7 +53,7 @@ impl Session {
     pub(super) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
         match answer {
             Answer::Recover if self.is_dirty() => {
-                let (then, tabs) = (Then::Recover(recovered.file.clone()), self.documents.dirty_tabs());
+                let (then, tabs) = (PendingAction::Recover(recovered.file.clone()), self.documents.dirty_tabs());
                 self.dialog.questions.push_front(Question::Unsaved { then, tabs });
             }
             Answer::Recover => self.recover(&recovered.file),

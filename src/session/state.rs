@@ -7,7 +7,7 @@ use super::{
     auditing::Auditing,
     buffers::Watching,
     clock::Clock,
-    command::{Question, Request, Then},
+    command::{PendingAction, Question, Request},
     compile,
     costs::Costs,
     debounce::Debounce,
@@ -177,7 +177,7 @@ pub(super) struct Dialog {
     pub questions: VecDeque<Question>,
     pub requests: VecDeque<Request>,
     /// The action that goes on after a Save As that a question led to.
-    pub after_save: Option<Then>,
+    pub after_save: Option<PendingAction>,
 }
 
 /// The picture over time.
@@ -228,10 +228,10 @@ impl Session {
     ) -> Result<Session, SessionError> {
         // Any size does until the first tick, which knows the viewport.
         let size = (640, 360);
-        let drawing = if options.draws_apart {
-            Drawing::apart(gpu.clone(), size, drawing::beside(gpu), wake.clone())?
+        let drawing = if options.draws_on_thread {
+            Drawing::on_thread(gpu.clone(), size, drawing::beside(gpu), wake.clone())?
         } else {
-            Drawing::here(gpu, size)?
+            Drawing::inline(gpu, size)?
         };
         let jobs = Arc::new(AtomicU64::new(0));
         let work = compile::work(drawing.device(), &options, jobs.clone());

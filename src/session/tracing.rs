@@ -14,14 +14,14 @@ pub(super) type Taken = (PassInputs, Pixels);
 
 /// A pixel of a pass: where in its picture, from 0 to 1 across and up.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct TracedPixel {
     pub pass: PassId,
     pub at: [f32; 2],
 }
 
 pub(super) struct Job {
     pub project: Project,
-    pub place: Place,
+    pub place: TracedPixel,
     pub frame: i32,
     pub taken: Taken,
 }
@@ -39,7 +39,7 @@ pub struct TraceView<'s> {
 pub(super) struct Tracing {
     worker: Worker<Job, Result<Traced, String>>,
     /// The pixel that is traced, again after each change of what it shows.
-    place: Option<Place>,
+    place: Option<TracedPixel>,
     /// The inputs of its pass are to be taken.
     pub is_due: bool,
     newest: Option<Arc<Traced>>,
@@ -60,7 +60,7 @@ impl Tracing {
     }
 
     /// Traces another pixel, or none.
-    pub fn want(&mut self, place: Option<Place>) {
+    pub fn want(&mut self, place: Option<TracedPixel>) {
         self.is_due = place.is_some();
         self.trouble = None;
         if place.is_none() {
@@ -77,7 +77,7 @@ impl Tracing {
         self.finding.forget();
     }
 
-    pub fn place(&self) -> Option<&Place> {
+    pub fn place(&self) -> Option<&TracedPixel> {
         self.place.as_ref()
     }
 
@@ -96,7 +96,7 @@ impl Tracing {
     }
 
     /// Looks for where the device parts from the walker in the traced pixel.
-    pub fn find_parting(&mut self) {
+    pub fn find_divergence(&mut self) {
         self.finding.want(self.newest.as_ref());
     }
 

@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     gpu::Gpu,
-    playback::comparing::Against,
+    playback::comparing::Baseline,
     project::{PassId, Tab},
     session::{
         Answer, Command, Level, Question, Session, SessionOptions, buffers::BufferWatch, probe::ProbePlace,
@@ -48,7 +48,12 @@ fn seen(session: &Session) -> String {
             (session.transport(), session.reach(), session.time_range(), session.halt(), session.has_last_good()),
             (session.compile_state().compiling, session.diagnostics(), said, session.question()),
             (session.audit_map(), session.probe().is_some(), session.trace().traced.is_some(), session.trace().trouble),
-            (session.parting().is_some(), session.search(), session.comparison().is_some(), session.buffer().is_some()),
+            (
+                session.divergence().is_some(),
+                session.search(),
+                session.comparison().is_some(),
+                session.buffer().is_some()
+            ),
             (session.texels_under().len(), session.miniature(&PassId::Image, 0).is_some(), measures, custom_uniforms),
             (session.pass_undo().is_some(), session.pass_redo().is_some(), session.recorded_frames()),
             session.is_first_frame_coming(),
@@ -126,7 +131,7 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
         Command::StepBack(5000),
         Command::Screenshot,
         Command::SaveTexels,
-        Command::Compare(Some(Against::LastSave)),
+        Command::Compare(Some(Baseline::LastSave)),
         Command::Notify { level: Level::Info, text: "of the window".into(), path: None },
     ];
     for command in everything {
@@ -137,7 +142,7 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
             std::thread::sleep(Duration::from_millis(2));
         }
     }
-    stage.session.apply(Command::FindParting);
+    stage.session.apply(Command::FindDivergence);
     stage.for_a_while();
     stage.session.apply(Command::Probe(Some(ProbePlace { tab: IMAGE, at: SHOW.find("texel").unwrap(), visit: 0 })));
     stage.until_compiled();
@@ -481,10 +486,10 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
 #[test]
 fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
     let Some(gpu) = support::gpu() else { return };
-    for (draws_apart, is_paused) in [(false, true), (true, true), (true, false)] {
+    for (draws_on_thread, is_paused) in [(false, true), (true, true), (true, false)] {
         let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
             cache_dir: Some(dir.join("cache")),
-            draws_apart,
+            draws_on_thread,
             ..SessionOptions::default()
         });
         let write = |stage: &Stage, name: &str, text: &str| {
@@ -515,7 +520,7 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         open(&mut stage, &a);
         assert_eq!(red(&stage, &a), None);
         open(&mut stage, &b);
-        assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_apart}");
+        assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_on_thread}");
         // It stays open, and something else is looked at.
         let (_, before) = stage.session.last_picture(&b).unwrap();
         stage.session.apply(Command::Cover(true));

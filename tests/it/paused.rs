@@ -131,7 +131,7 @@ fn looking_at_a_paused_picture_steps_nothing() {
         vec![probe(at + 6)],
         vec![Command::Probe(None)],
         vec![Command::Trace(Some([0.4, 0.6]))],
-        vec![Command::FindParting],
+        vec![Command::FindDivergence],
         vec![Command::Trace(None)],
         vec![Command::Audit],
         vec![Command::HideAudit],

@@ -11,7 +11,8 @@ use eddy::{
     },
     project::{self, Channel, Input, PassEdit, PassId, Sampler, Tab},
     session::{
-        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, SessionOptions, TabDiagnostic, Then,
+        Answer, Command, Level, Meanwhile, Outcome, PendingAction, Question, Request, Session, SessionOptions,
+        TabDiagnostic,
     },
 };
 use std::{
@@ -238,9 +239,9 @@ fn nothing_unsaved_is_left_without_a_question() {
 
     stage.edit(&plain(0.4));
     for (command, then) in [
-        (Command::Close, Then::Close),
-        (Command::New, Then::New),
-        (Command::Open("no such thing".into()), Then::Open("no such thing".into())),
+        (Command::Close, PendingAction::Close),
+        (Command::New, PendingAction::New),
+        (Command::Open("no such thing".into()), PendingAction::Open("no such thing".into())),
     ] {
         stage.session.apply(command);
         assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![IMAGE] }));

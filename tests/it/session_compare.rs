@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     playback::{
-        comparing::{Against, Compared, Comparison},
+        comparing::{Baseline, Compared, Comparison},
         trial::TrialSettings,
     },
     project::PassId,
@@ -28,7 +28,7 @@ fn ended(session: &Session) -> Option<Result<&Arc<Comparison>, &str>> {
 }
 
 /// Compares, and waits for the end.
-fn compare(stage: &mut Stage, against: Against) -> Result<Arc<Comparison>, String> {
+fn compare(stage: &mut Stage, against: Baseline) -> Result<Arc<Comparison>, String> {
     stage.session.apply(Command::Compare(Some(against)));
     assert!(matches!(stage.session.comparison(), Some(Compared::UnderWay { .. })));
     stage.until("the end of a comparison", |s| ended(s).is_some());
@@ -62,7 +62,7 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     let mut stage = Stage::open(gpu, &FILES);
     stage.session.apply(Command::Reset);
     run(&mut stage);
-    let same = compare(&mut stage, Against::LastSave).unwrap();
+    let same = compare(&mut stage, Baseline::LastSave).unwrap();
     let frame = stage.session.transport().frame;
     assert_eq!((same.frame, same.is_cut, (same.ours.width, same.ours.height)), (frame, false, (12, 6)));
     assert!(same.frames >= 9 && !same.turns.is_empty() && same.turns.iter().all(|(a, b)| *a > 0.0 && *b > 0.0));
@@ -79,7 +79,7 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     stage.edit(MORE);
     stage.until_compiled();
     assert!(stage.session.is_comparison_old());
-    let edited = compare(&mut stage, Against::LastSave).unwrap();
+    let edited = compare(&mut stage, Baseline::LastSave).unwrap();
     // Image's alpha is 1, whatever is written there.
     let more: Vec<[f32; 4]> =
         edited.theirs.texels.iter().map(|t| [t[0] + 0.25, t[1] + 0.25, t[2] + 0.25, t[3]]).collect();
@@ -103,7 +103,7 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
     });
     let other = stage.dir.path().join("other.glsl");
     fs::write(&other, text.replace("p.x", "p.y")).unwrap();
-    let found = compare(&mut stage, Against::Project(other.display().to_string())).unwrap();
+    let found = compare(&mut stage, Baseline::Project(other.display().to_string())).unwrap();
     assert_eq!((found.frames, found.is_cut, found.pass.clone()), (1, false, PassId::Image));
     let frame = stage.session.transport().frame as f32;
     assert_eq!((found.ours.texels[9][0], found.theirs.texels[9][0]), (frame, frame));
@@ -116,31 +116,31 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.25))]);
     let folder = stage.folder();
-    let wrong = compare(&mut stage, Against::Revision("HEAD".into())).unwrap_err();
+    let wrong = compare(&mut stage, Baseline::Revision("HEAD".into())).unwrap_err();
     assert!(wrong.contains("git has no such revision"), "{wrong}");
     support::git::commit_all(&folder);
     stage.edit(&plain(0.5));
     stage.until_compiled();
     stage.session.apply(Command::Save);
-    let found = compare(&mut stage, Against::Revision("HEAD".into())).unwrap();
+    let found = compare(&mut stage, Baseline::Revision("HEAD".into())).unwrap();
     assert_eq!((found.ours.texels[0][0], found.theirs.texels[0][0]), (0.5, 0.25));
-    let same = compare(&mut stage, Against::LastSave).unwrap();
+    let same = compare(&mut stage, Baseline::LastSave).unwrap();
     assert_eq!((same.ours.texels[0][0], same.theirs.texels[0][0]), (0.5, 0.5));
 
-    let wrong = compare(&mut stage, Against::Revision("v9".into())).unwrap_err();
+    let wrong = compare(&mut stage, Baseline::Revision("v9".into())).unwrap_err();
     assert!(wrong.contains("git has no such revision") && wrong.contains("v9"), "{wrong}");
-    let wrong = compare(&mut stage, Against::Project("nowhere".into())).unwrap_err();
+    let wrong = compare(&mut stage, Baseline::Project("nowhere".into())).unwrap_err();
     assert!(wrong.starts_with("cannot open nowhere"), "{wrong}");
     let broken = stage.dir.path().join("broken.glsl");
     fs::write(&broken, "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0) + lenght(p);\n}\n").unwrap();
-    let wrong = compare(&mut stage, Against::Project(broken.display().to_string())).unwrap_err();
+    let wrong = compare(&mut stage, Baseline::Project(broken.display().to_string())).unwrap_err();
     assert!(wrong.contains("broken.glsl") && wrong.contains("lenght") && wrong.contains('2'), "{wrong}");
     // One that is stopped leaves what was there before, and the next one begins.
-    stage.session.apply(Command::Compare(Some(Against::LastSave)));
+    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
     stage.session.apply(Command::Compare(None));
     stage.for_a_while();
     assert!(ended(&stage.session).is_some_and(|end| end.is_err()));
-    assert!(compare(&mut stage, Against::LastSave).is_ok());
+    assert!(compare(&mut stage, Baseline::LastSave).is_ok());
 }
 
 /// The other project may be a stranger's, and one that the driver takes minutes for.
@@ -164,7 +164,7 @@ fn a_large_project_to_compare_with_is_tried_first() {
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.until_compiled();
     stage.until("a frame", |s| s.transport().frame > 0);
-    let refused = compare(&mut stage, Against::Project(other.to_str().unwrap().into())).unwrap_err();
+    let refused = compare(&mut stage, Baseline::Project(other.to_str().unwrap().into())).unwrap_err();
     assert!(refused.contains("other.glsl: error: the graphics driver cannot compile Image"), "{refused}");
     assert!(refused.contains("of memory"), "{refused}");
 }

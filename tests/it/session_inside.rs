@@ -92,7 +92,7 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
 #[test]
 fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     let Some(gpu) = support::gpu() else { return };
-    let mut stage = Stage::with_options(gpu, |_| SessionOptions { draws_apart: true, ..SessionOptions::default() });
+    let mut stage = Stage::with_options(gpu, |_| SessionOptions { draws_on_thread: true, ..SessionOptions::default() });
     FILES.iter().for_each(|(name, text)| stage.write(name, text));
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));

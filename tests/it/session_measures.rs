@@ -169,7 +169,7 @@ fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
     let Some(gpu) = support::gpu() else { return };
     let run = |measures: bool| {
         let mut stage =
-            Stage::with_options(gpu.clone(), |_| SessionOptions { draws_apart: true, ..SessionOptions::default() });
+            Stage::with_options(gpu.clone(), |_| SessionOptions { draws_on_thread: true, ..SessionOptions::default() });
         files().iter().for_each(|(name, text)| stage.write(name, text));
         let folder = stage.folder();
         stage.session.apply(Command::Open(folder.to_str().unwrap().into()));

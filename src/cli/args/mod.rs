@@ -85,7 +85,7 @@ pub enum Command {
     Import(ImportArgs),
     /// Convert a project to a Shadertoy JSON file
     Export(ExportArgs),
-    /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see session/trial.rs
+    /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see playback/trial.rs
     #[command(hide = true, name = COMMAND)]
     TryCompile,
 }

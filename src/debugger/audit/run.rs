@@ -7,7 +7,7 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    fragment::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
+    fragment::{AtPixel, Fragment, Origin, PassFragments, own_texels},
     trace::TraceError,
 };
 use eddy_diag::SourceId;
@@ -89,7 +89,7 @@ pub fn audit(
     pixels: &[(u32, u32)],
     limit: u64,
 ) -> Result<Audit, TraceError> {
-    let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
+    let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
     let mut audit = audit_pixels(&pass, sources, inputs.size, pixels)?;
     let Some(first) = audit.pixels.first().map(|audited| audited.pixel) else { return Ok(audit) };
     for (span, is_undefined, what) in pass.programs().flat_map(Walkable::faults) {
@@ -112,12 +112,12 @@ pub fn audit_pixel(
     pixel: (u32, u32),
     limit: u64,
 ) -> Result<Audit, TraceError> {
-    let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
+    let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
     audit_pixels(&pass, sources, inputs.size, &[pixel])
 }
 
 fn audit_pixels(
-    pass: &WalkedPass<'_>,
+    pass: &PassFragments<'_>,
     sources: &Sources<'_>,
     size: (u32, u32),
     pixels: &[(u32, u32)],
@@ -159,17 +159,17 @@ fn audit_pixels(
 }
 
 fn walked(
-    pass: &WalkedPass<'_>,
+    pass: &PassFragments<'_>,
     sources: &Sources<'_>,
     pixel: (u32, u32),
 ) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
     let at = match pass.at(pixel)? {
-        AtPixel::Walked(at) => at,
-        AtPixel::Unwalked(Origin::Clear) => {
+        AtPixel::Fragment(at) => at,
+        AtPixel::Undrawn(Origin::Clear) => {
             let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
             return Ok(Some((audited, Vec::new())));
         }
-        AtPixel::Unwalked(_) => return Ok(None),
+        AtPixel::Undrawn(_) => return Ok(None),
     };
     let mut watch = Watch::new(at.walkable, sources, &at.world);
     let drawn = walk(&at, &mut watch)?;
@@ -184,7 +184,7 @@ fn walked(
 }
 
 /// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
-pub(super) fn walk(at: &WalkedPixel<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
+pub(super) fn walk(at: &Fragment<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
     let drawn = at.machine::<Shadowed>().run(at.lane, observer)?;
     Ok(at.value(&drawn).unwrap_or([Shadowed { single: 0.0, double: 0.0 }; 4]))
 }

@@ -4,7 +4,7 @@
 use super::{
     assignment::assignments,
     probes::Probes,
-    search::{Parted, search},
+    search::{DivergenceFound, search},
 };
 use crate::trace::{Extent, STEPS, Traced};
 use eddy_background::{Panicked, Worker};
@@ -21,13 +21,13 @@ pub const STEPS_KEPT: usize = 200_000;
 
 /// Says how a search for the place where the device parts stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PartingView<'s> {
+pub enum DivergenceView<'s> {
     UnderWay,
-    Ended(&'s Result<Parted, String>),
+    Ended(&'s Result<DivergenceFound, String>),
 }
 
 /// A traced pixel, and the frames that lead to it.
-pub struct PartingJob {
+pub struct DivergenceJob {
     pub gpu: Gpu,
     pub traced: Arc<Traced>,
     pub shown: PassId,
@@ -41,17 +41,17 @@ pub struct PartingJob {
 
 /// A search, if somebody has asked for one.
 pub struct Finding {
-    worker: Worker<PartingJob, (Arc<Traced>, Result<Parted, String>)>,
+    worker: Worker<DivergenceJob, (Arc<Traced>, Result<DivergenceFound, String>)>,
     /// The frames are to be handed out.
     is_due: bool,
     /// Holds what the search is of.
     of: Option<Arc<Traced>>,
-    end: Option<Result<Parted, String>>,
+    end: Option<Result<DivergenceFound, String>>,
 }
 
 impl Finding {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let worker = Worker::new("parting", wake, |job: PartingJob| (job.traced.clone(), found(job)))?;
+        let worker = Worker::new("divergence", wake, |job: DivergenceJob| (job.traced.clone(), found(job)))?;
         Ok(Self { worker, is_due: false, of: None, end: None })
     }
 
@@ -77,7 +77,7 @@ impl Finding {
         self.of.clone()
     }
 
-    pub fn submit(&mut self, job: PartingJob) {
+    pub fn submit(&mut self, job: DivergenceJob) {
         self.worker.submit(job);
     }
 
@@ -101,14 +101,14 @@ impl Finding {
     }
 
     /// The search for a traced pixel; `None`: nobody has asked for one.
-    pub fn view(&self, traced: &Arc<Traced>) -> Option<PartingView<'_>> {
+    pub fn view(&self, traced: &Arc<Traced>) -> Option<DivergenceView<'_>> {
         self.of.as_ref().filter(|of| Arc::ptr_eq(of, traced))?;
-        Some(self.end.as_ref().map_or(PartingView::UnderWay, PartingView::Ended))
+        Some(self.end.as_ref().map_or(DivergenceView::UnderWay, DivergenceView::Ended))
     }
 }
 
-fn found(job: PartingJob) -> Result<Parted, String> {
-    let PartingJob { gpu, traced, shown, size, media_dir, snapshot, mut frames } = job;
+fn found(job: DivergenceJob) -> Result<DivergenceFound, String> {
+    let DivergenceJob { gpu, traced, shown, size, media_dir, snapshot, mut frames } = job;
     let (project, pass) = (&traced.project, &traced.pass);
     let Some((inputs, values)) = frames.pop().filter(|(inputs, _)| inputs.frame == traced.frame) else {
         return Err("the shown frame has changed: trace the pixel again".into());

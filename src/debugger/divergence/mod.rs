@@ -12,7 +12,7 @@ mod probes;
 mod search;
 
 pub use assignment::{Assignment, assignments};
-pub use finding::{Finding, PartingJob};
-pub use finding::{MOST, PartingView, STEPS_KEPT};
+pub use finding::{DivergenceJob, Finding};
+pub use finding::{DivergenceView, MOST, STEPS_KEPT};
 pub use probes::{ProbeError, Probes};
-pub use search::{Parted, Parting, search};
+pub use search::{Divergence, DivergenceFound, search};

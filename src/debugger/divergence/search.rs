@@ -5,7 +5,7 @@ use crate::trace::{Number, ulps};
 
 /// An assignment that comes out otherwise on the device.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parting {
+pub struct Divergence {
     pub assignment: Assignment,
     /// Holds what the device has; `None`: it does not come there so often.
     pub device: Option<Vec<f32>>,
@@ -15,8 +15,8 @@ pub struct Parting {
 
 /// Holds what a search has found.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Parted {
-    pub first: Option<Parting>,
+pub struct DivergenceFound {
+    pub first: Option<Divergence>,
     /// Assignments that were compared, of so many.
     pub compared: usize,
     pub of: usize,
@@ -31,14 +31,14 @@ pub fn search<E>(
     assignments: Vec<Assignment>,
     most: usize,
     mut draw: impl FnMut(&Assignment) -> Result<Option<[f32; 4]>, E>,
-) -> Result<Parted, E> {
+) -> Result<DivergenceFound, E> {
     let of = assignments.len();
-    let mut compared: Vec<Option<Option<Parting>>> = vec![None; of];
+    let mut compared: Vec<Option<Option<Divergence>>> = vec![None; of];
     let mut count = 0;
-    let mut parts = |at: usize, count: &mut usize, compared: &mut Vec<Option<Option<Parting>>>| {
+    let mut parts = |at: usize, count: &mut usize, compared: &mut Vec<Option<Option<Divergence>>>| {
         if compared[at].is_none() {
             *count += 1;
-            compared[at] = Some(parting(&assignments[at], draw(&assignments[at])?));
+            compared[at] = Some(divergence(&assignments[at], draw(&assignments[at])?));
         }
         Ok(compared[at].as_ref().is_some_and(Option::is_some))
     };
@@ -56,13 +56,13 @@ pub fn search<E>(
         }
     }
     let first = compared.into_iter().flatten().flatten().next();
-    Ok(Parted { first, compared: count, of })
+    Ok(DivergenceFound { first, compared: count, of })
 }
 
 /// The difference of an assignment, if there is one.
-fn parting(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Parting> {
+fn divergence(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Divergence> {
     let Some(device) = device else {
-        return Some(Parting { assignment: assignment.clone(), device: None, ulps: Vec::new() });
+        return Some(Divergence { assignment: assignment.clone(), device: None, ulps: Vec::new() });
     };
     let walker = assignment.walker.iter().map(|number| match *number {
         Number::Float(value) => value,
@@ -70,7 +70,7 @@ fn parting(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Parting>
     });
     let ulps: Vec<u32> = walker.zip(device).map(|(walker, device)| ulps(walker, device)).collect();
     let device = Some(device[..ulps.len()].to_vec());
-    ulps.iter().any(|ulps| *ulps > 0).then(|| Parting { assignment: assignment.clone(), device, ulps })
+    ulps.iter().any(|ulps| *ulps > 0).then(|| Divergence { assignment: assignment.clone(), device, ulps })
 }
 
 #[cfg(test)]

@@ -22,6 +22,6 @@ mod writer;
 
 pub use error::WalkError;
 pub use origin::{MeshFragment, Origin};
-pub use pass::WalkedPass;
-pub use pixel::{AtPixel, WalkedPixel};
+pub use pass::PassFragments;
+pub use pixel::{AtPixel, Fragment};
 pub use writer::own_texels;

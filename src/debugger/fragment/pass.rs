@@ -3,7 +3,7 @@
 use super::{
     error::WalkError,
     origin::Origin,
-    pixel::{AtPixel, WalkedPixel},
+    pixel::{AtPixel, Fragment},
     raster::Raster,
     writer::Writer,
 };
@@ -15,7 +15,7 @@ use eddy_glsl::{
 use eddy_project::PassSettings;
 
 /// The programs of a pass, and for one that draws meshes its triangles in the picture. Made once for all pixels.
-pub struct WalkedPass<'p> {
+pub struct PassFragments<'p> {
     inputs: &'p PassInputs,
     body: Body<'p>,
     settings: PassSettings,
@@ -29,7 +29,7 @@ enum Body<'p> {
     Meshes(Raster<'p>),
 }
 
-impl<'p> WalkedPass<'p> {
+impl<'p> PassFragments<'p> {
     /// Lowers `project.passes[index]`; of one that draws meshes all vertices are transformed. A program is given up
     /// after `limit` statements.
     ///
@@ -56,26 +56,26 @@ impl<'p> WalkedPass<'p> {
         let (walkable, inputs, origin) = match Writer::of(&self.settings, self.inputs.size, pixel) {
             Writer::Boundary => match &self.boundary {
                 Some(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Boundary),
-                None => return Ok(AtPixel::Unwalked(Origin::Boundary)),
+                None => return Ok(AtPixel::Undrawn(Origin::Boundary)),
             },
             // Where meshes are drawn all is cleared first, beyond the region too.
             Writer::Nothing(region)
                 if self.settings.meshes().is_some() && region.within(self.inputs.size).is_some() =>
             {
-                return Ok(AtPixel::Unwalked(Origin::Clear));
+                return Ok(AtPixel::Undrawn(Origin::Clear));
             }
-            Writer::Nothing(region) => return Ok(AtPixel::Unwalked(Origin::Outside(region))),
+            Writer::Nothing(region) => return Ok(AtPixel::Undrawn(Origin::Outside(region))),
             Writer::Programs => match &self.body {
                 Body::Screen(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Screen),
                 Body::Meshes(raster) => {
-                    let Some(fragment) = raster.shown(pixel)? else { return Ok(AtPixel::Unwalked(Origin::Clear)) };
+                    let Some(fragment) = raster.shown(pixel)? else { return Ok(AtPixel::Undrawn(Origin::Clear)) };
                     (raster.walkable(fragment.draw), raster.entry(fragment, pixel)?, Origin::Mesh(fragment))
                 }
             },
         };
         let world = self.inputs.of_draw(origin.draw());
         let lane = Machine::<f32>::lane_of(pixel);
-        Ok(AtPixel::Walked(WalkedPixel { walkable, world, inputs, origin, lane, limit: self.limit }))
+        Ok(AtPixel::Fragment(Fragment { walkable, world, inputs, origin, lane, limit: self.limit }))
     }
 
     /// Every program of the pass.

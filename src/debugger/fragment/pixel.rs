@@ -11,13 +11,13 @@ use eddy_glsl::{
 /// Says what there is to walk at a pixel.
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and nearly all are walked")]
 pub enum AtPixel<'p> {
-    Walked(WalkedPixel<'p>),
+    Fragment(Fragment<'p>),
     /// No program leaves its value there, or none that can be walked: the texels of a boundary may be a picture's.
-    Unwalked(Origin),
+    Undrawn(Origin),
 }
 
 /// The program that leaves its value in a texel, and what it is handed there.
-pub struct WalkedPixel<'p> {
+pub struct Fragment<'p> {
     pub walkable: &'p Walkable,
     pub world: DrawInputs<'p>,
     pub inputs: EntryInputs,
@@ -28,7 +28,7 @@ pub struct WalkedPixel<'p> {
     pub limit: u64,
 }
 
-impl WalkedPixel<'_> {
+impl Fragment<'_> {
     /// The machine that walks the pixel.
     pub fn machine<R: Real>(&self) -> Machine<'_, R> {
         Machine::new(&self.walkable.program, &self.world, self.inputs.clone(), self.limit)

@@ -7,7 +7,7 @@ use super::{
     ulps,
     watch::{Watched, Watches},
 };
-use crate::fragment::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel};
+use crate::fragment::{AtPixel, Fragment, MeshFragment, Origin, PassFragments};
 use eddy_diag::{SourceId, Span};
 use eddy_engine::{PassInputs, Pixels, Sources};
 use eddy_glsl::{
@@ -89,15 +89,15 @@ impl Traced {
         let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
         let pixel = (texel(place[0], inputs.size.0), texel(place[1], inputs.size.1));
         let sources = Sources::new(&project);
-        let walked = WalkedPass::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
+        let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
         drop(sources);
         let at = match walked.at(pixel)? {
-            AtPixel::Unwalked(Origin::Clear) => return Err(TraceError::Clear(pixel)),
-            AtPixel::Unwalked(Origin::Outside(region)) => return Err(TraceError::Kept { pixel, region }),
-            AtPixel::Unwalked(_) | AtPixel::Walked(WalkedPixel { origin: Origin::Boundary, .. }) => {
+            AtPixel::Undrawn(Origin::Clear) => return Err(TraceError::Clear(pixel)),
+            AtPixel::Undrawn(Origin::Outside(region)) => return Err(TraceError::Kept { pixel, region }),
+            AtPixel::Undrawn(_) | AtPixel::Fragment(Fragment { origin: Origin::Boundary, .. }) => {
                 return Err(TraceError::Boundary { pixel, written: boundary(&project, index) });
             }
-            AtPixel::Walked(at) => at,
+            AtPixel::Fragment(at) => at,
         };
         let mut recorder = HistoryRecorder::new(at.walkable);
         // One walk gives both: the numbers of single precision know nothing of those beside them.

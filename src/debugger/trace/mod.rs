@@ -19,7 +19,7 @@ pub use number::Number;
 pub use step::{Event, Step};
 pub use watch::Watched;
 
-use crate::fragment::{AtPixel, WalkError, WalkedPass};
+use crate::fragment::{AtPixel, PassFragments, WalkError};
 use eddy_diag::Diagnostic;
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{
@@ -111,7 +111,7 @@ impl Default for Extent {
 
 /// A pass in one frame, of which any number of pixels can be traced.
 pub struct Tracer<'p> {
-    pass: WalkedPass<'p>,
+    pass: PassFragments<'p>,
     size: (u32, u32),
     extent: Extent,
 }
@@ -124,7 +124,7 @@ impl<'p> Tracer<'p> {
         inputs: &'p PassInputs,
         extent: Extent,
     ) -> Result<Self, TraceError> {
-        let pass = WalkedPass::new(sources, index, inputs, Detail::Values, extent.statements)?;
+        let pass = PassFragments::new(sources, index, inputs, Detail::Values, extent.statements)?;
         Ok(Self { pass, size: inputs.size, extent })
     }
 
@@ -134,8 +134,8 @@ impl<'p> Tracer<'p> {
             return Err(TraceError::Outside { pixel, size: self.size });
         }
         let at = match self.pass.at(pixel)? {
-            AtPixel::Walked(at) => at,
-            AtPixel::Unwalked(origin) => {
+            AtPixel::Fragment(at) => at,
+            AtPixel::Undrawn(origin) => {
                 let is_clear = origin == Origin::Clear;
                 let (value, double) = (is_clear.then_some([0.0; 4]), is_clear.then_some([0.0; 4]));
                 return Ok(Trace { steps: Vec::new(), left_out: 0, value, double, statements: 0, origin });

@@ -2,7 +2,7 @@
 
 use crate::{
     engine::Pixels,
-    lab::apart::{Apart, Times},
+    lab::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
 };
 use egui::ColorImage;
@@ -14,7 +14,7 @@ use std::sync::{
 /// A comparison as the window shows it.
 pub struct Figures {
     pub comparison: Arc<Comparison>,
-    pub apart: Apart,
+    pub apart: PictureDifference,
     /// `None` where no turns were taken.
     pub times: Option<Times>,
     pub ours: ColorImage,
@@ -25,7 +25,7 @@ pub struct Figures {
 
 impl Figures {
     fn new(comparison: Arc<Comparison>) -> Option<Self> {
-        let apart = Apart::new(&comparison.ours, &comparison.theirs)?;
+        let apart = PictureDifference::new(&comparison.ours, &comparison.theirs)?;
         let size = [comparison.ours.width as usize, comparison.ours.height as usize];
         let grey: Vec<u8> = apart.flip.iter().map(|x| (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8).collect();
         Some(Self {

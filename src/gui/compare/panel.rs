@@ -10,7 +10,7 @@ use crate::{
         outbox::{Outbox, Pick, Wish},
         theme,
     },
-    lab::apart::{Apart, Times},
+    lab::difference::{PictureDifference, Times},
     playback::comparing::{Compared, Comparison},
     session::{Command, Outcome, Session},
 };
@@ -172,7 +172,7 @@ fn whereabouts(comparison: &Comparison) -> String {
     format!("{} in frame {frame}, {}x{}, against {}{cut}", pass.title(), ours.width, ours.height, against.name())
 }
 
-pub(super) fn distance(apart: &Apart, comparison: &Comparison) -> String {
+pub(super) fn distance(apart: &PictureDifference, comparison: &Comparison) -> String {
     if apart.texels_apart == 0 {
         return "Identical in every bit".to_owned();
     }

@@ -2,8 +2,8 @@
 
 use super::figures::{self, Figures};
 use crate::{
-    lab::apart,
-    playback::comparing::{Against, Compared, Comparison},
+    lab::difference,
+    playback::comparing::{Baseline, Compared, Comparison},
     session::Session,
 };
 use egui::{TextureHandle, TextureOptions};
@@ -97,12 +97,12 @@ impl Compare {
     }
 
     /// Returns what is asked for; `None` where its name is not yet typed.
-    pub(super) fn against(&self) -> Option<Against> {
+    pub(super) fn against(&self) -> Option<Baseline> {
         let typed = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
         match self.choice {
-            Choice::LastSave => Some(Against::LastSave),
-            Choice::Project => typed(&self.project).map(Against::Project),
-            Choice::Revision => typed(&self.revision).map(Against::Revision),
+            Choice::LastSave => Some(Baseline::LastSave),
+            Choice::Project => typed(&self.project).map(Baseline::Project),
+            Choice::Revision => typed(&self.revision).map(Baseline::Revision),
         }
     }
 
@@ -141,7 +141,7 @@ impl Seen {
         let made = self.difference.take().filter(|(_, of)| *of == gain);
         let made = made.unwrap_or_else(|| {
             let comparison = &self.figures.comparison;
-            let pixels = apart::difference(&comparison.ours, &comparison.theirs, gain as f32);
+            let pixels = difference::difference(&comparison.ours, &comparison.theirs, gain as f32);
             (ctx.load_texture("difference", figures::image(&pixels), options()), gain)
         });
         &self.difference.insert(made).0

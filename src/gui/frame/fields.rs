@@ -3,7 +3,7 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
     gui::dock::Panel,
-    playback::comparing::{Against, Compared},
+    playback::comparing::{Baseline, Compared},
     session::{Command, probe::ProbePlace},
 };
 use egui::{
@@ -143,7 +143,7 @@ fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
     stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
     stage.state_mut().shell.set_open(Panel::Trace, true);
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
-    stage.state_mut().session.apply(Command::Compare(Some(Against::LastSave)));
+    stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
     until(&mut stage, "a comparison", |stage| {
         matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
     });

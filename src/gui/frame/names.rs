@@ -4,7 +4,7 @@
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
 use crate::{
     gui::dock::Panel,
-    playback::comparing::{Against, Compared},
+    playback::comparing::{Baseline, Compared},
     session::{Command, Level, Question, SessionOptions, probe::ProbePlace},
 };
 use egui::{Key, Modifiers};
@@ -95,7 +95,7 @@ fn every_panel_has_names() {
     stage.run_steps(2);
     stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
-    stage.state_mut().session.apply(Command::Compare(Some(Against::LastSave)));
+    stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
     until(&mut stage, "a comparison", |stage| {
         matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
     });

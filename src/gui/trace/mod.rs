@@ -4,9 +4,9 @@
 //! and where a step leads to, is [`crate::debugger::trace`]'s.
 
 mod debugger;
+mod divergence;
 mod moment;
 mod panel;
-mod parting;
 mod parts;
 mod report;
 mod rows;

@@ -2,8 +2,9 @@
 
 use super::{
     debugger::Debugger,
+    divergence,
     moment::words,
-    parting, parts,
+    parts,
     rows::{self, Asked},
     signs,
 };
@@ -64,7 +65,7 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
     };
     whereabouts(debugger, &traced, ui, out);
     // The foot stays in sight while there is room for it and for what is above; else it is scrolled to.
-    let room = ui.available_height() - parting::height(ui);
+    let room = ui.available_height() - divergence::height(ui);
     let has_foot = room >= LEAST;
     let height = if has_foot { room } else { ui.available_height() };
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
@@ -86,11 +87,11 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
             printed(debugger, ui, out);
         }
         if !has_foot {
-            parting::show(&traced, session, ui, out);
+            divergence::show(&traced, session, ui, out);
         }
     });
     if has_foot {
-        parting::show(&traced, session, ui, out);
+        divergence::show(&traced, session, ui, out);
     }
 }
 

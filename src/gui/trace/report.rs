@@ -3,7 +3,7 @@
 use super::{debugger::Debugger, moment::words};
 use crate::{
     debugger::{
-        divergence::PartingView,
+        divergence::DivergenceView,
         trace::{Printed, Watched},
     },
     session::Session,
@@ -64,11 +64,11 @@ impl Debugger {
 
 /// The search for where the device parts: its name, its line and how far it is apart there.
 fn parted(session: &Session) -> Value {
-    match session.parting() {
+    match session.divergence() {
         None => Value::Null,
-        Some(PartingView::UnderWay) => json!("under way"),
-        Some(PartingView::Ended(Err(why))) => json!({ "trouble": why }),
-        Some(PartingView::Ended(Ok(parted))) => json!({
+        Some(DivergenceView::UnderWay) => json!("under way"),
+        Some(DivergenceView::Ended(Err(why))) => json!({ "trouble": why }),
+        Some(DivergenceView::Ended(Ok(parted))) => json!({
             "compared": parted.compared,
             "name": parted.first.as_ref().map(|first| &first.assignment.name),
             "ulps": parted.first.as_ref().map(|first| &first.ulps),

@@ -9,7 +9,7 @@ use std::sync::{
 
 /// Names what the open project is compared with.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum Baseline {
     /// The project as it was last saved, read or begun.
     LastSave,
     /// A PROJECT of the command line: a folder, a file, or a preset's name.
@@ -18,13 +18,13 @@ pub enum Against {
     Revision(String),
 }
 
-impl Against {
+impl Baseline {
     /// Returns the name of the reference.
     pub fn name(&self) -> String {
         match self {
-            Against::LastSave => "the last save".to_owned(),
-            Against::Project(spec) => spec.clone(),
-            Against::Revision(revision) => format!("revision {revision}"),
+            Baseline::LastSave => "the last save".to_owned(),
+            Baseline::Project(spec) => spec.clone(),
+            Baseline::Revision(revision) => format!("revision {revision}"),
         }
     }
 }
@@ -32,7 +32,7 @@ impl Against {
 /// The pictures of two projects, and the times that they took in turns.
 #[derive(Debug)]
 pub struct Comparison {
-    pub against: Against,
+    pub against: Baseline,
     pub pass: PassId,
     /// `iFrame` of the pictures.
     pub frame: i32,

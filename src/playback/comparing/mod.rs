@@ -5,6 +5,6 @@ mod comparison;
 mod order;
 mod work;
 
-pub use comparison::{Against, Compared, Comparison, ComparisonView};
+pub use comparison::{Baseline, Compared, Comparison, ComparisonView};
 
 pub use order::{Comparing, Order};

@@ -1,7 +1,7 @@
 //! The comparison that somebody has asked for, on a thread of its own.
 
 use super::{
-    comparison::{Against, Compared, Comparison, ComparisonView, Progress},
+    comparison::{Baseline, Compared, Comparison, ComparisonView, Progress},
     work::{self, Job, Reference},
 };
 use crate::run::Run;
@@ -36,7 +36,7 @@ type End = Option<Result<Arc<Comparison>, String>>;
 
 pub struct Comparing {
     worker: Worker<(Job, Arc<Progress>), End>,
-    against: Option<Against>,
+    against: Option<Baseline>,
     /// The frames are to be handed out.
     pub is_due: bool,
     progress: Arc<Progress>,
@@ -57,7 +57,7 @@ impl Comparing {
     }
 
     /// Begins anew, or stops. What was found before stays until there is something newer.
-    pub fn want(&mut self, against: Option<Against>) {
+    pub fn want(&mut self, against: Option<Baseline>) {
         self.progress.is_over.store(true, Ordering::Relaxed);
         self.is_due = against.is_some();
         self.against = against;
@@ -74,12 +74,12 @@ impl Comparing {
         let Some(against) = self.against.clone() else { return };
         let Order { gpu, project, saved, revision, shown, media_dir, trial, run } = order;
         let reference = match (&against, &project.origin) {
-            (Against::LastSave, _) => Reference::Project(Box::new(saved)),
-            (Against::Project(spec), _) => Reference::Load(spec.clone()),
-            (Against::Revision(revision), Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) => {
+            (Baseline::LastSave, _) => Reference::Project(Box::new(saved)),
+            (Baseline::Project(spec), _) => Reference::Load(spec.clone()),
+            (Baseline::Revision(revision), Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) => {
                 Reference::Revision(path.clone(), revision.clone())
             }
-            (Against::Revision(_), _) => {
+            (Baseline::Revision(_), _) => {
                 self.failed("only a project saved in a git repository has revisions");
                 return;
             }

@@ -1,6 +1,6 @@
 //! The two projects at work.
 
-use super::comparison::{Against, Comparison, Progress};
+use super::comparison::{Baseline, Comparison, Progress};
 use crate::{
     revision,
     run::{Frame, Run},
@@ -26,7 +26,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 pub struct Job {
     pub gpu: Gpu,
     pub project: Project,
-    pub against: Against,
+    pub against: Baseline,
     pub reference: Reference,
     pub revision: u64,
     pub shown: PassId,

@@ -7,7 +7,7 @@ use std::{
 
 /// The next thing that a frame does that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Way {
+pub enum FrameControl {
     #[default]
     GoOn,
     /// It waits, but not for longer.
@@ -22,12 +22,12 @@ pub struct Gate(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
-    way: Mutex<Way>,
+    way: Mutex<FrameControl>,
     changed: Condvar,
 }
 
 impl Gate {
-    pub fn set(&self, way: Way) {
+    pub fn set(&self, way: FrameControl) {
         let mut held = self.way();
         if *held != way {
             *held = way;
@@ -36,7 +36,7 @@ impl Gate {
     }
 
     #[cfg(test)]
-    pub fn get(&self) -> Way {
+    pub fn get(&self) -> FrameControl {
         *self.way()
     }
 
@@ -45,9 +45,9 @@ impl Gate {
         let mut way = self.way();
         loop {
             let left = match *way {
-                Way::GoOn => return true,
-                Way::GiveUp => return false,
-                Way::WaitUntil(until) => until.saturating_duration_since(Instant::now()),
+                FrameControl::GoOn => return true,
+                FrameControl::GiveUp => return false,
+                FrameControl::WaitUntil(until) => until.saturating_duration_since(Instant::now()),
             };
             if left.is_zero() {
                 return true;
@@ -56,7 +56,7 @@ impl Gate {
         }
     }
 
-    fn way(&self) -> MutexGuard<'_, Way> {
+    fn way(&self) -> MutexGuard<'_, FrameControl> {
         // A thread that panicked has left one of the three behind.
         self.0.way.lock().unwrap_or_else(|e| e.into_inner())
     }
@@ -71,11 +71,11 @@ mod tests {
     fn a_frame_waits_until_it_is_wanted_or_not_or_for_long_enough() {
         let gate = Gate::default();
         assert!(gate.pass());
-        gate.set(Way::GiveUp);
+        gate.set(FrameControl::GiveUp);
         assert!(!gate.pass());
-        let after = |way: Way| {
+        let after = |way: FrameControl| {
             let (gate, end) = (Gate::default(), Instant::now() + Duration::from_secs(60));
-            gate.set(Way::WaitUntil(end));
+            gate.set(FrameControl::WaitUntil(end));
             let other = gate.clone();
             let passes = std::thread::spawn(move || other.pass());
             std::thread::sleep(Duration::from_millis(20));
@@ -85,10 +85,10 @@ mod tests {
             assert!(Instant::now() < end, "it was told");
             passes
         };
-        assert!(after(Way::GoOn));
-        assert!(!after(Way::GiveUp));
+        assert!(after(FrameControl::GoOn));
+        assert!(!after(FrameControl::GiveUp));
         let until = Instant::now() + Duration::from_millis(30);
-        gate.set(Way::WaitUntil(until));
+        gate.set(FrameControl::WaitUntil(until));
         assert!(gate.pass() && Instant::now() >= until);
     }
 }

@@ -23,7 +23,7 @@ pub struct Changes {
     /// Begin with an engine that has drawn nothing.
     pub restart: bool,
     pub size: Option<(u32, u32)>,
-    pub program: Option<Coming>,
+    pub program: Option<PendingProgram>,
     pub custom_uniforms: Option<CustomUniformValues>,
     pub shown: Option<PassId>,
     /// The way in which the shown pass is shown: as numbers, or as a picture.
@@ -51,7 +51,7 @@ impl Changes {
 }
 
 /// A program on its way to the engine.
-pub struct Coming {
+pub struct PendingProgram {
     pub program: Program,
     /// Stays with the session when the program goes.
     pub origin: Option<ProgramOrigin>,
@@ -69,7 +69,7 @@ pub struct ProgramOrigin {
     pub drawn: Vec<PassId>,
 }
 
-impl Coming {
+impl PendingProgram {
     pub fn new(program: Program, project: Project, millis: Option<f64>) -> Self {
         let drawn = program.plan().targets.iter().map(|t| t.id.clone()).collect();
         let origin = ProgramOrigin { project, millis, custom_uniforms: program.custom_uniforms().to_vec(), drawn };

@@ -4,31 +4,31 @@
 //! what is wanted meanwhile waits here, each the newest of its kind: nothing piles up, and nobody waits for a frame.
 //! Knows nothing of texts, of time or of what a person is told.
 
-mod apart;
 mod device;
 mod gate;
 mod history;
 mod job;
-mod studio;
+mod render_thread;
+mod renderer;
 
-pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
-pub(super) use gate::Way;
+pub(super) use gate::FrameControl;
 pub(super) use history::Travelled;
-pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, Reads, TileLimit};
+pub(super) use job::{Capture, Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, Reads, TileLimit};
+pub(super) use render_thread::{Open, beside};
 
 use crate::seeking::Reach;
-use apart::Apart;
 use eddy_engine::{CostClock, EngineError, PassCost, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
 use eddy_project::{CustomUniform, PassId, Project};
 use gate::Gate;
+use render_thread::RenderThread;
+use renderer::Renderer;
 use std::{
     sync::Arc,
     thread::JoinHandle,
     time::{Duration, Instant},
 };
-use studio::Studio;
 
 /// A job is waited for so long if the one before came back sooner: a picture that is drawn fast is seen in the frame
 /// that asks for it.
@@ -36,7 +36,7 @@ const PATIENCE: Duration = Duration::from_millis(4);
 
 /// The engine, wherever it draws.
 pub(super) struct Drawing {
-    place: Place,
+    backend: Backend,
     /// Goes with the next job.
     pub wanted: Changes,
     /// Pictures to be written, oldest first.
@@ -69,14 +69,14 @@ struct InFlight {
     is_stale: bool,
 }
 
-enum Place {
-    Here { studio: Box<Studio>, device: Device, done: Option<Box<Done>> },
-    Apart(Box<Remote>),
+enum Backend {
+    Inline { renderer: Box<Renderer>, device: Device, done: Option<Box<Done>> },
+    RenderThread(Box<Remote>),
 }
 
 /// An engine on another thread, and its newest picture on the window's device.
 struct Remote {
-    thread: Apart,
+    thread: RenderThread,
     device: Device,
     /// Says what a frame does that may wait.
     gate: Gate,
@@ -90,28 +90,33 @@ struct Remote {
 
 impl Drawing {
     /// An engine that does each job at once.
-    pub fn here(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
+    pub fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
         let clock = clock(&gpu);
-        let (studio, device) = (Box::new(Studio::new(gpu.clone(), size, false)?), Device::open(gpu));
-        Ok(Self::new(Place::Here { studio, device, done: None }, size, clock))
+        let (renderer, device) = (Box::new(Renderer::new(gpu.clone(), size, false)?), Device::open(gpu));
+        Ok(Self::new(Backend::Inline { renderer, device, done: None }, size, clock))
     }
 
     /// An engine on a thread of its own, with another device of the adapter that the window's is on.
-    pub fn apart(window: Gpu, size: (u32, u32), open: Open, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, Error> {
+    pub fn on_thread(
+        window: Gpu,
+        size: (u32, u32),
+        open: Open,
+        wake: Arc<dyn Fn() + Send + Sync>,
+    ) -> Result<Self, Error> {
         let clock = clock(&window);
         let device = Device::default();
-        let thread = Apart::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
+        let thread = RenderThread::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
         let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
         let gate = Gate::default();
         let remote = Remote { thread, device, gate, open, wake, window, display, took: Duration::MAX };
-        let mut drawing = Self::new(Place::Apart(Box::new(remote)), size, clock);
+        let mut drawing = Self::new(Backend::RenderThread(Box::new(remote)), size, clock);
         drawing.in_flight = Some(InFlight::opening(Instant::now()));
         Ok(drawing)
     }
 
-    fn new(place: Place, size: (u32, u32), clock: CostClock) -> Self {
+    fn new(backend: Backend, size: (u32, u32), clock: CostClock) -> Self {
         Self {
-            place,
+            backend,
             wanted: Changes::default(),
             captures: Vec::new(),
             facts: Facts { size, program: None, costs: Vec::new(), clock, reach: Reach::default() },
@@ -122,34 +127,34 @@ impl Drawing {
 
     /// Frames are drawn by the processor that paints the window, too.
     pub fn shares_processor(&self) -> bool {
-        matches!(&self.place, Place::Apart(remote) if remote.window.is_cpu())
+        matches!(&self.backend, Backend::RenderThread(remote) if remote.window.is_cpu())
     }
 
     pub fn is_apart(&self) -> bool {
-        matches!(self.place, Place::Apart(_))
+        matches!(self.backend, Backend::RenderThread(_))
     }
 
     /// The device that shows the picture.
     pub fn gpu(&self) -> &Gpu {
-        match &self.place {
-            Place::Here { studio, .. } => studio.engine().gpu(),
-            Place::Apart(remote) => &remote.window,
+        match &self.backend {
+            Backend::Inline { renderer, .. } => renderer.engine().gpu(),
+            Backend::RenderThread(remote) => &remote.window,
         }
     }
 
     /// The device that draws, once it is open.
     pub fn device(&self) -> Device {
-        match &self.place {
-            Place::Here { device, .. } => device.clone(),
-            Place::Apart(remote) => remote.device.clone(),
+        match &self.backend {
+            Backend::Inline { device, .. } => device.clone(),
+            Backend::RenderThread(remote) => remote.device.clone(),
         }
     }
 
     /// The newest picture, its first row the top.
     pub fn display(&self) -> &wgpu::TextureView {
-        match &self.place {
-            Place::Here { studio, .. } => studio.engine().display(),
-            Place::Apart(remote) => &remote.display.level_0,
+        match &self.backend {
+            Backend::Inline { renderer, .. } => renderer.engine().display(),
+            Backend::RenderThread(remote) => &remote.display.level_0,
         }
     }
 
@@ -235,18 +240,18 @@ impl Drawing {
     }
 
     /// Says what the frame that is being drawn does, if it may wait.
-    pub fn steer(&self, way: Way) {
-        if let Place::Apart(remote) = &self.place {
+    pub fn steer(&self, way: FrameControl) {
+        if let Backend::RenderThread(remote) = &self.backend {
             remote.gate.set(way);
         }
     }
 
     /// Returns what the frame does that is being drawn.
     #[cfg(test)]
-    pub fn way(&self) -> Option<Way> {
-        match &self.place {
-            Place::Here { .. } => None,
-            Place::Apart(remote) => Some(remote.gate.get()),
+    pub fn way(&self) -> Option<FrameControl> {
+        match &self.backend {
+            Backend::Inline { .. } => None,
+            Backend::RenderThread(remote) => Some(remote.gate.get()),
         }
     }
 
@@ -255,32 +260,32 @@ impl Drawing {
     pub fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
         let mut job = Job { changes: std::mem::take(&mut self.wanted), ..Job::default() };
         fill(&mut job);
-        if let Place::Apart(remote) = &self.place {
-            remote.gate.set(Way::GoOn);
+        if let Backend::RenderThread(remote) = &self.backend {
+            remote.gate.set(FrameControl::GoOn);
             job.gate = may_wait.then(|| remote.gate.clone());
         }
         // The program goes on, what the session keeps of it stays.
         let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
         let (size, captures) = (job.changes.size, job.reads.captures.clone());
         self.in_flight = Some(InFlight { since: now, size, program, captures, is_opening: false, is_stale: false });
-        match &mut self.place {
-            Place::Here { studio, done, .. } => *done = Some(Box::new(studio.work(job))),
-            Place::Apart(remote) => remote.thread.submit(job),
+        match &mut self.backend {
+            Backend::Inline { renderer, done, .. } => *done = Some(Box::new(renderer.work(job))),
+            Backend::RenderThread(remote) => remote.thread.submit(job),
         }
     }
 
     /// Returns the answer to the job, once. Waits for a moment where the last one took no longer.
     pub fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
         self.in_flight.as_ref()?;
-        let mut done = match &mut self.place {
-            Place::Here { done, .. } => done.take().map(|done| *done),
-            Place::Apart(remote) => {
+        let mut done = match &mut self.backend {
+            Backend::Inline { done, .. } => done.take().map(|done| *done),
+            Backend::RenderThread(remote) => {
                 let waits = is_just_handed_in && remote.took < PATIENCE;
                 remote.thread.take(if waits { PATIENCE } else { Duration::ZERO })
             }
         }?;
         let job = self.in_flight.take()?;
-        if let Place::Apart(remote) = &mut self.place {
+        if let Backend::RenderThread(remote) = &mut self.backend {
             remote.took = done.took;
         }
         if job.is_stale {
@@ -311,7 +316,7 @@ impl Drawing {
 
     /// Shows a picture that came from the other device. Says whether the display is another texture now.
     pub fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
-        let Place::Apart(remote) = &mut self.place else { return Ok(false) };
+        let Backend::RenderThread(remote) = &mut self.backend else { return Ok(false) };
         let size = (picture.width, picture.height);
         let is_new = size != (remote.display.width(), remote.display.height());
         if is_new {
@@ -323,7 +328,7 @@ impl Drawing {
 
     /// Shows the picture on another device than before, which is lost. There is none until one is handed out.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
-        let Place::Apart(remote) = &mut self.place else { return Ok(()) };
+        let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         remote.display = Presenter::texture(&window, remote.display.width(), remote.display.height())?;
         (remote.window, remote.open) = (window.clone(), beside(window));
         Ok(())
@@ -340,10 +345,10 @@ impl Drawing {
     /// Gives up the thread and its device, and begins with others. The picture stays until there is another, and the
     /// pictures that were to be read are read of that one.
     pub fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
-        let Place::Apart(remote) = &mut self.place else { return Ok(()) };
+        let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
         let Remote { open, wake, window, .. } = &**remote;
-        let thread = Apart::start(open.clone(), device.clone(), self.facts.size, window.is_cpu(), wake.clone())?;
+        let thread = RenderThread::start(open.clone(), device.clone(), self.facts.size, window.is_cpu(), wake.clone())?;
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.facts.program = None;
@@ -374,7 +379,7 @@ impl Drawing {
 
     /// Ends an engine that rests.
     pub fn close(&mut self) {
-        if let Place::Apart(remote) = &mut self.place {
+        if let Backend::RenderThread(remote) = &mut self.backend {
             remote.thread.end();
         }
     }

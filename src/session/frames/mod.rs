@@ -3,7 +3,7 @@
 use super::{
     Session,
     compile::{self, Compiled, Done, Job},
-    drawing::{Coming, Way},
+    drawing::{FrameControl, PendingProgram},
     view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
 };
 use eddy_background::Panicked;
@@ -76,9 +76,9 @@ impl Session {
     /// Lets the frame that is being drawn wait for the newest text, and gives it up for that text's program.
     fn steer_frame(&self) {
         self.drawing.steer(match self.gives_way_until() {
-            _ if self.drawing.wanted.program.is_some() => Way::GiveUp,
-            Some(until) => Way::WaitUntil(until),
-            None => Way::GoOn,
+            _ if self.drawing.wanted.program.is_some() => FrameControl::GiveUp,
+            Some(until) => FrameControl::WaitUntil(until),
+            None => FrameControl::GoOn,
         });
     }
 
@@ -234,7 +234,7 @@ impl Session {
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
             self.compile.state.last = Some(self.compiled(millis));
         }
-        self.drawing.wanted.program = Some(Coming::new(program, project, millis));
+        self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.
         self.custom_uniforms_turned();
         self.probing.built(probe);

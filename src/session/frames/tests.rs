@@ -93,7 +93,7 @@ fn what_the_graphics_layer_refuses_is_told_of_once() {
 fn open_apart(gpu: Gpu) -> Session {
     let options = SessionOptions {
         edit_debounce: Duration::ZERO,
-        draws_apart: true,
+        draws_on_thread: true,
         frame_limit: Duration::from_secs(60),
         ..SessionOptions::default()
     };
@@ -144,7 +144,7 @@ fn a_device_that_does_not_open_at_first_is_opened_again() {
         true => Ok(other.clone()),
         false => Err(GpuError::NoAdapter("planted".into())),
     };
-    session.drawing = Drawing::apart(gpu, (64, 36), Arc::new(open), Arc::new(|| ())).unwrap();
+    session.drawing = Drawing::on_thread(gpu, (64, 36), Arc::new(open), Arc::new(|| ())).unwrap();
     tick_until(&mut session, "the failure to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
     tick_until(&mut session, "frames", |s| s.drawing.has_program() && s.transport().frame > 2);
 }
@@ -180,11 +180,11 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
         session.steer_frame();
         session.drawing.way().unwrap()
     };
-    assert_eq!(way(&session), Way::GoOn);
+    assert_eq!(way(&session), FrameControl::GoOn);
     session.compile.newest_since = Some(now);
-    assert_eq!(way(&session), Way::WaitUntil(now + BRIEF));
+    assert_eq!(way(&session), FrameControl::WaitUntil(now + BRIEF));
     session.now = now + BRIEF;
-    assert_eq!(way(&session), Way::GoOn, "it is no longer a compile that is not felt");
+    assert_eq!(way(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
     session.compile.newest_since = None;
     // A text that gives a program: as soon as that is there, the frame before it is not finished.
     let tab = Tab::Pass(PassId::Image);
@@ -197,10 +197,10 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
         session.start_compile();
         session.take_compiled();
     }
-    assert_eq!(way(&session), Way::GiveUp);
+    assert_eq!(way(&session), FrameControl::GiveUp);
     let before = session.programs_drawn;
     tick_until(&mut session, "the program's first frame", |s| s.programs_drawn > before);
-    assert_eq!(session.drawing.way(), Some(Way::GoOn), "what comes after it is drawn");
+    assert_eq!(session.drawing.way(), Some(FrameControl::GoOn), "what comes after it is drawn");
 }
 
 #[test]

@@ -18,14 +18,29 @@ use std::{
 };
 
 /// The packages, each in the folder of its name, and the modules of the root package.
-const LAYERS: &[&str] =
-    &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "session", "lab", "cli", "gui", "main"];
+const LAYERS: &[&str] = &[
+    "diag",
+    "project",
+    "media",
+    "glsl",
+    "graph",
+    "gpu",
+    "engine",
+    "background",
+    "playback",
+    "debugger",
+    "session",
+    "lab",
+    "cli",
+    "gui",
+    "main",
+];
 
 /// Modules of the root package and what of it each may not name.
 const ROOT: &[(&str, &[&str])] = &[
     ("cli", &["gui"]),
     ("gui", &["cli"]),
-    ("main", &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "session", "lab"]),
+    ("main", &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "debugger", "session", "lab"]),
 ];
 
 /// Rooms of the compiler, and what each may not name: a program goes from one to the next and never back.
@@ -44,16 +59,30 @@ const CRATES: &[(&[&str], &[&str])] = &[
 ];
 
 /// Names through which the world outside gets in, and the layers that may not use them. Durations may be measured
-/// (`Instant`) by who reports them: a front end and the lab. The time of day is read in `session` alone, and the lab,
+/// (`Instant`) by who reports them: a front end and the lab. The time of day is read in `playback` and `session`, and the lab,
 /// whose results two machines shall share, asks for no environment.
 const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["SystemTime", "Zoned"],
-        &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "lab", "cli", "gui", "main"],
+        &[
+            "diag",
+            "project",
+            "media",
+            "glsl",
+            "graph",
+            "gpu",
+            "engine",
+            "background",
+            "debugger",
+            "lab",
+            "cli",
+            "gui",
+            "main",
+        ],
     ),
-    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
-    (&["env"], &["diag", "glsl", "graph", "gpu", "engine", "lab"]),
-    (&["fs", "File", "OpenOptions"], &["diag", "glsl", "graph", "gpu", "engine"]),
+    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "background"]),
+    (&["env"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
+    (&["fs", "File", "OpenOptions"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger"]),
 ];
 
 /// Where a render pass may be begun otherwise than by `Gpu::pass`, which keeps a driver's fault away: there, and where

@@ -4,7 +4,7 @@
 use super::parts;
 use crate::{
     debugger::{
-        divergence::{Parted, PartingView},
+        divergence::{DivergenceFound, DivergenceView},
         trace::{Number, Traced},
     },
     gui::{
@@ -45,7 +45,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
     let p = theme::of(ui);
     let ulps = traced.ulps();
     let is_apart = ulps.iter().flatten().any(|ulps| *ulps > 0);
-    let parting = session.parting();
+    let divergence = session.divergence();
     let first = ui.horizontal_wrapped(|ui| {
         ui.colored_label(p.weak, "CPU");
         let value = traced.value.map_or("draws nothing".into(), |value| list(&value));
@@ -59,28 +59,28 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
             let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
             label.on_hover_text("ULPs: the number of single-precision values between the two");
         }
-        let is_searching = parting == Some(PartingView::UnderWay);
+        let is_searching = divergence == Some(DivergenceView::UnderWay);
         if is_searching {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
             let tip = "Compare each assignment on the CPU and the GPU until one differs";
             if parts::button(ui, "trace:part", "Find first difference", tip, out) {
-                out.ask(Command::FindParting);
+                out.ask(Command::FindDivergence);
             }
         }
     });
     out.place("trace:values", first.response.rect);
-    match parting {
-        Some(PartingView::Ended(Ok(parted))) => found(traced, parted, ui, out),
-        Some(PartingView::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
-        Some(PartingView::UnderWay) => {
+    match divergence {
+        Some(DivergenceView::Ended(Ok(parted))) => found(traced, parted, ui, out),
+        Some(DivergenceView::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
+        Some(DivergenceView::UnderWay) => {
             ui.colored_label(p.weak, "comparing assignments…");
         }
         None => {}
     }
 }
 
-fn found(traced: &Traced, parted: &Parted, ui: &mut Ui, out: &mut Outbox) {
+fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut Outbox) {
     let p = theme::of(ui);
     let of = format!("{} of {} assignments compared", parted.compared, parted.of);
     let Some(first) = &parted.first else {

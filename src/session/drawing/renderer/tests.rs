@@ -1,7 +1,7 @@
 //! Tests of what an engine does for a job.
 
 use super::*;
-use crate::drawing::{gate::Way, job::Coming};
+use crate::drawing::{gate::FrameControl, job::PendingProgram};
 use eddy_gpu::testing;
 use eddy_media as media;
 use eddy_project::presets;
@@ -13,30 +13,30 @@ fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
     let (media, _) = media::gather(&project, None);
     let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let (program, other) = (build(&gpu), build(&gpu));
-    let mut studio = Studio::new(gpu, (16, 9), true).unwrap();
+    let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
     let mut sizes = |changes: Changes, frame: Option<i32>| {
         let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
-        let done = studio.work(Job { changes, frame, ..Job::default() });
+        let done = renderer.work(Job { changes, frame, ..Job::default() });
         done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
     };
     let resize = |size| Changes { size: Some(size), ..Changes::default() };
     assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
-    let program = Some(Coming { program, origin: None });
+    let program = Some(PendingProgram { program, origin: None });
     let shown = Some(PassId::Image);
     assert_eq!(sizes(Changes { program, shown, ..Changes::default() }, Some(0)), Some((32, 18)));
     assert_eq!(sizes(resize((64, 36)), None), None);
     assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
     assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
-    let program = Some(Coming { program: other, origin: None });
+    let program = Some(PendingProgram { program: other, origin: None });
     assert_eq!(sizes(Changes { program, ..Changes::default() }, None), None);
     assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
 }
 
 /// Draws a frame that may wait, with what else is asked.
-fn frame(studio: &mut Studio, n: i32, gate: Option<Gate>, job: Job) -> Done {
+fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> Done {
     // The last frame took long enough for three bands.
-    studio.whole_took = BAND * 3;
-    studio.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
+    renderer.whole_took = BAND * 3;
+    renderer.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
 }
 
 #[test]
@@ -49,15 +49,15 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
     let (media, _) = media::gather(&project, None);
     let build = || Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let start = || {
-        let mut studio = Studio::new(gpu.clone(), (64, 192), true).unwrap();
-        let program = Some(Coming { program: build(), origin: None });
+        let mut renderer = Renderer::new(gpu.clone(), (64, 192), true).unwrap();
+        let program = Some(PendingProgram { program: build(), origin: None });
         let shown = Some(PassId::Image);
-        studio.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
-        studio
+        renderer.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
+        renderer
     };
     let picture = |done: Done| done.picture.map(|picture| picture.unwrap().bytes);
     let (gate, other) = (Gate::default(), Gate::default());
-    gate.set(Way::GiveUp);
+    gate.set(FrameControl::GiveUp);
     let (mut whole, mut given_up) = (start(), start());
     for n in 0..3 {
         let expected = picture(frame(&mut whole, n, Some(other.clone()), Job::default()));
@@ -75,17 +75,17 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
                     stem: "".into(),
                 };
                 let reads = || Reads { captures: vec![capture.clone()], ..Reads::default() };
-                let read = |studio: &mut Studio, program: Option<Program>| {
-                    let program = program.map(|program| Coming { program, origin: None });
+                let read = |renderer: &mut Renderer, program: Option<Program>| {
+                    let program = program.map(|program| PendingProgram { program, origin: None });
                     let changes = Changes { program, ..Changes::default() };
-                    let done = studio.work(Job { changes, reads: reads(), ..Job::default() });
+                    let done = renderer.work(Job { changes, reads: reads(), ..Job::default() });
                     done.captured.into_iter().next().unwrap().1.unwrap().texels
                 };
                 assert_eq!(read(&mut given_up, Some(build())), read(&mut whole, None), "also beside a program");
             }
             // A program that is too slow to be drawn.
             _ => {
-                let program = Some(Coming { program: build(), origin: None });
+                let program = Some(PendingProgram { program: build(), origin: None });
                 let changes = Changes { program, ..Changes::default() };
                 let tile_limit = Some(TileLimit { frame: Duration::from_nanos(20) });
                 let done = given_up.work(Job { changes, tile_limit, ..Job::default() });
@@ -99,7 +99,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
     assert_eq!(picture(frame(&mut given_up, 3, None, Job::default())), next);
     // Another program's frame is the one that is drawn.
     frame(&mut given_up, 4, Some(gate), Job::default());
-    let program = Some(Coming { program: build(), origin: None });
+    let program = Some(PendingProgram { program: build(), origin: None });
     let changes = Changes { program, ..Changes::default() };
     let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
     frame(&mut whole, 4, None, Job::default());

@@ -33,7 +33,7 @@ const SQUARE: u32 = 64;
 /// Frames are drawn again for so long before the picture is shown and something else may be asked.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-pub struct Studio {
+pub struct Renderer {
     engine: Engine,
     /// The display's picture leaves the device.
     hands_out: bool,
@@ -46,7 +46,7 @@ pub struct Studio {
     is_given_up: bool,
 }
 
-impl Studio {
+impl Renderer {
     /// `hands_out`: give each new picture of the display with the answers.
     pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
@@ -175,8 +175,8 @@ impl Studio {
     ) {
         let Changes { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
         if restart {
-            let made = Studio::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
-            done.restarted = Some(made.map(|studio| *self = studio));
+            let made = Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
+            done.restarted = Some(made.map(|renderer| *self = renderer));
             done.is_display_new = true;
         }
         if let Some(size) = size {

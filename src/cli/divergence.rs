@@ -3,7 +3,7 @@
 use super::{args::TraceArgs, machine::Trouble, written::Written};
 use crate::{
     debugger::{
-        divergence::{self as parting, Probes, STEPS_KEPT, assignments},
+        divergence::{self, Probes, STEPS_KEPT, assignments},
         trace::{self, Extent, Number, TraceError},
     },
     engine::{BuildOptions, Engine, PassInputs, Snapshot, Sources},
@@ -16,7 +16,7 @@ use std::fmt::Write;
 
 /// Holds what a search has found.
 #[derive(Debug, Serialize)]
-pub struct Parted {
+pub struct DivergenceReport {
     /// Assignments that were compared, of so many that the pixel has.
     compared: usize,
     assignments: usize,
@@ -46,7 +46,7 @@ pub fn find(
     (engine, before): (Engine, Snapshot),
     (index, read): (usize, &PassInputs),
     mut inputs: ScriptedInputs,
-) -> Result<Parted, Trouble> {
+) -> Result<DivergenceReport, Trouble> {
     let (media, _) = media::gather(project, args.run.media.as_deref());
     let pass = args.pass.pass.clone();
     let (skip, without) = (!args.run.no_skip, args.run.without_pass.set());
@@ -71,7 +71,7 @@ pub fn find(
     };
     let mut probes = Probes::new((engine, before), (project, &media), options, pass, frame);
     let assignments = assignments(&sources, index, &trace);
-    let found = parting::search(assignments, args.probes, |assignment| probes.value(assignment, pixel));
+    let found = divergence::search(assignments, args.probes, |assignment| probes.value(assignment, pixel));
     let found = found.map_err(anyhow::Error::from)?;
     let first = found.first.map(|first| First {
         written: Written::at(project, Some(first.assignment.span)),
@@ -81,11 +81,11 @@ pub fn find(
         device: first.device.map(|device| device.into_iter().map(Number::Float).collect()),
         ulps: first.ulps,
     });
-    Ok(Parted { compared: found.compared, assignments: found.of, first })
+    Ok(DivergenceReport { compared: found.compared, assignments: found.of, first })
 }
 
-pub fn words(parted: &Parted) -> String {
-    let Parted { compared, assignments, first } = parted;
+pub fn words(parted: &DivergenceReport) -> String {
+    let DivergenceReport { compared, assignments, first } = parted;
     let of = format!("{compared} of {assignments} assignments compared");
     let Some(First { written, name, visit, walker, device, ulps }) = first else {
         return format!("  differs nowhere: {of}\n");

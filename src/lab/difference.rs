@@ -11,7 +11,7 @@ const SSIM_SIDE: u32 = 11;
 
 /// Says how far a picture is from a reference.
 #[derive(Clone, Debug)]
-pub struct Apart {
+pub struct PictureDifference {
     /// Texels that differ in any bit.
     pub texels_apart: usize,
     /// Largest difference of a component; NaN where a NaN is on one side only.
@@ -26,9 +26,9 @@ pub struct Apart {
     pub flip: Vec<f64>,
 }
 
-impl Apart {
+impl PictureDifference {
     /// `None`: pictures of two sizes cannot be compared.
-    pub fn new(a: &Pixels, b: &Pixels) -> Option<Apart> {
+    pub fn new(a: &Pixels, b: &Pixels) -> Option<PictureDifference> {
         if (a.width, a.height) != (b.width, b.height) {
             return None;
         }
@@ -40,7 +40,7 @@ impl Apart {
         let squares: f64 = differences().map(|d| d * d).sum();
         let largest = differences().map(f64::abs).fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most });
         let [shown, reference] = [a, b].map(screen);
-        Some(Apart {
+        Some(PictureDifference {
             texels_apart: a.texels.iter().zip(&b.texels).filter(|(a, b)| bits(a) != bits(b)).count(),
             largest,
             rmse: (squares / (4 * a.texels.len()) as f64).sqrt(),
@@ -116,14 +116,14 @@ mod tests {
     #[test]
     fn what_differs_is_measured() {
         let (a, b) = (flat(0.25), flat(0.75));
-        let apart = Apart::new(&a, &b).unwrap();
+        let apart = PictureDifference::new(&a, &b).unwrap();
         assert_eq!((apart.texels_apart, apart.largest), (132, 0.5));
         assert!((apart.rmse - 0.5 * 0.75f64.sqrt()).abs() < 1e-9, "{}", apart.rmse);
         // 64 and 191 of 255.
         assert!((apart.psnr + 20.0 * (127.0f64 / 255.0).log10()).abs() < 1e-9, "{}", apart.psnr);
         assert!(apart.ssim.unwrap() < 0.99 && apart.mean_flip() > 0.1);
         assert_eq!(difference(&a, &b, 4.0).texels[0], [2.0, 2.0, 2.0, 1.0]);
-        let same = Apart::new(&a, &a).unwrap();
+        let same = PictureDifference::new(&a, &a).unwrap();
         assert_eq!((same.texels_apart, same.largest, same.rmse, same.mean_flip()), (0, 0.0, 0.0, 0.0));
     }
 
@@ -131,11 +131,11 @@ mod tests {
     fn a_nan_is_not_hidden_by_numbers() {
         let (a, mut b) = (flat(0.25), flat(0.25));
         b.texels[7][0] = f32::NAN;
-        let apart = Apart::new(&a, &b).unwrap();
+        let apart = PictureDifference::new(&a, &b).unwrap();
         assert_eq!(apart.texels_apart, 1);
         assert!(apart.largest.is_nan() && apart.rmse.is_nan());
-        assert_eq!(Apart::new(&b, &b).unwrap().largest, 0.0, "the same bits");
-        assert!(Apart::new(&a, &Pixels { width: 11, height: 12, ..flat(0.25) }).is_none());
+        assert_eq!(PictureDifference::new(&b, &b).unwrap().largest, 0.0, "the same bits");
+        assert!(PictureDifference::new(&a, &Pixels { width: 11, height: 12, ..flat(0.25) }).is_none());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{
     device::Device,
     job::{Done, Job},
-    studio::Studio,
+    renderer::Renderer,
 };
 use eddy_gpu::{self as gpu, Gpu, GpuError, GpuOptions};
 use std::{
@@ -38,14 +38,14 @@ pub fn beside(window: Gpu) -> Open {
 }
 
 /// The thread. Dropped, it ends after the job under way, which nobody waits for.
-pub struct Apart {
+pub struct RenderThread {
     /// `None` when no more will come.
     jobs: Option<Sender<Job>>,
     results: Receiver<Done>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Apart {
+impl RenderThread {
     /// Starts the thread. Its first answer says whether there is an engine; `wake` is called after each.
     pub fn start(
         open: Open,
@@ -53,7 +53,7 @@ impl Apart {
         size: (u32, u32),
         is_cpu: bool,
         wake: Arc<dyn Fn() + Send + Sync>,
-    ) -> std::io::Result<Apart> {
+    ) -> std::io::Result<RenderThread> {
         let (jobs, inbox) = channel::<Job>();
         let (outbox, results) = channel();
         let tell = move |done: Done| {
@@ -67,11 +67,11 @@ impl Apart {
             }
             let opened = caught(|| open().map_err(|e| e.to_string())).and_then(|opened| opened);
             device.set(opened.clone());
-            let studio = opened.and_then(|gpu| {
-                caught(|| Studio::new(gpu, size, true).map_err(|e| e.to_string())).and_then(|studio| studio)
+            let renderer = opened.and_then(|gpu| {
+                caught(|| Renderer::new(gpu, size, true).map_err(|e| e.to_string())).and_then(|renderer| renderer)
             });
-            let mut studio = match studio {
-                Ok(studio) => studio,
+            let mut renderer = match renderer {
+                Ok(renderer) => renderer,
                 Err(why) => {
                     tell(Done { gave_up: Some(why), ..Done::default() });
                     return;
@@ -82,7 +82,7 @@ impl Apart {
             }
             while let Ok(job) = inbox.recv() {
                 let began = Instant::now();
-                let done = caught(|| studio.work(job)).map(|done| Done { took: began.elapsed(), ..done });
+                let done = caught(|| renderer.work(job)).map(|done| Done { took: began.elapsed(), ..done });
                 let is_over = done.is_err();
                 let done = done.unwrap_or_else(|why| Done {
                     gave_up: Some(format!("this is a bug in Eddy: {why}")),
@@ -94,7 +94,7 @@ impl Apart {
             }
         };
         let thread = std::thread::Builder::new().name("drawing".into()).stack_size(STACK_BYTES).spawn(work)?;
-        Ok(Apart { jobs: Some(jobs), results, thread: Some(thread) })
+        Ok(RenderThread { jobs: Some(jobs), results, thread: Some(thread) })
     }
 
     /// Hands in a job.
