@@ -4,7 +4,7 @@
 use super::{
     buffers::BufferWatch,
     probe::{ProbeLook, ProbePlace},
-    seeking::TimeRange,
+    seek::TimeRange,
     view::Level,
 };
 use eddy_playback::comparing::Baseline;

@@ -6,10 +6,16 @@
 use super::{
     Session, compile,
     drawing::ProgramOrigin,
+    marker::Marker,
+    pace::Pace,
     view::{About, Halt, Level, TabDiagnostic},
 };
 use eddy_background::Worker;
-use std::time::{Duration, Instant};
+use eddy_project::Project;
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 /// Limits of a frame after which a device that still draws it is given up.
 const GIVE_UP: u32 = 5;
@@ -377,5 +383,47 @@ impl Drop for Session {
         if self.halting.halt.is_none() {
             self.halting.marker.clear();
         }
+    }
+}
+
+pub(super) struct Halting {
+    pub halt: Option<Halt>,
+    /// The picture ran when it was halted, and goes on after.
+    pub resumes: bool,
+    /// The newest code that drew a frame within the limit.
+    pub good: Option<Project>,
+    pub limit: Duration,
+    pub pace: Pace,
+    /// The time that the user has let a frame take.
+    pub allowed: Option<Duration>,
+    /// No frame of the newest program that was handed in has been drawn yet.
+    pub is_new: bool,
+    pub marker: Marker,
+    pub lost_at: Option<Instant>,
+}
+
+impl Halting {
+    pub fn new(limit: Duration, state_dir: Option<PathBuf>) -> Self {
+        Self {
+            halt: None,
+            resumes: false,
+            good: None,
+            limit,
+            pace: Pace::default(),
+            allowed: None,
+            is_new: false,
+            marker: Marker::new(state_dir.as_deref()),
+            lost_at: None,
+        }
+    }
+
+    /// The time that a frame may take.
+    pub fn limit(&self) -> Duration {
+        self.allowed.unwrap_or(self.limit)
+    }
+
+    /// Nothing of the author's may reach the device yet.
+    pub fn is_held(&self) -> bool {
+        matches!(self.halt, Some(Halt::Opened { .. }))
     }
 }

@@ -5,7 +5,6 @@
 //! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
 //! `&Session`. Draws no widget and knows no window.
 
-mod analyse;
 mod analysis;
 mod apply;
 mod arrivals;
@@ -24,7 +23,6 @@ mod files;
 mod fps;
 mod frames;
 mod halt;
-mod halting;
 mod kept_files;
 mod last_pictures;
 mod marker;
@@ -40,20 +38,16 @@ mod passes;
 mod picture_check;
 pub mod probe;
 mod queries;
-mod reads;
 mod recent;
 mod record;
-mod recorder;
 mod recover;
 mod recovery;
 mod reload;
 mod rename;
 mod reopen;
 mod replay;
-mod replaying;
 mod runs;
 mod seek;
-pub mod seeking;
 mod stamps;
 mod state;
 mod still;
@@ -73,6 +67,7 @@ pub use pass_history::PassStep;
 pub use recent::RecentProject;
 pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use replay::ReplayView;
+pub use seek::TimeRange;
 pub use state::Session;
 pub use tracing::TraceView;
 pub use view::{

@@ -16,7 +16,7 @@ use super::{
     options::SessionOptions,
     probe::Probing,
     replay::Replay,
-    seeking::Seeking,
+    seek::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
     view::CompileState,
 };

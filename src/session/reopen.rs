@@ -11,7 +11,7 @@ use super::{
     drawing::{Done, Job},
     kept_files,
     recent::{Left, RecentProject},
-    seeking::Goal,
+    seek::Goal,
     state::CanvasSize,
     view::{About, Level},
 };

@@ -6,8 +6,7 @@ use eddy::{
     playback::comparing::Baseline,
     project::{PassId, Tab},
     session::{
-        Answer, Command, Level, Question, Session, SessionOptions, buffers::BufferWatch, probe::ProbePlace,
-        seeking::TimeRange,
+        Answer, Command, Level, Question, Session, SessionOptions, TimeRange, buffers::BufferWatch, probe::ProbePlace,
     },
 };
 use std::{

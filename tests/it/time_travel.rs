@@ -6,7 +6,7 @@ use eddy::{
     media,
     playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
     project::{self, PassId, Tab},
-    session::{Command, Level, seeking::TimeRange},
+    session::{Command, Level, TimeRange},
 };
 use std::{
     fs::{self, File},

@@ -4,7 +4,7 @@
 use super::seconds;
 use crate::{
     gui::{accessible, outbox::Outbox, theme},
-    session::{Command, Session, seeking::TimeRange},
+    session::{Command, Session, TimeRange},
 };
 use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit, Ui, vec2};
 

@@ -7,7 +7,7 @@ mod seconds;
 pub use menu::button;
 
 use super::{accessible, actions::TimeAction, outbox::Outbox, theme};
-use crate::session::{Command, Session, seeking::TimeRange};
+use crate::session::{Command, Session, TimeRange};
 use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Height of the line.

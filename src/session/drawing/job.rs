@@ -6,7 +6,7 @@ use crate::{
     buffers::{BuffersRead, BuffersWanted},
     measuring::{Measured, MeasuresWanted},
     probe::{NumbersWanted, ProbeNumbers},
-    seeking::{Goal, Reach},
+    seek::{Goal, Reach},
     tracing::Taken,
 };
 use eddy_engine::{

@@ -17,7 +17,7 @@ pub(super) use history::Travelled;
 pub(super) use job::{Capture, Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, Reads, TileLimit};
 pub(super) use render_thread::{Open, beside};
 
-use crate::seeking::Reach;
+use crate::seek::Reach;
 use eddy_engine::{CostClock, EngineError, PassCost, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
 use eddy_project::{CustomUniform, PassId, Project};
