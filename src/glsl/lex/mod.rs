@@ -288,3 +288,8 @@ impl<'a> Lexer<'a> {
         (Kind::BadChar, first as u32)
     }
 }
+
+/// Returns the length in bytes of the number that `text` begins with, whatever is wrong with it.
+pub(super) fn number_length(text: &str) -> usize {
+    number::scan(text).2
+}

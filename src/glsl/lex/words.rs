@@ -71,7 +71,7 @@ const RESERVED: &[&str] = &[
 
 /// Returns whether the language knows the word, as a keyword, a type or by any other meaning.
 pub(crate) fn is_word(name: &str) -> bool {
-    interner().find(name).is_some()
+    seeded().find(name).is_some()
 }
 
 /// Returns every keyword that is no type.
@@ -79,8 +79,33 @@ pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
     KEYWORDS.iter().map(|k| k.0)
 }
 
+/// The part that a word has in the language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    Builtin,
+    Uniform,
+    Type,
+    /// A keyword that is no type, or a reserved word.
+    Keyword,
+}
+
+/// Returns what a word of the language is; `None` for an author's name.
+pub(crate) fn meaning(name: &str) -> Option<Meaning> {
+    let symbol = seeded().find(name)?.0;
+    Some(match symbol {
+        _ if symbol < Builtin::ALL.len() as u32 => Meaning::Builtin,
+        _ if symbol < FIRST_TYPE => Meaning::Uniform,
+        _ if symbol < FIRST_KEYWORD => Meaning::Type,
+        _ => Meaning::Keyword,
+    })
+}
+
 /// Returns an interner that knows all words of the language.
 pub(crate) fn interner() -> Interner {
+    seeded().clone()
+}
+
+fn seeded() -> &'static Interner {
     static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
         Interner::seeded(
             Builtin::ALL
@@ -93,7 +118,7 @@ pub(crate) fn interner() -> Interner {
                 .chain(RESERVED.iter().copied()),
         )
     });
-    SEEDED.clone()
+    &SEEDED
 }
 
 /// `Ident`, or which keyword a name is.

@@ -36,7 +36,8 @@ pub enum Class {
     Preprocessor,
     /// Left out by an `#if`.
     Inactive,
-    /// A name that means nothing.
+    Operator,
+    /// A name that means nothing, or whose meaning was not looked for.
     Unknown,
 }
 

@@ -13,6 +13,7 @@ mod complete;
 mod docs;
 mod hover;
 mod infer;
+pub mod lines;
 mod names;
 mod occurrences;
 mod rank;

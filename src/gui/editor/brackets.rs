@@ -1,12 +1,7 @@
 //! Says which bracket belongs to which.
 
-use super::{
-    buffer::Buffer,
-    highlight::Highlight,
-    lexer::{Inside, Scanner},
-    nesting::Bracket,
-    pieces::Piece,
-};
+use super::{buffer::Buffer, highlight::Highlight, nesting::Bracket, pieces::Piece};
+use crate::glsl::services::lines::{Inside, Scanner};
 use std::ops::Range;
 
 /// The bracket that a caret is at, and the one that belongs to it: where each begins, in the order of the text.

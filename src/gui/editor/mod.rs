@@ -24,7 +24,6 @@ mod gutter;
 mod highlight;
 mod history;
 mod input;
-mod lexer;
 mod line_edits;
 mod lines;
 mod look;
@@ -40,7 +39,6 @@ mod ruler;
 mod selection;
 mod semantic;
 mod view;
-mod words;
 mod wrap;
 
 pub use action::EditorAction;

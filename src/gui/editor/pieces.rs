@@ -3,10 +3,8 @@
 //! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame looks at those
 //! in sight. After a change only the pieces around it are cut anew.
 
-use super::{
-    lexer::{Inside, LexState, Scanner},
-    nesting::Nesting,
-};
+use super::nesting::Nesting;
+use crate::glsl::services::lines::{Inside, LexState, Scanner};
 
 /// Bytes of a piece: cut at the next place between two tokens from here on, at twice as many wherever that is.
 pub const PIECE: usize = 1024;

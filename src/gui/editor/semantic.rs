@@ -1,10 +1,7 @@
 //! Colours by meaning, from an analysis that may be of a slightly older text.
 
-use super::{
-    lexer::{Token, TokenKind},
-    look::Help,
-};
-use crate::glsl::services::{Class, ClassSpan};
+use super::look::Help;
+use crate::glsl::services::{Class, ClassSpan, lines::Token};
 use std::ops::Range;
 
 /// The classes of a text and how far they hold: before the first and behind the last byte that has changed since.
@@ -48,11 +45,11 @@ impl<'a> Semantic<'a> {
         let mut at = old.start;
         for span in self.classes[first..].iter().take_while(|c| c.range.start < old.end) {
             let (start, end) = (span.range.start.max(old.start), span.range.end.min(old.end));
-            push(&mut tokens, start - at, TokenKind::Operator);
-            push(&mut tokens, end - start, kind(span.class));
+            push(&mut tokens, start - at, Class::Operator);
+            push(&mut tokens, end - start, span.class);
             at = end;
         }
-        push(&mut tokens, old.end - at, TokenKind::Operator);
+        push(&mut tokens, old.end - at, Class::Operator);
         // A line that was not what it seems must not cut a character.
         let mut at = 0;
         let fits = tokens.iter().all(|token| {
@@ -79,28 +76,9 @@ fn equal_at_end(a: &[u8], b: &[u8]) -> usize {
     blocks + a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count()
 }
 
-fn push(tokens: &mut Vec<Token>, len: usize, kind: TokenKind) {
+fn push(tokens: &mut Vec<Token>, len: usize, class: Class) {
     if len > 0 {
-        tokens.push(Token { len, kind });
-    }
-}
-
-fn kind(class: Class) -> TokenKind {
-    match class {
-        Class::Keyword => TokenKind::Keyword,
-        Class::Type => TokenKind::Type,
-        Class::Builtin => TokenKind::Builtin,
-        Class::Function => TokenKind::Function,
-        Class::Uniform => TokenKind::Uniform,
-        Class::Macro => TokenKind::Macro,
-        Class::Parameter => TokenKind::Parameter,
-        Class::Global => TokenKind::Global,
-        Class::Field => TokenKind::Field,
-        Class::Number => TokenKind::Number,
-        Class::Comment => TokenKind::Comment,
-        Class::Preprocessor => TokenKind::Directive,
-        Class::Inactive => TokenKind::Inactive,
-        Class::Local | Class::Unknown => TokenKind::Plain,
+        tokens.push(Token { len, class });
     }
 }
 
@@ -114,7 +92,7 @@ mod tests {
 
     const TEXT: &str = "float g;\n/* é */ void f(float par) {\n    par = g;\n}\n#if 0\nout\n#endif";
 
-    fn kinds(now: &str, line: usize) -> Option<Vec<TokenKind>> {
+    fn kinds(now: &str, line: usize) -> Option<Vec<Class>> {
         let id = SourceId(0);
         let analysis = Analysis::new(&PassSource::new(PassKind::Buffer, Text { id, text: TEXT }));
         let classes = analysis.classes(id);
@@ -123,21 +101,21 @@ mod tests {
         let text = now[start..].lines().next().unwrap_or("");
         let tokens = Semantic::new(help, now).tokens(start..start + text.len(), text)?;
         assert_eq!(tokens.iter().map(|t| t.len).sum::<usize>(), text.len(), "tokens cover {text:?}");
-        Some(tokens.into_iter().map(|t| t.kind).filter(|k| *k != TokenKind::Operator).collect())
+        Some(tokens.into_iter().map(|t| t.class).filter(|k| *k != Class::Operator).collect())
     }
 
     #[test]
     fn lines_that_did_not_change_keep_their_colours() {
-        let body = Some(vec![TokenKind::Parameter, TokenKind::Global]);
+        let body = Some(vec![Class::Parameter, Class::Global]);
         assert_eq!(kinds(TEXT, 2), body);
-        assert_eq!(kinds(TEXT, 5), Some(vec![TokenKind::Inactive]));
+        assert_eq!(kinds(TEXT, 5), Some(vec![Class::Inactive]));
         // The line that changed is for the line lexer, those around it are not.
         let changed = TEXT.replace("float g;", "float g; float hé;");
         assert_eq!((kinds(&changed, 0), kinds(&changed, 2)), (None, body.clone()));
         let changed = TEXT.replace("par = g;", "par = gg;");
         assert_eq!(kinds(&changed, 2), None);
-        assert_eq!(kinds(&changed, 0), Some(vec![TokenKind::Type, TokenKind::Global]));
-        assert_eq!(kinds(&changed, 5), Some(vec![TokenKind::Inactive]));
+        assert_eq!(kinds(&changed, 0), Some(vec![Class::Type, Class::Global]));
+        assert_eq!(kinds(&changed, 5), Some(vec![Class::Inactive]));
         let inserted = TEXT.replace("    par", "\n\n    par");
         assert_eq!(kinds(&inserted, 4), body);
         assert_eq!(kinds(&format!("{TEXT}\nx"), 7), None);

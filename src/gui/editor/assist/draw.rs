@@ -1,14 +1,11 @@
 //! Code in tips, and signs of what a name is.
 
 use crate::{
-    glsl::services::CompletionKind,
-    gui::{
-        editor::{
-            colors::code_color,
-            lexer::{self, LexState, TokenKind},
-        },
-        theme::Palette,
+    glsl::services::{
+        Class, CompletionKind,
+        lines::{self, LexState},
     },
+    gui::{editor::colors::code_color, theme::Palette},
 };
 use egui::{
     Color32, FontId,
@@ -20,18 +17,18 @@ use std::ops::Range;
 pub(super) fn sign(kind: CompletionKind, palette: &Palette) -> (&'static str, Color32) {
     use CompletionKind as K;
     let (sign, token) = match kind {
-        K::Local => ("v", TokenKind::Plain),
-        K::Parameter => ("p", TokenKind::Parameter),
-        K::Global => ("g", TokenKind::Global),
-        K::Constant => ("c", TokenKind::Number),
-        K::Function => ("f", TokenKind::Function),
-        K::Builtin => ("f", TokenKind::Builtin),
-        K::Struct => ("S", TokenKind::Type),
-        K::Type => ("T", TokenKind::Type),
-        K::Field => (".", TokenKind::Field),
-        K::Macro => ("#", TokenKind::Macro),
-        K::Uniform => ("u", TokenKind::Uniform),
-        K::Keyword => ("k", TokenKind::Keyword),
+        K::Local => ("v", Class::Unknown),
+        K::Parameter => ("p", Class::Parameter),
+        K::Global => ("g", Class::Global),
+        K::Constant => ("c", Class::Number),
+        K::Function => ("f", Class::Function),
+        K::Builtin => ("f", Class::Builtin),
+        K::Struct => ("S", Class::Type),
+        K::Type => ("T", Class::Type),
+        K::Field => (".", Class::Field),
+        K::Macro => ("#", Class::Macro),
+        K::Uniform => ("u", Class::Uniform),
+        K::Keyword => ("k", Class::Keyword),
     };
     (sign, code_color(token, palette))
 }
@@ -44,10 +41,10 @@ pub(super) fn code(palette: &Palette, lines: &[String], font: &FontId, strong: O
             job.append("\n", 0.0, TextFormat::simple(font.clone(), palette.text));
         }
         let mut at = 0;
-        for token in lexer::lex(line, 0..line.len(), LexState::default(), &|_| false) {
+        for token in lines::lex(line, 0..line.len(), LexState::default(), &|_| false) {
             let range = at..at + token.len;
             at = range.end;
-            let color = code_color(token.kind, palette);
+            let color = code_color(token.class, palette);
             let format = |is_strong: bool| {
                 let mut format = TextFormat::simple(font.clone(), if is_strong { palette.strong } else { color });
                 if is_strong {

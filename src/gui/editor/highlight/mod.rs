@@ -3,11 +3,11 @@
 
 use super::{
     buffer::{Buffer, Unchanged},
-    lexer::{self, Inside, LexState, Scanner, Token},
     nesting::Nesting,
     pieces::{self, Cut, Known, Piece},
     wrap::{self, Breaks},
 };
+use crate::glsl::services::lines::{self, Inside, LexState, Scanner, Token};
 use std::{
     collections::{HashMap, HashSet},
     ops::Range,
@@ -57,7 +57,7 @@ impl Highlight {
     pub fn update(&mut self, buffer: &mut Buffer, shared: &str, width: &mut dyn FnMut(char) -> f32) -> usize {
         if self.shared_text != shared {
             self.shared_text = shared.to_owned();
-            self.shared = shared.lines().filter_map(lexer::defined_name).map(str::to_owned).collect();
+            self.shared = shared.lines().filter_map(lines::defined_name).map(str::to_owned).collect();
         }
         let touched = buffer.take_touched();
         let Some(unchanged) = buffer.take_unchanged() else { return 0 };
@@ -120,7 +120,7 @@ impl Highlight {
             let cut = pieces::cut(text, state, head, tail, width, scanned);
             let columns = cut.pieces.iter().map(|p| p.columns).sum();
             let beginning = &text[..text.floor_char_boundary(pieces::PIECE)];
-            let defines = lexer::defined_name(beginning).map(Box::from);
+            let defines = lines::defined_name(beginning).map(Box::from);
             let next = cut.end.next_line(text);
             new.push(Line { state, cut, columns, defines, rows: 1 });
             state = next;
@@ -169,7 +169,7 @@ impl Highlight {
             let cut = pieces::cut(text, state, Known::default(), Default::default(), width, scanned);
             let columns = cut.pieces.iter().map(|p| p.columns).sum();
             let beginning = &text[..text.floor_char_boundary(pieces::PIECE)];
-            let defines = lexer::defined_name(beginning).map(Box::from);
+            let defines = lines::defined_name(beginning).map(Box::from);
             let next = cut.end.next_line(text);
             let old = std::mem::replace(&mut self.lines[line], Line { state, cut, columns, defines, rows: 1 });
             self.recount_macro(old.defines, line);
@@ -284,7 +284,7 @@ impl Highlight {
 
     /// Tokens of a piece of a line: `range` bytes of `text`, which begin in `state`.
     pub fn tokens(&self, text: &str, range: Range<usize>, state: LexState) -> Vec<Token> {
-        lexer::lex(text, range, state, &|name| self.macros.contains_key(name) || self.shared.contains(name))
+        lines::lex(text, range, state, &|name| self.macros.contains_key(name) || self.shared.contains(name))
     }
 
     /// The pieces that together are a line.

@@ -1,17 +1,17 @@
 use super::super::{
     history::Kind,
-    lexer::TokenKind,
     selection::{Carets, Selection},
 };
 use super::*;
+use crate::glsl::services::Class;
 
 impl Highlight {
     fn take(&mut self, buffer: &mut Buffer, shared: &str) -> usize {
         self.update(buffer, shared, &mut |_| 1.0)
     }
 
-    fn kind(&self, line: usize, text: &str) -> TokenKind {
-        self.tokens(text, 0..text.len(), self.lines[line].state)[0].kind
+    fn kind(&self, line: usize, text: &str) -> Class {
+        self.tokens(text, 0..text.len(), self.lines[line].state)[0].class
     }
 }
 
@@ -20,14 +20,14 @@ fn a_comment_opened_above_colours_what_is_below() {
     let mut b = Buffer::new("a\nb\nc\n");
     let mut h = Highlight::default();
     h.take(&mut b, "#define SHARED 1\n");
-    assert_eq!(h.kind(2, "c"), TokenKind::Plain);
-    assert_eq!(h.kind(2, "SHARED"), TokenKind::Macro);
+    assert_eq!(h.kind(2, "c"), Class::Unknown);
+    assert_eq!(h.kind(2, "SHARED"), Class::Macro);
     b.replace(0..0, "/*", Kind::Other);
     h.take(&mut b, "");
-    assert_eq!(h.kind(2, "c"), TokenKind::Comment);
+    assert_eq!(h.kind(2, "c"), Class::Comment);
     b.replace(5..5, "*/\n", Kind::Other);
     h.take(&mut b, "");
-    assert_eq!((h.kind(1, "b*/"), h.kind(2, "x")), (TokenKind::Comment, TokenKind::Plain));
+    assert_eq!((h.kind(1, "b*/"), h.kind(2, "x")), (Class::Comment, Class::Unknown));
     assert_eq!(h.lines.len(), b.line_count());
     b.replace(0..b.text().len(), "", Kind::Other);
     h.take(&mut b, "");

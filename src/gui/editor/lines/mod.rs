@@ -7,11 +7,11 @@ use super::{
     buffer::Buffer,
     colors::code_color,
     highlight::Highlight,
-    lexer::Token,
     pieces,
     rows::{Part, Rows},
     semantic::Semantic,
 };
+use crate::glsl::services::lines::Token;
 use crate::gui::theme::Palette;
 use egui::{
     FontId, Galley, Pos2, Rect, Stroke, Ui, pos2,
@@ -173,7 +173,7 @@ impl Lines<'_> {
             if part.is_empty() {
                 continue;
             }
-            let format = TextFormat::simple(self.font.clone(), code_color(token.kind, self.palette));
+            let format = TextFormat::simple(self.font.clone(), code_color(token.class, self.palette));
             match composing.filter(|(caret, _)| part.contains(caret)) {
                 Some((caret, composed)) => {
                     job.append(&buffer.text()[part.start..caret], 0.0, format.clone());

@@ -1,9 +1,11 @@
-//! Enough of GLSL's lexical grammar to colour it, a line or a piece of one at a time.
+//! The lexer for an editor: it reads a line, or a piece of one, at a time, so that an editor colours only what it shows.
 //!
-//! A piece of a line can be lexed alone given the [`LexState`] it begins in, so an editor colours only what it shows.
-//! It never refuses a text: what it does not know is [`TokenKind::Plain`]. The compiler's own lexer lives in `glsl`.
+//! A piece of a line can be lexed alone given the [`LexState`] that it begins in. Words and numbers are those of the
+//! compiler's lexer; blanks, comments and directives are told from code without reading what stands before. Nothing is
+//! refused: a name that is no word of the language is [`Class::Unknown`].
 
-use super::words::{self, Word};
+use super::{Class, docs};
+use crate::lex::{self, words::Meaning};
 use std::ops::Range;
 
 /// The construct that a place of a line lies in.
@@ -40,35 +42,11 @@ impl LexState {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TokenKind {
-    Plain,
-    Keyword,
-    Type,
-    /// A function of the language.
-    Builtin,
-    /// `iTime` and its kin, and the language's own variables.
-    Uniform,
-    /// A name the author gave to a macro.
-    Macro,
-    /// A name that is called or declared as a function.
-    Function,
-    Parameter,
-    Global,
-    Field,
-    /// Left out by an `#if`.
-    Inactive,
-    Number,
-    Comment,
-    Directive,
-    Operator,
-}
-
-/// A run of bytes of one kind.
+/// A run of bytes of one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     pub len: usize,
-    pub kind: TokenKind,
+    pub class: Class,
 }
 
 /// Says how far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
@@ -80,7 +58,7 @@ pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&
     let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
     let mut state = state;
     if state.inside == Inside::LineComment {
-        lexer.push(range.len(), TokenKind::Comment);
+        lexer.push(range.len(), Class::Comment);
     }
     if state.inside == Inside::BlockComment {
         lexer.block_comment(0);
@@ -94,37 +72,34 @@ pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&
             state.inside = Inside::Code;
         }
         if rest.starts_with("//") {
-            lexer.push(rest.len(), TokenKind::Comment);
+            lexer.push(rest.len(), Class::Comment);
         } else if rest.starts_with("/*") {
             lexer.block_comment(2);
         } else if c == '#' && is_indent {
             let word = 1 + rest[1..].len() - rest[1..].trim_start().len();
             let len = word + identifier_len(&rest[word..]);
             names_macro = matches!(&rest[word..len], "define" | "undef" | "ifdef" | "ifndef");
-            lexer.push(len, TokenKind::Directive);
+            lexer.push(len, Class::Preprocessor);
         } else if c.is_ascii_digit() || (c == '.' && rest[1..].starts_with(|c: char| c.is_ascii_digit())) {
-            lexer.push(number_len(rest), TokenKind::Number);
+            lexer.push(lex::number_length(rest), Class::Number);
         } else if c.is_alphabetic() || c == '_' {
             let len = identifier_len(rest);
             let name = &rest[..len];
             let mut behind = line[lexer.at + len..].chars().take(LOOK_AHEAD);
-            let kind = if std::mem::take(&mut names_macro) || is_macro(name) {
-                TokenKind::Macro
+            let class = if std::mem::take(&mut names_macro) || is_macro(name) {
+                Class::Macro
             } else {
-                match words::word(name) {
-                    Some(Word::Keyword) => TokenKind::Keyword,
-                    Some(Word::Type) => TokenKind::Type,
-                    Some(Word::Builtin) => TokenKind::Builtin,
-                    Some(Word::Uniform) => TokenKind::Uniform,
-                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => TokenKind::Function,
-                    None => TokenKind::Plain,
+                match class_of_word(name) {
+                    Some(class) => class,
+                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => Class::Function,
+                    None => Class::Unknown,
                 }
             };
-            lexer.push(len, kind);
+            lexer.push(len, class);
         } else if c.is_ascii_punctuation() {
-            lexer.push(1, TokenKind::Operator);
+            lexer.push(1, Class::Operator);
         } else {
-            lexer.push(c.len_utf8(), TokenKind::Plain);
+            lexer.push(c.len_utf8(), Class::Unknown);
         }
     }
     lexer.tokens
@@ -194,14 +169,14 @@ struct Lexer<'a> {
 }
 
 impl Lexer<'_> {
-    fn push(&mut self, len: usize, kind: TokenKind) {
+    fn push(&mut self, len: usize, class: Class) {
         if len == 0 {
             return;
         }
         self.at += len;
         match self.tokens.last_mut() {
-            Some(last) if last.kind == kind => last.len += len,
-            _ => self.tokens.push(Token { len, kind }),
+            Some(last) if last.class == class => last.len += len,
+            _ => self.tokens.push(Token { len, class }),
         }
     }
 
@@ -209,7 +184,7 @@ impl Lexer<'_> {
     fn block_comment(&mut self, skip: usize) {
         let rest = &self.line[self.at..];
         let end = rest[skip..].find("*/").map_or(rest.len(), |i| skip + i + 2);
-        self.push(end, TokenKind::Comment);
+        self.push(end, Class::Comment);
     }
 }
 
@@ -217,16 +192,15 @@ fn identifier_len(text: &str) -> usize {
     text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
 }
 
-fn number_len(text: &str) -> usize {
-    let hexadecimal = text.starts_with("0x") || text.starts_with("0X");
-    let mut previous = ' ';
-    text.find(|c: char| {
-        let exponent_sign = !hexadecimal && matches!(c, '+' | '-') && matches!(previous, 'e' | 'E');
-        let inside = c.is_ascii_alphanumeric() || c == '.' || exponent_sign;
-        previous = c;
-        !inside
-    })
-    .unwrap_or(text.len())
+/// Returns the class of a word of the language or of the site.
+fn class_of_word(name: &str) -> Option<Class> {
+    match lex::words::meaning(name) {
+        Some(Meaning::Builtin) => Some(Class::Builtin),
+        Some(Meaning::Type) => Some(Class::Type),
+        Some(Meaning::Keyword) => Some(Class::Keyword),
+        Some(Meaning::Uniform) => Some(Class::Uniform),
+        None => docs::variable(name).map(|_| Class::Uniform),
+    }
 }
 
 #[cfg(test)]
