@@ -77,6 +77,7 @@ pub(crate) mod testing;
 pub mod trace;
 mod tracing;
 pub mod trial;
+mod uniform_names;
 pub mod view;
 mod walked;
 mod watch;

@@ -19,6 +19,7 @@ use super::{
     replay::Replay,
     seeking::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
+    uniform_names::{DeclaredUniforms, RenamedUniforms},
     view::CompileState,
 };
 use crate::{media::Keyboard, project::PassId};
@@ -51,6 +52,7 @@ impl Session {
         self.halt_for_new_project();
         self.disk_is_known();
         self.compile_soon();
+        self.read_declared_uniforms();
     }
 }
 
@@ -78,6 +80,8 @@ impl Compile {
             fallback: None,
             newest_since: None,
             edited_at: None,
+            renamed_uniforms: RenamedUniforms::new(),
+            declared_uniforms: DeclaredUniforms::default(),
             on_save: self.on_save,
             waits_for_save: false,
         }
