@@ -8,7 +8,7 @@ use crate::{
     diag::{SourceId, Span},
     engine,
     glsl::{self, services::Analysis},
-    project::{Project, Stage, Tab},
+    project::{FillKind, FillValue, Project, Stage, Tab},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,6 +40,9 @@ impl Session {
         self.renamable(tab, at)?;
         let (name, places) = self.named_at(tab, at)?;
         let project = self.project();
+        if let Some(place) = used_in_fill(project, &name) {
+            return Err(format!("`{name}` is used in {place} too: write `{to}` there first, then rename it"));
+        }
         let mut edits = Vec::new();
         for &(source, start, end) in &places {
             let range = start as usize..end as usize;
@@ -120,6 +123,21 @@ pub(super) fn everywhere(project: &Project, source: SourceId, at: usize) -> Plac
         }
     }
     found
+}
+
+/// Returns the first expression of `eddy.toml` that uses one of the author's own uniforms: no edit of a tab reaches it.
+fn used_in_fill(project: &Project, name: &str) -> Option<String> {
+    project.custom_uniforms().get(name)?;
+    let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    project.fills().find_map(|(index, kind, fill)| {
+        let FillValue::Expression(text) = &fill.value else { return None };
+        let is_used = text.split(|c| !is_of_name(c)).any(|word| word == name);
+        let what = match kind {
+            FillKind::Initial => "initial state",
+            FillKind::Boundary => "edges",
+        };
+        is_used.then(|| format!("the {what} of {}", project.passes[index].id.title()))
+    })
 }
 
 /// Every stage of every pass.

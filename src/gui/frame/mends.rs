@@ -3,7 +3,7 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
     gui::dock::Panel,
-    project::{CustomUniformValue, PassId, Tab},
+    project::{CustomUniformValue, FillValue, PassEdit, PassId, Tab},
     session::Command,
 };
 use egui::{Event, Key, Modifiers, PointerButton};
@@ -205,6 +205,15 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
     stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
     stage.state_mut().session.apply(Command::Pause);
     settle(&mut stage);
+    // No edit of a text reaches `eddy.toml`.
+    let fill = |text: &str| {
+        let value = FillValue::Expression(format!("vec4({text})").into());
+        Command::EditPasses(PassEdit::Initial(PassId::Buffer("A".into()), Some(value)))
+    };
+    stage.state_mut().session.apply(fill("0.1 * speed"));
+    let why = stage.state().session.rename(&Tab::Common, SPEED.find("speed").unwrap(), "pace").unwrap_err();
+    assert_eq!(why, "`speed` is used in the initial state of Buffer A too: write `pace` there first, then rename it");
+    stage.state_mut().session.apply(fill("0.1"));
     let value = CustomUniformValue::Float(1.5);
     let turn = Command::SetCustomUniform { name: "speed".into(), value: Some(value.clone()) };
     stage.state_mut().session.apply(turn);
