@@ -78,6 +78,7 @@ pub mod trace;
 mod tracing;
 pub mod trial;
 mod uniform_names;
+mod uniforms_of_texts;
 pub mod view;
 mod walked;
 mod watch;

@@ -19,7 +19,7 @@ use super::{
     replay::Replay,
     seeking::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
-    uniform_names::{DeclaredUniforms, RenamedUniforms},
+    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::CompileState,
 };
 use crate::{media::Keyboard, project::PassId};

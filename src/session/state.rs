@@ -30,7 +30,7 @@ use super::{
     runs::Runs,
     seeking::Seeking,
     tracing::Tracing,
-    uniform_names::{DeclaredUniforms, RenamedUniforms},
+    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::{About, CompileState, Level, Notice, TabDiagnostic},
     watch::Watch,
     worker::Worker,

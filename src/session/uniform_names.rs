@@ -1,21 +1,12 @@
 //! The author's own uniforms while the texts have other names than the program that draws.
 //!
-//! Owns which name became which, and what the texts declare before a program does. Values and steps back go by the names
-//! in the texts.
+//! Values and steps back go by the names in the texts.
 
-use super::Session;
+use super::{
+    Session,
+    uniforms_of_texts::{DeclaredUniforms, newest_name},
+};
 use crate::project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
-
-/// Old and new names, in the order in which they were given.
-pub(super) type RenamedUniforms = Vec<(String, String)>;
-
-/// The uniforms of the texts, where the program that draws declares none or there is none yet.
-#[derive(Default)]
-pub(super) struct DeclaredUniforms {
-    pub list: Vec<CustomUniform>,
-    /// The documents' revision that they are of.
-    revision: Option<u64>,
-}
 
 impl Session {
     /// Reads what the texts declare, if that is shown and they have changed since.
@@ -76,32 +67,9 @@ impl Session {
         self.compile.renamed_uniforms.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
     }
 
-    /// What the texts declare now is no old name.
+    /// Names that the texts declare now are no old ones.
     fn drop_names_in_use(&mut self) {
         let declared = self.project().custom_uniform_names();
         self.compile.renamed_uniforms.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
-    }
-}
-
-fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
-    renamed.iter().fold(name, |name, (from, to)| if from == name { to } else { name })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_is_followed_through_all_its_changes() {
-        let renamed = |all: &[(&str, &str)]| -> RenamedUniforms {
-            all.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect()
-        };
-        let typed = renamed(&[("speed", "spee"), ("tint", "hue"), ("spee", "pace")]);
-        assert_eq!(
-            ["speed", "tint", "pace", "other"].map(|name| newest_name(&typed, name)),
-            ["pace", "hue", "pace", "other"]
-        );
-        let taken_back = renamed(&[("speed", "pace"), ("pace", "speed")]);
-        assert_eq!(newest_name(&taken_back, "speed"), "speed");
     }
 }
