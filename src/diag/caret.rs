@@ -50,7 +50,7 @@ fn excerpt(
     message: &str,
     mark: char,
     gutter: usize,
-    last_source: &mut Option<crate::diag::SourceId>,
+    last_source: &mut Option<crate::SourceId>,
 ) {
     let (Some(source), Some(at)) = (sources.get(span.source), sources.line_column(span)) else { return };
     let arrow = if last_source.replace(span.source).is_none() { "-->" } else { ":::" };
@@ -87,7 +87,7 @@ fn line_around(text: &str, place: usize) -> (&str, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::Diagnostic;
+    use crate::Diagnostic;
 
     #[test]
     fn caret_stands_under_the_place() {

@@ -6,10 +6,8 @@ use super::{
     sources,
     stage_cache::{self, Missing, Outcome, StageCache},
 };
-use crate::{
-    glsl::{Link, PassSource},
-    project::{PassBody, Stage},
-};
+use eddy_glsl::{Link, PassSource};
+use eddy_project::{PassBody, Stage};
 use std::{
     cmp::Reverse,
     num::NonZero,
@@ -101,7 +99,8 @@ impl Sources<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{glsl::Driver, project};
+    use eddy_glsl::Driver;
+    use eddy_project as project;
 
     #[test]
     fn threads_compile_what_one_thread_does() {

@@ -8,12 +8,10 @@ use super::{
     targets::Target,
     uniforms::Uniforms,
 };
-use crate::{
-    glsl::{ChannelKind, interface},
-    gpu::{Address, Filtering, Gpu},
-    graph::{Draw, Read, Source},
-    project::{Filter, Wrap},
-};
+use eddy_glsl::{ChannelKind, interface};
+use eddy_gpu::{Address, Filtering, Gpu};
+use eddy_graph::{Draw, Read, Source};
+use eddy_project::{Filter, Wrap};
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {

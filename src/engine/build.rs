@@ -13,14 +13,12 @@ use super::{
     trial::{Trial, TrialOrder},
     uploads::Uploads,
 };
-use crate::{
-    diag::{self, Diagnostic, SourceId, SourceMap},
-    glsl::{Driver, Probe, opt::PassSet},
-    gpu::Gpu,
-    graph::{ChannelFacts, FramePlan, PassFacts},
-    media::MediaSet,
-    project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
-};
+use eddy_diag::{self as diag, Diagnostic, SourceId, SourceMap};
+use eddy_glsl::{Driver, Probe, opt::PassSet};
+use eddy_gpu::Gpu;
+use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
+use eddy_media::MediaSet;
+use eddy_project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project};
 
 /// The pictures that are wanted, and whether the others may be left out.
 #[derive(Clone, Debug)]

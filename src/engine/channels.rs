@@ -5,13 +5,11 @@ use super::{
     sources::channel_kind,
     uploads::Uploads,
 };
-use crate::{
-    glsl::{ChannelUse, interface},
-    gpu::{Binding, Gpu, GpuError},
-    graph::{Draw, Source, effective_sampler},
-    media::{MediaKey, MediaSet, TexelFormat, Texels},
-    project::{Channel, Filter, Input, PassId, PassSettings, Project},
-};
+use eddy_glsl::{ChannelUse, interface};
+use eddy_gpu::{Binding, Gpu, GpuError};
+use eddy_graph::{Draw, Source, effective_sampler};
+use eddy_media::{MediaKey, MediaSet, TexelFormat, Texels};
+use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
 use std::sync::Arc;
 
 /// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
@@ -117,9 +115,9 @@ pub(super) fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec
     let mut bindings = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
         let dimension = match channel.kind {
-            crate::glsl::ChannelKind::Sampler2D => wgpu::TextureViewDimension::D2,
-            crate::glsl::ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
-            crate::glsl::ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
+            eddy_glsl::ChannelKind::Sampler2D => wgpu::TextureViewDimension::D2,
+            eddy_glsl::ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
+            eddy_glsl::ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
         };
         // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third
         // case.

@@ -6,11 +6,9 @@ use super::{
     fill_text, sources,
     stage_cache::{self, StageCache},
 };
-use crate::{
-    diag::{Diagnostic, Span},
-    glsl::{self, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection},
-    project::{FillKind, Geometry, PassBody, PassId, Stage},
-};
+use eddy_diag::{Diagnostic, Span};
+use eddy_glsl::{self as glsl, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection};
+use eddy_project::{FillKind, Geometry, PassBody, PassId, Stage};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;

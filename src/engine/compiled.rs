@@ -1,9 +1,7 @@
 //! A pass out of the compiler, whether it is one full-screen program or the programs of several meshes.
 
-use crate::{
-    diag::Diagnostic,
-    glsl::{Compiled, Reflection, interface},
-};
+use eddy_diag::Diagnostic;
+use eddy_glsl::{Compiled, Reflection, interface};
 use std::sync::Arc;
 
 /// A pass that compiled.

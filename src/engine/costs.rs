@@ -1,10 +1,8 @@
 //! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
-use crate::{
-    graph::{Draw, FramePlan, PassFacts, Read, Source, When},
-    project::{PassFormat, PassId, Project},
-};
+use eddy_graph::{Draw, FramePlan, PassFacts, Read, Source, When};
+use eddy_project::{PassFormat, PassId, Project};
 
 /// Bytes a texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;

@@ -1,12 +1,9 @@
 //! The author's own uniforms on their way into shaders: which a pass may name, and the block their values lie in.
 
-use crate::{
-    diag::{Diagnostic, SourceId},
-    glsl::{self, CustomUniformKind, UniformValue, UntypedValue, interface::CUSTOM_UNIFORM_BYTES},
-    project::{
-        CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines,
-        Project,
-    },
+use eddy_diag::{Diagnostic, SourceId};
+use eddy_glsl::{self as glsl, CustomUniformKind, UniformValue, UntypedValue, interface::CUSTOM_UNIFORM_BYTES};
+use eddy_project::{
+    CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines, Project,
 };
 
 /// Slots in the 64 KiB that a uniform buffer has on every device.

@@ -1,10 +1,8 @@
 //! The 8-bit picture that a window shows.
 
 use super::targets::Target;
-use crate::{
-    gpu::{Gpu, GpuError, Presenter, Texture, ValueLook, ValuePainter},
-    project::PassId,
-};
+use eddy_gpu::{Gpu, GpuError, Presenter, Texture, ValueLook, ValuePainter};
+use eddy_project::PassId;
 
 /// Shows the newest texels of one pass.
 pub(super) struct Display {

@@ -9,12 +9,10 @@ use super::{
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, Meshes, Mixing},
     uploads::Uploads,
 };
-use crate::{
-    glsl::{Reflection, interface},
-    gpu::Binding,
-    graph::{Draw, FramePlan},
-    project::{Camera, FillKind, Pass, PassBody, PassFormat},
-};
+use eddy_glsl::{Reflection, interface};
+use eddy_gpu::Binding;
+use eddy_graph::{Draw, FramePlan};
+use eddy_project::{Camera, FillKind, Pass, PassBody, PassFormat};
 use std::sync::Arc;
 
 /// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
@@ -98,7 +96,7 @@ enum BodyDraft {
 
 /// The programs of a pass or of one of its fills.
 struct ProgramDraft {
-    pass: crate::project::PassId,
+    pass: eddy_project::PassId,
     reflection: Reflection,
     channels: [BoundChannel; 4],
     body: BodyDraft,

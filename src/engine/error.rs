@@ -1,10 +1,8 @@
 //! The errors of building a program and of drawing a frame.
 
-use crate::{
-    diag::{Diagnostic, SourceMap},
-    gpu::GpuError,
-    media::mesh::MeshError,
-};
+use eddy_diag::{Diagnostic, SourceMap};
+use eddy_gpu::GpuError;
+use eddy_media::mesh::MeshError;
 
 /// A frame could not be drawn or read.
 #[derive(Debug, thiserror::Error)]

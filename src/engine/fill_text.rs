@@ -1,10 +1,8 @@
 //! The text of a fill: a program of one expression, or of one picture.
 
-use crate::{
-    diag::{Diagnostic, SourceId, Span},
-    glsl::{Include, Text},
-    project::{FillText, FillValue},
-};
+use eddy_diag::{Diagnostic, SourceId, Span};
+use eddy_glsl::{Include, Text};
+use eddy_project::{FillText, FillValue};
 
 /// Nothing in a project has this id: what is wrong in the text around an expression is said of the expression.
 const AROUND: SourceId = SourceId::NONE;

@@ -1,6 +1,6 @@
 //! The words of a project in those of the graphics layer.
 
-use crate::project::{Cull, DepthTest, PassFormat};
+use eddy_project::{Cull, DepthTest, PassFormat};
 
 pub(super) fn texture_format(format: PassFormat) -> wgpu::TextureFormat {
     use wgpu::TextureFormat as T;

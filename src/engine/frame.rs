@@ -9,12 +9,10 @@ use super::{
     bind::draw_fill, inspect::Capture, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms,
     watch::Watch,
 };
-use crate::{
-    glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP},
-    gpu::Gpu,
-    graph::{Draw, Source},
-    project::Boundary,
-};
+use eddy_glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP};
+use eddy_gpu::Gpu;
+use eddy_graph::{Draw, Source};
+use eddy_project::Boundary;
 
 /// The value of a probe that never was there.
 const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
@@ -161,7 +159,7 @@ impl Running {
         self.uniforms.write(gpu);
     }
 
-    /// Returns everything a draw reads that is no target; for [`crate::graph::Changes::must_draw`].
+    /// Returns everything a draw reads that is no target; for [`eddy_graph::Changes::must_draw`].
     fn inputs_of(&self, shared: &Shared, index: usize) -> Vec<u8> {
         let (compiled, draw) = (&self.program.draws[index], &self.program.plan.draws[index]);
         let mut read = Vec::new();

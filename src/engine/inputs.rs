@@ -1,6 +1,6 @@
 //! Everything of one frame that is not the project's: time, mouse, keys, date.
 
-use crate::media::Keyboard;
+use eddy_media::Keyboard;
 
 /// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to
 /// 6.

@@ -6,15 +6,13 @@ use super::{
     compiled::CompiledProgram,
     formats::{compare_function, cull_mode, texture_format},
 };
-use crate::{
-    glsl::{Attribute, Compiled, interface},
-    gpu::{
-        Binding, FragmentPipelineDescriptor, Gpu, GpuError, MeshPipelineDescriptor, Pipeline, Shader, check_targets,
-        constant_buffer,
-    },
-    media::mesh::Vertex,
-    project::{Cull, DepthTest, MeshDraw, PassFormat},
+use eddy_glsl::{Attribute, Compiled, interface};
+use eddy_gpu::{
+    Binding, FragmentPipelineDescriptor, Gpu, GpuError, MeshPipelineDescriptor, Pipeline, Shader, check_targets,
+    constant_buffer,
 };
+use eddy_media::mesh::Vertex;
+use eddy_project::{Cull, DepthTest, MeshDraw, PassFormat};
 use std::{
     collections::HashMap,
     mem::offset_of,

@@ -1,12 +1,10 @@
 //! A mesh where it stands, and the camera's matrices.
 
 use super::FrameInputs;
-use crate::{
-    glsl::interface::GeometryBlock,
-    gpu::MeshBuffers,
-    media::mesh::Mesh,
-    project::{Camera, MeshDraw},
-};
+use eddy_glsl::interface::GeometryBlock;
+use eddy_gpu::MeshBuffers;
+use eddy_media::mesh::Mesh;
+use eddy_project::{Camera, MeshDraw};
 use glam::{Mat3, Mat4, Quat, Vec3, camera::rh};
 use std::sync::Arc;
 
@@ -66,7 +64,7 @@ fn model(draw: &MeshDraw) -> Mat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Cull, DepthTest, MeshSource};
+    use eddy_project::{Cull, DepthTest, MeshSource};
 
     #[test]
     fn a_drag_turns_the_camera_about_its_target() {
@@ -87,8 +85,8 @@ mod tests {
         let draw = MeshDraw {
             mesh: MeshSource::Builtin("cube".into()),
             normals: None,
-            vertex: crate::project::Stage::Own,
-            fragment: crate::project::Stage::Own,
+            vertex: eddy_project::Stage::Own,
+            fragment: eddy_project::Stage::Own,
             cull: Cull::Back,
             depth: DepthTest::Less,
             depth_write: true,

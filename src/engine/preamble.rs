@@ -1,10 +1,8 @@
 //! Common as it was read last: an edit that leaves it alone need not read it again.
 
 use super::Sources;
-use crate::{
-    diag::{SourceId, Span},
-    glsl::{Preamble, UniformValue},
-};
+use eddy_diag::{SourceId, Span};
+use eddy_glsl::{Preamble, UniformValue};
 use std::sync::Arc;
 
 /// Keeps what [`Sources`] have read of Common, for later ones with the same.
@@ -64,7 +62,9 @@ impl Sources<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{diag, glsl::Driver, project};
+    use eddy_diag as diag;
+    use eddy_glsl::Driver;
+    use eddy_project as project;
 
     /// Compiles a preset whose texts were edited before, and returns whether Common was read anew.
     fn reads(kept: &mut KeptPreamble, edit: impl FnOnce(&mut project::Project)) -> bool {

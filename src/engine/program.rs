@@ -1,12 +1,10 @@
 //! A program: compiled passes, their pipelines, and the plan of a frame. It does not change from frame to frame.
 
 use super::{pipelines::StagePipeline, placed::PlacedMesh};
-use crate::{
-    glsl::{ChannelKind, CustomUniformSet, UniformSet},
-    gpu::Texture,
-    graph::{Draw, FramePlan},
-    project::{Camera, CustomUniform, CustomUniformValues, PassId, PassSize},
-};
+use eddy_glsl::{ChannelKind, CustomUniformSet, UniformSet};
+use eddy_gpu::Texture;
+use eddy_graph::{Draw, FramePlan};
+use eddy_project::{Camera, CustomUniform, CustomUniformValues, PassId, PassSize};
 use std::sync::Arc;
 
 /// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread;

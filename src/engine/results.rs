@@ -1,6 +1,6 @@
 //! Times, counts and texels of frames.
 
-use crate::project::PassId;
+use eddy_project::PassId;
 
 /// Time of one pass in one frame.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,10 +12,8 @@ use super::{
     viewer::Viewer,
     watch::Watch,
 };
-use crate::{
-    gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook},
-    project::{CustomUniformValues, PassFormat, PassId},
-};
+use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
+use eddy_project::{CustomUniformValues, PassFormat, PassId};
 
 /// A device, and the program that runs on it.
 pub struct Engine {

@@ -10,11 +10,9 @@ use super::{
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
 };
-use crate::{
-    gpu::{PassTimer, depth_buffer},
-    graph::Changes,
-    project::{CustomUniformValues, PassId},
-};
+use eddy_gpu::{PassTimer, depth_buffer};
+use eddy_graph::Changes;
+use eddy_project::{CustomUniformValues, PassId};
 
 /// A program with its textures, on a canvas of one size.
 pub(super) struct Running {

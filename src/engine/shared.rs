@@ -1,10 +1,8 @@
 //! The parts that every program draws with: the device, samplers, the keyboard, and textures for channels that have
 //! none.
 
-use crate::{
-    gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor},
-    media::Keyboard,
-};
+use eddy_gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor};
+use eddy_media::Keyboard;
 
 pub(super) struct Shared {
     pub gpu: Gpu,

@@ -1,11 +1,9 @@
 //! The texels of targets at one moment, to go back to.
 
 use super::{running::Running, shared::Shared, targets::Target};
-use crate::{
-    gpu::{Gpu, GpuError, Texture, TextureDescriptor},
-    graph::{Carried, FramePlan},
-    project::PassId,
-};
+use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
+use eddy_graph::{Carried, FramePlan};
+use eddy_project::PassId;
 
 /// Holds what a program's targets held between two frames. It belongs to the program and the canvas that it was taken
 /// of.

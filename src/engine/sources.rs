@@ -1,18 +1,16 @@
 //! A project's texts as the compiler and the editor take them.
 
 use super::{custom_uniforms, fill_text::FillSource};
-use crate::{
-    diag::{Diagnostic, SourceId, Span},
-    glsl::{
-        self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression, Text,
-        UniformValue, Varying,
-        services::Analysis,
-        walkable::{Detail, Walkable},
-    },
-    project::{
-        Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
-        Source, Stage, lines_not_obeyed,
-    },
+use eddy_diag::{Diagnostic, SourceId, Span};
+use eddy_glsl::{
+    self as glsl, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression, Text,
+    UniformValue, Varying,
+    services::Analysis,
+    walkable::{Detail, Walkable},
+};
+use eddy_project::{
+    Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
+    Source, Stage, lines_not_obeyed,
 };
 use std::{
     borrow::Cow,
@@ -57,7 +55,7 @@ impl<'p> Sources<'p> {
     }
 
     /// Returns what the author wrote at a place.
-    pub(crate) fn written(&self, span: Span) -> &str {
+    pub fn written(&self, span: Span) -> &str {
         let text = self.texts.get(span.source.0 as usize);
         text.and_then(|text| text.get(span.range())).unwrap_or_default()
     }
@@ -135,7 +133,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub(crate) fn pass(&self, index: usize) -> &Pass {
+    pub fn pass(&self, index: usize) -> &Pass {
         &self.project.passes[index]
     }
 
@@ -143,7 +141,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub(crate) fn walkable(&self, index: usize, detail: Detail) -> Result<Walkable, Vec<Diagnostic>> {
+    pub fn walkable(&self, index: usize, detail: Detail) -> Result<Walkable, Vec<Diagnostic>> {
         self.walked(index, (Stage::Own, self.own_kind(index)), |source| Walkable::new(source, &Link::default(), detail))
     }
 
@@ -151,7 +149,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass or stage.
-    pub(crate) fn walkable_vertices(&self, index: usize, stage: Stage) -> Result<Walkable, Vec<Diagnostic>> {
+    pub fn walkable_vertices(&self, index: usize, stage: Stage) -> Result<Walkable, Vec<Diagnostic>> {
         self.walked(index, (stage, PassKind::Vertex), |source| Walkable::new(source, &Link::default(), Detail::Values))
     }
 
@@ -159,7 +157,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass or stage.
-    pub(crate) fn walkable_fragments(
+    pub fn walkable_fragments(
         &self,
         index: usize,
         (stage, varyings): (Stage, &[Varying]),
@@ -176,7 +174,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass or draw.
-    pub(crate) fn walkable_with(
+    pub fn walkable_with(
         &self,
         (index, draw): (usize, Option<usize>),
         (declarations, body): (&str, &str),
@@ -210,7 +208,7 @@ impl<'p> Sources<'p> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub(crate) fn walkable_boundary(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+    pub fn walkable_boundary(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
         let fill = self.pass(index).fill(FillKind::Boundary)?;
         let text = FillSource::new(&fill.value, self.fill_text(index, FillKind::Boundary)?);
         let value = text.value()?;

@@ -1,12 +1,10 @@
 //! Compiled stages, found by everything that compiling them reads.
 
 use super::cache::Cache;
-use crate::{
-    diag::{Diagnostic, SourceId, Span},
-    glsl::{
-        self, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, Preamble, Probe, Text,
-        UntypedValue, Varying,
-    },
+use eddy_diag::{Diagnostic, SourceId, Span};
+use eddy_glsl::{
+    self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, Preamble, Probe, Text,
+    UntypedValue, Varying,
 };
 use std::{
     cell::OnceCell,

@@ -1,11 +1,9 @@
 //! The textures passes draw into, kept from frame to frame and, where it makes sense, from program to program.
 
 use super::formats::texture_format;
-use crate::{
-    gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor, mip_levels},
-    graph::{self, FramePlan},
-    project::PassId,
-};
+use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor, mip_levels};
+use eddy_graph::{self as graph, FramePlan};
+use eddy_project::PassId;
 
 /// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other,
 /// and then they change places.

@@ -5,10 +5,8 @@
 //! the caller's.
 
 use super::{pipelines::PipelineOrder, sources::Sources};
-use crate::{
-    diag::Diagnostic,
-    project::{PassId, Project, limits},
-};
+use eddy_diag::Diagnostic;
+use eddy_project::{PassId, Project, limits};
 use std::{fmt, sync::Arc, time::Duration};
 
 /// Statements of a program, with all calls written out, that are compiled without a trial. Mesa's drivers for the

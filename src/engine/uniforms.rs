@@ -4,13 +4,11 @@ use super::{
     FrameInputs,
     program::{BoundChannel, CompiledDraw, Program},
 };
-use crate::{
-    glsl::{
-        UniformSet,
-        interface::{CUSTOM_UNIFORM_BYTES, GeometryBlock, UniformBlock},
-    },
-    gpu::Gpu,
+use eddy_glsl::{
+    UniformSet,
+    interface::{CUSTOM_UNIFORM_BYTES, GeometryBlock, UniformBlock},
 };
+use eddy_gpu::Gpu;
 use std::{mem::offset_of, ops::Range};
 
 /// Blocks lie this far apart in their buffers, which is what every device allows.

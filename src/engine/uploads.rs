@@ -5,14 +5,12 @@ use super::{
     cache::{ByAddress, Cache},
     placed::PlacedMesh,
 };
-use crate::{
-    gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor, mip_levels},
-    media::{
-        MediaSet, TexelFormat, Texels,
-        mesh::{Mesh, MeshError},
-    },
-    project::Geometry,
+use eddy_gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor, mip_levels};
+use eddy_media::{
+    MediaSet, TexelFormat, Texels,
+    mesh::{Mesh, MeshError},
 };
+use eddy_project::Geometry;
 use std::sync::Arc;
 
 /// Pictures and meshes of this build and those before it.
@@ -60,7 +58,7 @@ impl Uploads {
 
     /// Returns the mesh of each draw of a pass, in order.
     pub fn placed(&mut self, gpu: &Gpu, media: &MediaSet, geometry: &Geometry) -> Result<Vec<PlacedMesh>, EngineError> {
-        let placed = |draw: &crate::project::MeshDraw| {
+        let placed = |draw: &eddy_project::MeshDraw| {
             let mesh = media.mesh(draw).map_err(|error: MeshError| EngineError::from(error))?;
             let buffers = self.mesh(gpu, &draw.mesh.name(), &mesh)?;
             Ok(PlacedMesh::new(mesh, buffers, draw))

@@ -1,7 +1,7 @@
 //! Targets as somebody sees them who looks closely: as pictures of their values, and texel by texel.
 
 use super::Picture;
-use crate::gpu::{Gpu, GpuError, Presenter, Readback, TexelPicker, Texture, ValueLook, ValuePainter};
+use eddy_gpu::{Gpu, GpuError, Presenter, Readback, TexelPicker, Texture, ValueLook, ValuePainter};
 
 /// Paints into a texture of its own, so that the picture that the window shows stays as it is.
 pub(super) struct Viewer {

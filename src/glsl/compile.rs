@@ -10,7 +10,7 @@ use super::{
     stack::on_deep_stack,
     stages::{self, Interface, Link},
 };
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 
 /// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
 /// Holds errors exactly where [`compile`] would fail.

@@ -1,7 +1,7 @@
 //! Holds what comes of a pass that compiles.
 
 use super::reflection::Reflection;
-use crate::diag::Diagnostic;
+use eddy_diag::Diagnostic;
 
 /// A pass that compiled.
 #[derive(Clone, Debug)]

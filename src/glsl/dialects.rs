@@ -8,7 +8,7 @@ use super::{
     PassKind,
     source::{PassSource, Text},
 };
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 
 /// A tool, the words by which its texts are known, and what to do with one.
 struct Dialect {
@@ -328,8 +328,8 @@ impl Words {
 
 #[cfg(test)]
 mod tests {
-    use crate::diag::SourceId;
-    use crate::glsl::{self, PassKind, PassSource, Text};
+    use crate::{self as glsl, PassKind, PassSource, Text};
+    use eddy_diag::SourceId;
 
     fn said(code: &str) -> Vec<String> {
         let source = PassSource::new(PassKind::Image, Text { id: SourceId(0), text: code });

@@ -7,19 +7,19 @@
 //! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is
 //!   read.
 //! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with
-//!   the module ([`crate::glsl::Compiled::tables`]). Absent when there are none.
+//!   the module ([`crate::Compiled::tables`]). Absent when there are none.
 //! - Group 0, binding 3: a uniform buffer with those constant tables that fit into [`UNIFORM_TABLE_BYTES`] together
-//!   ([`crate::glsl::Compiled::uniform_tables`]). Absent when there are none.
-//! - Group 0, binding 2: the author's own uniforms ([`crate::glsl::CustomUniform`]), an array of `vec4<u32>`: each
+//!   ([`crate::Compiled::uniform_tables`]). Absent when there are none.
+//! - Group 0, binding 2: the author's own uniforms ([`crate::CustomUniform`]), an array of `vec4<u32>`: each
 //!   has a slot of 16 bytes whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is
 //!   read.
 //! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is
-//!   reached from the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows
+//!   reached from the entry point ([`crate::Reflection::channels`] says which), so the bind group layout follows
 //!   the reflection.
 //!
 //! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
 //! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in
-//! a storage buffer. Attributes lie at the locations of [`crate::glsl::Attribute`], a fragment's outputs at those of
+//! a storage buffer. Attributes lie at the locations of [`crate::Attribute`], a fragment's outputs at those of
 //! the targets, as `vec4<f32>` each. Clip space is GL's on the inside; the vertex stage turns y, as row 0 is the
 //! bottom, and moves depth from -w..w to 0..w. A triangle that is counter-clockwise in GL's terms is so clockwise in
 //! WebGPU's.

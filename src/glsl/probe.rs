@@ -4,7 +4,7 @@ use super::{
     ast::Origins,
     hir::{ExprId, ExprKind, Module, StmtKind},
 };
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 
 /// A value that Image draws instead of its picture, and a buffer beside its own, into its second target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -6,7 +6,7 @@ use super::{
     source::PassSource,
     types::{Scalar, Type},
 };
-use crate::diag::Span;
+use eddy_diag::Span;
 
 /// The expression that is probed.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Collects the diagnostics of one compile: a limit to how many, and one message a place.
 
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 
 /// Errors shown for one text; the rest is most likely a consequence.
 pub(super) const MAX_ERRORS: usize = 100;

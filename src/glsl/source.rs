@@ -1,7 +1,7 @@
 //! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
 use super::{driver::Driver, probe::Probe};
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 
 /// The entry point that a pass defines, and with it the uniforms that it may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

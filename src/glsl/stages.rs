@@ -9,7 +9,7 @@ use super::{
     hir::{Global, GlobalId, GlobalStorage, Module, Scalar, Type, TypeId},
     near::nearest_identifier,
 };
-use crate::diag::Diagnostic;
+use eddy_diag::Diagnostic;
 
 /// Slots of four components between the stages that every device has.
 const MAX_SLOTS: u32 = 15;
@@ -76,14 +76,14 @@ pub struct Link<'a> {
 
 /// Says where the `in` and `out` variables of a stage lie: of each the location of its first slot.
 #[derive(Clone, Debug, Default)]
-pub(in crate::glsl) struct Interface {
+pub(crate) struct Interface {
     pub inputs: Vec<(GlobalId, u32)>,
     pub outputs: Vec<(GlobalId, u32)>,
     pub varyings: Vec<Varying>,
 }
 
 /// Sorts out the interface of a stage, and reports what is wrong with it. Passes that are no stages have none.
-pub(in crate::glsl) fn interface(
+pub(crate) fn interface(
     module: &Module,
     names: &Interner,
     origins: &Origins,
@@ -111,7 +111,7 @@ pub(in crate::glsl) fn interface(
 }
 
 /// The slots a value takes, in order, each a scalar or vector; `None` for what cannot pass between stages.
-pub(in crate::glsl) fn slots(module: &Module, ty: TypeId) -> Option<Vec<TypeId>> {
+pub(crate) fn slots(module: &Module, ty: TypeId) -> Option<Vec<TypeId>> {
     match module.types.get(ty) {
         Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => None,
         Type::Scalar(_) | Type::Vector { .. } => Some(vec![ty]),

@@ -6,11 +6,11 @@ use super::{
     hir::{ExprId, LocalId, LocalKind, Module, StmtId, StmtKind},
     types::TypeId,
 };
-use crate::diag::Span;
+use eddy_diag::Span;
 
 /// A statement, by its place in [`Statements::list`].
 #[derive(Clone, Debug)]
-pub(crate) struct Statement {
+pub struct Statement {
     /// Its text; of a branch or a loop the head alone.
     pub head: Span,
     /// The test of a loop, and the step between two turns.
@@ -33,7 +33,7 @@ pub(crate) struct Statement {
 
 /// A parameter or local variable.
 #[derive(Clone, Debug)]
-pub(crate) struct LocalVariable {
+pub struct LocalVariable {
     pub name: String,
     pub ty: TypeId,
     /// The value of a `const`.
@@ -44,7 +44,7 @@ pub(crate) struct LocalVariable {
 
 /// The time for which a variable is asked for: before a statement, in its head, or behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum When {
+pub enum When {
     Before,
     Within,
     After,
@@ -52,7 +52,7 @@ pub(crate) enum When {
 
 /// The statements and variables of a pass.
 #[derive(Debug, Default)]
-pub(crate) struct Statements {
+pub struct Statements {
     /// By the ids of the checked program; none of what is no statement of a function's body.
     pub list: Vec<Option<Statement>>,
     pub locals: Vec<LocalVariable>,

@@ -13,10 +13,10 @@ use super::{
     types::{StructId, TypeId},
     unsequenced,
 };
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 
 /// A program to walk through.
-pub(crate) struct Walkable {
+pub struct Walkable {
     pub program: ir::Module,
     names: lower::Names,
     origins: Origins,
@@ -34,7 +34,7 @@ pub(crate) struct Walkable {
 
 /// Says what a program is lowered for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Detail {
+pub enum Detail {
     /// Somebody looks at its values.
     Values,
     /// Somebody steps through it, statement by statement.
@@ -43,7 +43,7 @@ pub(crate) enum Detail {
 
 /// Control comes to a part of a statement, which [`Statements`] tells of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coming {
+pub enum Coming {
     /// It begins.
     Begin(u32),
     /// A loop begins a turn: with its test, if that stands before its body.

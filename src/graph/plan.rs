@@ -1,7 +1,7 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
+use eddy_project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
 use std::{collections::BTreeSet, ops::Range};
 
 /// The use that a compiled pass makes of one channel.

@@ -1,6 +1,6 @@
 //! The sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
-use crate::project::{Filter, Input, Project, Sampler, SamplerRules, Wrap};
+use eddy_project::{Filter, Input, Project, Sampler, SamplerRules, Wrap};
 
 /// Returns the sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
 ///
@@ -17,7 +17,7 @@ pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option
     if !shared || project.sampler_rules == SamplerRules::PerChannel {
         return Some(channel.sampler);
     }
-    let same = |channels: &[Option<crate::project::Channel>; 4]| {
+    let same = |channels: &[Option<eddy_project::Channel>; 4]| {
         channels.iter().flatten().rfind(|c| c.input == channel.input).map(|c| c.sampler)
     };
     let filter = same(&pass.channels)?.filter;

@@ -3,7 +3,7 @@
 use super::{
     Carried, Changes, ChannelFacts, FramePlan, PassFacts, Source, Target, TargetKind, When, effective_sampler,
 };
-use crate::project::{
+use eddy_project::{
     Channel, Filter, Group, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region, Sampler,
     SamplerRules, Wrap,
 };
@@ -22,8 +22,8 @@ fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
     Pass { channels, ..Pass::new(id.clone(), source(&id)) }
 }
 
-fn source(id: &PassId) -> crate::project::Source {
-    crate::project::Source { name: id.title(), path: None, text: "".into() }
+fn source(id: &PassId) -> eddy_project::Source {
+    eddy_project::Source { name: id.title(), path: None, text: "".into() }
 }
 
 fn project(passes: Vec<Pass>) -> Project {
@@ -277,7 +277,7 @@ fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassId::Buffer("scene".into());
     let mut scene = pass(id, Default::default());
     scene.settings.format = PassFormat::Rgba8;
-    scene.settings.body = PassBody::Meshes(crate::project::Geometry {
+    scene.settings.body = PassBody::Meshes(eddy_project::Geometry {
         draws: Vec::new(),
         more_targets: vec![PassFormat::Rgba16f],
         camera: Default::default(),

@@ -99,7 +99,7 @@ fn target_of(read: &super::Read) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{PassFormat, PassId, PassSize};
+    use eddy_project::{PassFormat, PassId, PassSize};
 
     #[test]
     fn a_mip_chain_and_a_second_texture_are_counted() {

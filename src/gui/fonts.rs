@@ -130,7 +130,7 @@ mod tests {
         {
             let own = letters.chars().all(|c| has(&plain, &FontId::monospace(13.0), c));
             if !own && letters.chars().any(|c| is_installed(c) != Some(true)) {
-                crate::session::testing::skipped(&format!("no font for {script} is known here"));
+                crate::gpu::testing::skipped(&format!("no font for {script} is known here"));
                 continue;
             }
             for c in letters.chars() {

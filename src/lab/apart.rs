@@ -4,7 +4,7 @@ use super::{
     flip,
     picture::{self, Picture},
 };
-use crate::engine::Pixels;
+use eddy_engine::Pixels;
 
 /// The least side that the window of structural similarity fits into.
 const SSIM_SIDE: u32 = 11;

@@ -4,7 +4,7 @@ use super::{
     CostRecord, ErrorRecord, LabError, Point, Results, Stop, Study,
     run::{self, Control, Options, Step},
 };
-use crate::gpu::{self, Gpu, GpuError};
+use eddy_gpu::{self as gpu, Gpu, GpuError};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{

@@ -1,11 +1,9 @@
 //! Says why the lab could not measure or report.
 
-use crate::{
-    diag::render_all,
-    engine::{BuildError, EngineError},
-    gpu::GpuError,
-    project::ProjectError,
-};
+use eddy_diag::render_all;
+use eddy_engine::{BuildError, EngineError};
+use eddy_gpu::GpuError;
+use eddy_project::ProjectError;
 use std::{io, path::PathBuf};
 
 #[derive(Debug, thiserror::Error)]

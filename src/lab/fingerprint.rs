@@ -1,6 +1,6 @@
 //! A number for what is measured: what was measured of other texts says nothing about these.
 
-use crate::project::Project;
+use eddy_project::Project;
 
 /// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
 pub(super) struct Fingerprint(u64);

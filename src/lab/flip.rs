@@ -155,7 +155,7 @@ pub fn mean(picture: &Picture, reference: &Picture) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::tests::scene;
+    use crate::picture::tests::scene;
 
     /// The figures are those of the authors' own evaluator, flip-evaluator 1.7, for the same pictures.
     #[test]

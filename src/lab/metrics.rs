@@ -15,7 +15,7 @@ pub struct Norms {
 }
 
 mod as_number {
-    use crate::lab::Number;
+    use crate::Number;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(x: &f64, out: S) -> Result<S::Ok, S::Error> {

@@ -1,10 +1,8 @@
 //! A point of a study as a project that stands by itself: to be looked at, turned, and saved.
 
 use super::{LabError, Point, Study};
-use crate::{
-    media,
-    project::{FillKind, FillValue, PassId, Project},
-};
+use eddy_media as media;
+use eddy_project::{FillKind, FillValue, PassId, Project};
 
 /// A point's project.
 pub struct Opened {

@@ -91,7 +91,7 @@ pub(super) mod tests {
     use super::*;
 
     /// A disc of three colours on a ramp, so large; moved to the right by so much.
-    pub(in crate::lab) fn scene(width: usize, height: usize, moved: f64) -> Picture {
+    pub(crate) fn scene(width: usize, height: usize, moved: f64) -> Picture {
         let rgb = (0..width * height).map(|i| {
             let (x, y) = ((i % width) as f64 - moved, (i / width) as f64);
             let ramp = 0.2 + 0.5 * x / width as f64;

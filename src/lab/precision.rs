@@ -5,12 +5,10 @@ use super::{
     metrics::Norms,
     setup::{PROBE, Storage, halve},
 };
-use crate::{
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program},
-    gpu::Gpu,
-    media::MediaSet,
-    project::{PassFormat, PassId, Project},
-};
+use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program};
+use eddy_gpu::Gpu;
+use eddy_media::MediaSet;
+use eddy_project::{PassFormat, PassId, Project};
 use serde::Serialize;
 
 /// A difference of the picture that a screen of 8 bits shows.

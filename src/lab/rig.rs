@@ -1,10 +1,8 @@
 //! A method on the device: set up, drawn for so many frames, read back.
 
 use super::{LabError, Setup, Stop, setup::pass};
-use crate::{
-    engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
-    gpu::Gpu,
-};
+use eddy_engine::{BuildOptions, Engine, FrameInputs, Pixels, Program};
+use eddy_gpu::Gpu;
 
 /// Frames that may wait on the device at once.
 const FRAMES_IN_FLIGHT: u32 = 8;

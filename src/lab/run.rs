@@ -6,7 +6,7 @@ use super::{
     cost::{self, Care, Cost},
     results::{CostRecord, ErrorRecord, Journal, Record, Results},
 };
-use crate::gpu::{Gpu, GpuOptions};
+use eddy_gpu::{Gpu, GpuOptions};
 use std::{
     path::PathBuf,
     sync::{

@@ -1,7 +1,7 @@
 //! Errors of loading a picture, with how to mend them.
 
 use super::{builtin, played::Played};
-use crate::project::{FileError, limits, listed};
+use eddy_project::{FileError, limits, listed};
 use image::ImageError;
 use std::{io, path::PathBuf};
 

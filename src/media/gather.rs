@@ -1,10 +1,8 @@
 //! All the pictures of a project at once.
 
 use super::{MediaKey, MediaSet, MeshKey, load::load_within};
-use crate::{
-    diag::Diagnostic,
-    project::{FillValue, Input, Media, Pass, PassId, Project, limits},
-};
+use eddy_diag::Diagnostic;
+use eddy_project::{FillValue, Input, Media, Pass, PassId, Project, limits};
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
@@ -134,7 +132,7 @@ fn unsupported(input: &Input) -> (&'static str, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Channel, Origin, Sampler, Source};
+    use eddy_project::{Channel, Origin, Sampler, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(|input| Channel { input, sampler: Sampler::TEXTURE }));

@@ -4,7 +4,7 @@
 //! array lacks of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
 
 use super::{MediaError, TexelFormat, Texels};
-use crate::project::limits;
+use eddy_project::limits;
 use std::path::Path;
 
 const MAGIC: &[u8] = b"\x93NUMPY";

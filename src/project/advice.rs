@@ -2,7 +2,7 @@
 //! cannot have.
 
 use super::{Filter, Input, PassId, Project, SamplerRules, Wrap, nearest};
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, fmt::Debug};
 
 /// Returns a warning for each. They are about no text.

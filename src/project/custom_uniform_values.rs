@@ -4,7 +4,7 @@ use super::{
     custom_uniforms::{self, CustomUniform, CustomUniformValue, CustomUniforms},
     model::Project,
 };
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 
 impl Project {
     /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].

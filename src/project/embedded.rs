@@ -4,10 +4,10 @@ use super::files::MANIFEST;
 use include_dir::{Dir, include_dir};
 use std::sync::LazyLock;
 
-static PRESETS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
+static PRESETS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../presets");
 
 /// A picture of each preset, `NAME.jpg`.
-static THUMBNAILS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/thumbnails");
+static THUMBNAILS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/thumbnails");
 
 /// Presets of a kind.
 #[derive(Clone, Debug, PartialEq, Eq)]

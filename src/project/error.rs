@@ -1,7 +1,7 @@
 //! Errors of reading and writing a project.
 
 use super::{FileError, limits};
-use crate::diag::{Diagnostic, SourceMap, render_all};
+use eddy_diag::{Diagnostic, SourceMap, render_all};
 use std::{
     io,
     path::{Path, PathBuf},

@@ -1,7 +1,7 @@
 //! A file is a pass by its name; the convention is in [`super::folder`].
 
 use super::PassId;
-use crate::diag::Diagnostic;
+use eddy_diag::Diagnostic;
 use std::{ffi::OsStr, path::Path};
 
 pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {

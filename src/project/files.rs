@@ -5,7 +5,7 @@ use super::{
     confine::{self, Reason},
     limits::{self, Limit},
 };
-use crate::diag::{Diagnostic, SourceMap, Span};
+use eddy_diag::{Diagnostic, SourceMap, Span};
 use std::{
     cell::Cell,
     collections::BTreeMap,

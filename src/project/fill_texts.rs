@@ -1,7 +1,7 @@
 //! The fills of a project's passes, and the texts that diagnostics about them point into.
 
 use super::{Fill, FillKind, Pass, Project};
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 use std::{ops::Range, sync::Arc};
 
 impl Pass {

@@ -21,7 +21,7 @@ use super::{
     file_names::{Role, role_of_file},
     files::Files,
 };
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 
 /// The facts that a convention makes of texts by file name, besides the texts.
 pub(super) struct ByConvention {

@@ -9,7 +9,7 @@ use super::{
     limits::{self, Limit},
     manifest,
 };
-use crate::diag::{Diagnostic, SourceMap};
+use eddy_diag::{Diagnostic, SourceMap};
 use std::path::Path;
 
 /// A folder's own name, also for `.` and `..`.

@@ -1,7 +1,7 @@
 //! The result of reading a project.
 
 use super::Project;
-use crate::diag::{Diagnostic, SourceMap};
+use eddy_diag::{Diagnostic, SourceMap};
 
 /// A project and what there is to say of it.
 #[derive(Debug)]

@@ -332,7 +332,7 @@ impl Project {
 
     /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written
     /// in.
-    pub fn sources(&self) -> crate::diag::SourceMap {
+    pub fn sources(&self) -> eddy_diag::SourceMap {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {
             if let Some(text) = self.fill_text(pass, kind) {
@@ -343,8 +343,8 @@ impl Project {
     }
 
     /// Returns the same as [`Project::sources`], GLSL alone.
-    pub fn texts(&self) -> crate::diag::SourceMap {
-        let mut map = crate::diag::SourceMap::default();
+    pub fn texts(&self) -> eddy_diag::SourceMap {
+        let mut map = eddy_diag::SourceMap::default();
         match &self.common {
             Some(c) => map.add(c.name.clone(), c.text.clone()),
             None => map.add("Common", ""),

@@ -3,7 +3,7 @@
 //! counts them.
 
 use super::{Included, PassId, Project, Stage, Tab};
-use crate::diag::SourceId;
+use eddy_diag::SourceId;
 
 impl Project {
     /// The id of Common's text.

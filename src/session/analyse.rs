@@ -5,11 +5,9 @@ use super::{
     analysis::{COMMON, TabAnalysis, Texts},
     rename,
 };
-use crate::{
-    diag::SourceId,
-    engine,
-    project::{PassId, Stage, Tab},
-};
+use eddy_diag::SourceId;
+use eddy_engine as engine;
+use eddy_project::{PassId, Stage, Tab};
 use std::{collections::BTreeSet, ops::Range, sync::Arc};
 
 impl Session {

@@ -2,12 +2,10 @@
 //! thread of its own so that no keystroke waits for it.
 
 use super::worker::Worker;
-use crate::{
-    diag::SourceId,
-    engine::{self, KeptPreamble, Sources},
-    glsl::services::{Analysis, ClassSpan},
-    project::{Pass, PassId, Project, Stage, Tab},
-};
+use eddy_diag::SourceId;
+use eddy_engine::{self as engine, KeptPreamble, Sources};
+use eddy_glsl::services::{Analysis, ClassSpan};
+use eddy_project::{Pass, PassId, Project, Stage, Tab};
 use std::sync::Arc;
 
 pub(super) const COMMON: SourceId = Project::COMMON_ID;

@@ -8,10 +8,8 @@ use super::{
     tracing::Place,
     view::{About, Level},
 };
-use crate::{
-    media::Keyboard,
-    project::{self, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names},
-};
+use eddy_media::Keyboard;
+use eddy_project::{self as project, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names};
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.

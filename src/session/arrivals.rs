@@ -8,10 +8,8 @@ use super::{
     command::{Command, Then},
     view::{About, Level},
 };
-use crate::{
-    media::mesh,
-    project::{self, FileKind, Fit, MeshSource, PassId, Project, TextArrival, listed},
-};
+use eddy_media::mesh;
+use eddy_project::{self as project, FileKind, Fit, MeshSource, PassId, Project, TextArrival, listed};
 use std::path::{Path, PathBuf};
 
 /// A model of more bytes is not measured before it is drawn: the window would wait for it.

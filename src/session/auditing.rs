@@ -8,11 +8,9 @@ use super::{
     view::TabDiagnostic,
     worker::{Panicked, Worker},
 };
-use crate::{
-    diag::{Diagnostic, Severity},
-    engine::Sources,
-    project::{PassId, Project},
-};
+use eddy_diag::{Diagnostic, Severity};
+use eddy_engine::Sources;
+use eddy_project::{PassId, Project};
 use std::{collections::HashMap, sync::Arc};
 
 /// Says how many pixels are looked at, across and up.

@@ -5,10 +5,8 @@
 //! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
 
 use super::npy;
-use crate::{
-    engine::Pixels,
-    project::{Origin, PassId, Project, confine},
-};
+use eddy_engine::Pixels;
+use eddy_project::{Origin, PassId, Project, confine};
 use std::{
     fs::{self, File, OpenOptions},
     io::{self, BufWriter, Write},

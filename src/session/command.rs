@@ -8,7 +8,7 @@ use super::{
     seeking::TimeRange,
     view::Level,
 };
-use crate::project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
+use eddy_project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
@@ -18,7 +18,7 @@ pub enum Command {
     /// Opens what the command line calls PROJECT: a folder, a `.glsl` or `.json` file, or a preset's name.
     Open(String),
     /// A project that was made in memory, with the canvas size it is made for, until another project is opened. Its
-    /// origin is [`Origin::Unsaved`](crate::project::Origin::Unsaved).
+    /// origin is [`Origin::Unsaved`](eddy_project::Origin::Unsaved).
     OpenProject {
         project: Box<Project>,
         size: Option<(u32, u32)>,

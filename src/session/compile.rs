@@ -7,13 +7,11 @@ use super::{
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
-use crate::{
-    diag::{self, Diagnostic},
-    engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources},
-    glsl::Driver,
-    media::{self, MediaSet},
-    project::{self, Channel, Included, MeshSource, Normals, Pass, PassId, Project},
-};
+use eddy_diag::{self as diag, Diagnostic};
+use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources};
+use eddy_glsl::Driver;
+use eddy_media::{self as media, MediaSet};
+use eddy_project::{self as project, Channel, Included, MeshSource, Normals, Pass, PassId, Project};
 use std::{
     cmp::Reverse,
     path::PathBuf,

@@ -1,6 +1,6 @@
 //! The costs of each pass are gathered while somebody looks.
 
-use crate::engine::{CostClock, PassCost, PassTime};
+use eddy_engine::{CostClock, PassCost, PassTime};
 use std::collections::VecDeque;
 
 /// Frames whose median counts: half a second at 60 a second.

@@ -11,10 +11,8 @@ use super::{
     tracing::{self, Taken},
     view::{About, Level},
 };
-use crate::{
-    engine::{EngineError, FrameInputs, Pixels},
-    gpu::{Gpu, GpuError},
-};
+use eddy_engine::{EngineError, FrameInputs, Pixels};
+use eddy_gpu::{Gpu, GpuError};
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -7,12 +7,10 @@ use super::{
     files::save_over,
     view::{About, Level},
 };
-use crate::{
-    diag::{self, Diagnostic, SourceMap},
-    engine,
-    glsl::Driver,
-    project::{self, Project, ProjectError},
-};
+use eddy_diag::{self as diag, Diagnostic, SourceMap};
+use eddy_engine as engine;
+use eddy_glsl::Driver;
+use eddy_project::{self as project, Project, ProjectError};
 use std::path::{Path, PathBuf};
 
 impl Session {

@@ -8,10 +8,8 @@ use super::{
     template,
     view::{About, Level, TabDiagnostic},
 };
-use crate::{
-    diag::{Diagnostic, SourceMap},
-    project::{self, Origin, Overwrite, Project, ProjectError, Tab},
-};
+use eddy_diag::{Diagnostic, SourceMap};
+use eddy_project::{self as project, Origin, Overwrite, Project, ProjectError, Tab};
 use std::{
     fs,
     io::Write,
@@ -300,7 +298,7 @@ impl Session {
 
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {
         for d in diagnostics {
-            self.notice(Level::Warning, crate::diag::render(d, sources).trim_end());
+            self.notice(Level::Warning, eddy_diag::render(d, sources).trim_end());
         }
     }
 }

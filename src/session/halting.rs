@@ -1,7 +1,7 @@
 //! A halt of the picture is known by why it stands, and by what it goes on with. What is done about it is in `halt`.
 
 use super::{marker::Marker, pace::Pace, view::Halt};
-use crate::project::Project;
+use eddy_project::Project;
 use std::{
     path::PathBuf,
     time::{Duration, Instant},

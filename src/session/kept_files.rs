@@ -1,6 +1,6 @@
 //! Folders that hold a file for each project, named by where the project lies: how it is named, and that the oldest go.
 
-use crate::project::Origin;
+use eddy_project::Origin;
 use std::{
     fs,
     hash::{DefaultHasher, Hash, Hasher},

@@ -4,7 +4,8 @@
 //! written when its project is closed, or covered by that list.
 
 use super::kept_files;
-use crate::{engine::Picture, project};
+use eddy_engine::Picture;
+use eddy_project as project;
 use image::{RgbImage, codecs::jpeg::JpegEncoder, imageops};
 use std::{
     io,

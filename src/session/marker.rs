@@ -1,7 +1,7 @@
 //! A file that says which project's new code is on the device. Where one is found at the next start, the code froze the
 //! picture or ended the process.
 
-use crate::project::{Origin, Project};
+use eddy_project::{Origin, Project};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn a_project_is_marked_until_all_is_well() {
         let dir = tempfile::tempdir().unwrap();
-        let mut project = crate::session::template::project();
+        let mut project = crate::template::project();
         let mut marker = Marker::new(Some(dir.path()));
         marker.set(&project);
         assert!(!marker.find(&project), "what lies nowhere has no file");

@@ -1,6 +1,7 @@
 //! Small pictures of passes for panels that show them: which are wanted, when, and the newest of each.
 
-use crate::{engine::Miniature, project::PassId};
+use eddy_engine::Miniature;
+use eddy_project::PassId;
 use std::{
     collections::HashMap,
     time::{Duration, Instant},
@@ -71,7 +72,7 @@ impl Miniatures {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Picture;
+    use eddy_engine::Picture;
 
     const SHORT: Duration = Duration::from_millis(1);
 

@@ -22,7 +22,8 @@ use super::{
     uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::CompileState,
 };
-use crate::{media::Keyboard, project::PassId};
+use eddy_media::Keyboard;
+use eddy_project::PassId;
 
 impl Session {
     /// Another project takes the place of this one, from where its time stood when it was open last.

@@ -2,7 +2,8 @@
 //!
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>.
 
-use crate::{engine::Pixels, media};
+use eddy_engine::Pixels;
+use eddy_media as media;
 use std::io::{self, Write};
 
 /// Writes the whole file.

@@ -4,15 +4,13 @@
 //! the same.
 
 use super::{recording::Change, script::ScriptedInputs};
-use crate::{
-    diag::{Diagnostic, SourceMap},
-    engine::{
-        BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels, Program,
-    },
-    gpu::{Gpu, GpuError},
-    media::MediaSet,
-    project::{PassId, Project},
+use eddy_diag::{Diagnostic, SourceMap};
+use eddy_engine::{
+    BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels, Program,
 };
+use eddy_gpu::{Gpu, GpuError};
+use eddy_media::MediaSet;
+use eddy_project::{PassId, Project};
 use std::{
     sync::mpsc::{RecvTimeoutError, channel},
     time::{Duration, Instant},

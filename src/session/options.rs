@@ -1,7 +1,7 @@
 //! The settings that a session starts with, and the reasons why it may not start.
 
 use super::{drawing, trial::TrialSettings};
-use crate::engine::EngineError;
+use eddy_engine::EngineError;
 use std::{path::PathBuf, time::Duration};
 
 /// Holds how a session is set up. The defaults are what the window uses, but for recovery files.

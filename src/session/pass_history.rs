@@ -1,6 +1,6 @@
 //! Steps back from edits of passes, channels and uniforms, and forth again.
 
-use crate::project::{CustomUniformValues, PassEdit, PassId, Project};
+use eddy_project::{CustomUniformValues, PassEdit, PassId, Project};
 use std::time::{Duration, Instant};
 
 /// Steps that are kept; each is a project whose texts are shared with the next.

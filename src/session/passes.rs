@@ -11,7 +11,7 @@ use super::{
     template,
     view::{About, Level},
 };
-use crate::project::{PassEdit, PassId, Project, Tab};
+use eddy_project::{PassEdit, PassId, Project, Tab};
 use std::time::Instant;
 
 impl Session {

@@ -11,11 +11,9 @@ use super::{
     recent::RecentProject,
     view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
 };
-use crate::{
-    engine::{BuildOptions, Miniature, PassTime, TexelAt},
-    gpu::Gpu,
-    project::{CustomUniform, PassId, Project, Tab},
-};
+use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
+use eddy_gpu::Gpu;
+use eddy_project::{CustomUniform, PassId, Project, Tab};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,

@@ -2,7 +2,7 @@
 //!
 //! Owns the file that keeps them from one start to the next, which people can read and several windows write.
 
-use crate::project::Origin;
+use eddy_project::Origin;
 use serde::{Deserialize, Serialize};
 use std::{
     fs,

@@ -6,7 +6,7 @@ use super::{
     recording::EXTENSION,
     view::{About, Level},
 };
-use crate::engine::FrameInputs;
+use eddy_engine::FrameInputs;
 
 impl Session {
     /// Begins anew at frame 0 and records every frame; the second time, ends that and writes the file.

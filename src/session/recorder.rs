@@ -4,7 +4,8 @@ use super::{
     drawing::Changes,
     recording::{RecordedFrame, Recording},
 };
-use crate::{engine::FrameInputs, project::CustomUniformValues};
+use eddy_engine::FrameInputs;
+use eddy_project::CustomUniformValues;
 
 /// Takes down what each frame is drawn with.
 pub(super) struct Recorder {

@@ -7,7 +7,7 @@ use super::{
     recovery::{Left, News, Recovery},
     view::{About, Level},
 };
-use crate::project::Origin;
+use eddy_project::Origin;
 use std::path::{Path, PathBuf};
 
 impl Session {

@@ -7,7 +7,7 @@ use super::{
     view::{About, Level},
     watch::Watch,
 };
-use crate::project::{self, Included, Loaded, Origin, Project, Tab, confine, limits};
+use eddy_project::{self as project, Included, Loaded, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
 /// The project on disk, if it can be used.

@@ -4,12 +4,10 @@ use super::{
     Session,
     view::{TabEdit, TabFix},
 };
-use crate::{
-    diag::{SourceId, Span},
-    engine,
-    glsl::{self, services::Analysis},
-    project::{FillKind, FillValue, Project, Stage, Tab},
-};
+use eddy_diag::{SourceId, Span};
+use eddy_engine as engine;
+use eddy_glsl::{self as glsl, services::Analysis};
+use eddy_project::{FillKind, FillValue, Project, Stage, Tab};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The places of a name: text, first byte, the byte behind the last.

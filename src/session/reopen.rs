@@ -15,7 +15,7 @@ use super::{
     state::CanvasSize,
     view::{About, Level},
 };
-use crate::engine::Picture;
+use eddy_engine::Picture;
 use std::{
     path::Path,
     time::{Duration, Instant},

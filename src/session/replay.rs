@@ -1,7 +1,7 @@
 //! A recording on its way: which of its frames is next, and when that is due. What is drawn of it is in `replaying`.
 
 use super::recording::{ReadError, RecordedFrame, Recording};
-use crate::project::CustomUniformValues;
+use eddy_project::CustomUniformValues;
 use std::{
     fs::File,
     io::BufReader,
@@ -182,7 +182,7 @@ pub(super) fn name(file: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::FrameInputs;
+    use eddy_engine::FrameInputs;
 
     fn playing(times: &[f64]) -> Playing {
         let frame = |(n, secs): (usize, &f64)| RecordedFrame {

@@ -13,7 +13,7 @@ use super::{
     seeking::Goal,
     view::{About, Level},
 };
-use crate::engine::FrameInputs;
+use eddy_engine::FrameInputs;
 use std::{path::PathBuf, time::Instant};
 
 impl Session {

@@ -9,7 +9,7 @@ use super::{
     kept_files,
     recording::{EXTENSION, RecordedFrame, Recording},
 };
-use crate::project::{self, Origin, limits};
+use eddy_project::{self as project, Origin, limits};
 use std::{
     fs::{self, File},
     io::{self, BufReader, BufWriter, Write},

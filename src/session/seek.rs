@@ -10,7 +10,7 @@ use super::{
     seeking::{Goal, Reach, TimeRange},
     view::{About, Level},
 };
-use crate::engine::EngineError;
+use eddy_engine::EngineError;
 
 impl Session {
     /// Shows the frame that is so many before the one that is shown, and pauses.

@@ -3,7 +3,7 @@
 //! Used on the compile worker alone, as models and pictures are large and what a name leads to may be slow.
 
 use super::capture;
-use crate::project::{self, FillValue, Media, MeshSource, Project, confine, limits};
+use eddy_project::{self as project, FillValue, Media, MeshSource, Project, confine, limits};
 use std::{
     collections::{BTreeMap, HashMap},
     fs,

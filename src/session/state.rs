@@ -35,11 +35,9 @@ use super::{
     watch::Watch,
     worker::Worker,
 };
-use crate::{
-    gpu::Gpu,
-    media::Keyboard,
-    project::{PassId, Project},
-};
+use eddy_gpu::Gpu;
+use eddy_media::Keyboard;
+use eddy_project::{PassId, Project};
 use std::{
     collections::VecDeque,
     path::PathBuf,

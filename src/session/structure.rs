@@ -1,7 +1,7 @@
 //! The structure of a project is all that is not text: passes, channels, settings, names. It is compared without a
 //! copy, as the window asks in each frame.
 
-use crate::project::{Geometry, Pass, PassBody, PassSettings, Project, listed};
+use eddy_project::{Geometry, Pass, PassBody, PassSettings, Project, listed};
 use std::collections::BTreeSet;
 
 /// Returns whether two projects are the same but for their texts and their places on disk.

@@ -1,7 +1,7 @@
 //! The texts that new projects and new passes begin with. They are Eddy's own.
 
 use super::documents::insert_pass;
-use crate::project::{Origin, Pass, PassId, Project, Source, Tab, limits};
+use eddy_project::{Origin, Pass, PassId, Project, Source, Tab, limits};
 
 const IMAGE: &str = "\
 // fragCoord: pixels from the bottom left. Inputs: iResolution, iTime, iMouse, iChannel0 to iChannel3.

@@ -8,10 +8,8 @@ use super::{
     trace::Traced,
     worker::{Panicked, Worker},
 };
-use crate::{
-    engine::{PassInputs, Pixels},
-    project::{PassId, Project},
-};
+use eddy_engine::{PassInputs, Pixels};
+use eddy_project::{PassId, Project};
 use std::sync::Arc;
 
 /// The inputs and the picture that were taken of a pass.

@@ -4,12 +4,10 @@
 //! child, which compiles a project as the parent would and draws one pixel of each pass ([`serve`]). Mesa keeps what it
 //! compiled in a cache on disk, so that the parent does not compile it a second time.
 
-use crate::{
-    engine::{BuildOptions, FrameInputs, Trial, TrialError, TrialOrder},
-    gpu::{Gpu, GpuOptions},
-    media,
-    project::{self, PassId, limits},
-};
+use eddy_engine::{BuildOptions, FrameInputs, Trial, TrialError, TrialOrder};
+use eddy_gpu::{Gpu, GpuOptions};
+use eddy_media as media;
+use eddy_project::{self as project, PassId, limits};
 use serde::{Deserialize, Serialize};
 use std::{
     io::{Read, Write},

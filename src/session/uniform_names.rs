@@ -6,7 +6,7 @@ use super::{
     Session,
     uniforms_of_texts::{DeclaredUniforms, newest_name},
 };
-use crate::project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
+use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
 
 impl Session {
     /// Reads what the texts declare, if that is shown and they have changed since.

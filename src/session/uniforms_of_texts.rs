@@ -1,6 +1,6 @@
 //! Owns which of the author's own uniforms got which name, and what the texts declare before a program does.
 
-use crate::project::CustomUniform;
+use eddy_project::CustomUniform;
 
 /// Old and new names, in the order in which they were given.
 pub(super) type RenamedUniforms = Vec<(String, String)>;

@@ -1,9 +1,7 @@
 //! A front end shows these plain values of a session.
 
-use crate::{
-    diag::{Diagnostic, Edit, Fix, Severity, SourceMap, Span},
-    project::{Project, Tab},
-};
+use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceMap, Span};
+use eddy_project::{Project, Tab};
 use std::{
     ops::Range,
     time::{Duration, Instant},

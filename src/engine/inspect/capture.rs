@@ -1,15 +1,13 @@
 //! Reads back what a draw is about to read.
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
-use crate::{
-    engine::{EngineError, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared},
-    gpu::{FloatConverter, Gpu, Readback, Texture},
-    graph::{Source, When},
-    project::{Filter, PassId, Wrap},
-};
+use crate::{EngineError, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared};
+use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
+use eddy_graph::{Source, When};
+use eddy_project::{Filter, PassId, Wrap};
 
 /// Takes the inputs of one pass while a frame is drawn; of a pass of several steps, those of its last.
-pub(in crate::engine) struct Capture<'a> {
+pub(crate) struct Capture<'a> {
     pass: &'a PassId,
     converter: &'a FloatConverter,
     /// The pass has been drawn already.

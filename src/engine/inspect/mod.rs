@@ -1,4 +1,4 @@
-//! The inputs of a draw are copied to memory: they are the world of [`crate::glsl::walk`].
+//! The inputs of a draw are copied to memory: they are the world of [`eddy_glsl::walk`].
 //!
 //! Owns the copies of a draw's uniforms, textures and meshes as they were when it began, and the reference of a
 //! sampler.
@@ -9,5 +9,5 @@ mod world;
 
 pub(super) use capture::Capture;
 pub use texture::{Level, LevelBy, TextureCopy};
-pub(crate) use world::DrawInputs;
+pub use world::DrawInputs;
 pub use world::{MeshInputs, PassInputs};

@@ -1,10 +1,8 @@
 //! A texture in memory, and how a sampler reads it: sections 3.8.10 and 3.8.11 of the OpenGL ES 3.0 specification, in
 //! double precision. A device may weigh texels with as few as 8 bits.
 
-use crate::{
-    glsl::walk::Lod,
-    project::{Filter, Wrap},
-};
+use eddy_glsl::walk::Lod;
+use eddy_project::{Filter, Wrap};
 
 /// One mip level. Row 0 is the bottom.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,12 @@
 //! Holds everything that one draw of a pass reads.
 
 use super::texture::{LevelBy, TextureCopy};
-use crate::{
-    glsl::{
-        interface::{GeometryBlock, UniformBlock},
-        walk::{Lod, World},
-    },
-    media::mesh::Mesh,
-    project::Filter,
+use eddy_glsl::{
+    interface::{GeometryBlock, UniformBlock},
+    walk::{Lod, World},
 };
+use eddy_media::mesh::Mesh;
+use eddy_project::Filter;
 use std::sync::Arc;
 
 /// The uniforms and textures that a draw reads, as they were when it began.
@@ -33,7 +31,7 @@ pub struct MeshInputs {
 
 impl PassInputs {
     /// Returns what the programs of a draw read; `None` for the one of a pass that draws no meshes.
-    pub(crate) fn of_draw(&self, draw: Option<usize>) -> DrawInputs<'_> {
+    pub fn of_draw(&self, draw: Option<usize>) -> DrawInputs<'_> {
         let mesh = draw.and_then(|draw| self.meshes.get(draw));
         DrawInputs { pass: self, geometry: mesh.map_or_else(GeometryBlock::default, |mesh| mesh.geometry) }
     }
@@ -41,7 +39,7 @@ impl PassInputs {
 
 /// The inputs of a pass as the programs of one of its draws read them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DrawInputs<'i> {
+pub struct DrawInputs<'i> {
     pass: &'i PassInputs,
     geometry: GeometryBlock,
 }

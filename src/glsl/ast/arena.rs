@@ -32,7 +32,7 @@ macro_rules! ids {
         }
     )*};
 }
-pub(in crate::glsl) use ids;
+pub(crate) use ids;
 
 /// Children: a range of the pool of `T` in its owner ([`super::Ast`] or `hir::Module`). Read with `&owner[list]`.
 pub struct List<T> {
@@ -90,7 +90,7 @@ impl<T> fmt::Debug for List<T> {
 }
 
 /// Copies a list that will grow. A clone has no room: its first push would copy everything once more.
-pub(in crate::glsl) fn with_room<T: Copy>(list: &[T]) -> Vec<T> {
+pub(crate) fn with_room<T: Copy>(list: &[T]) -> Vec<T> {
     let mut copy = Vec::with_capacity(list.len() + list.len() / 2 + 16);
     copy.extend_from_slice(list);
     copy
@@ -118,7 +118,7 @@ macro_rules! arenas {
                 &mut self.$field[id.index()]
             }
         })*
-        $(impl $crate::glsl::ast::Pooled<$owner> for $elem {
+        $(impl $crate::ast::Pooled<$owner> for $elem {
             #[inline]
             fn pool(owner: &$owner) -> &Vec<Self> {
                 &owner.$pool
@@ -128,29 +128,29 @@ macro_rules! arenas {
                 &mut owner.$pool
             }
         })*
-        impl<T: $crate::glsl::ast::Pooled<$owner>> ::std::ops::Index<$crate::glsl::ast::List<T>> for $owner {
+        impl<T: $crate::ast::Pooled<$owner>> ::std::ops::Index<$crate::ast::List<T>> for $owner {
             type Output = [T];
             #[inline]
-            fn index(&self, list: $crate::glsl::ast::List<T>) -> &[T] {
+            fn index(&self, list: $crate::ast::List<T>) -> &[T] {
                 &T::pool(self)[list.range()]
             }
         }
-        impl<T: $crate::glsl::ast::Pooled<$owner>> ::std::ops::IndexMut<$crate::glsl::ast::List<T>> for $owner {
+        impl<T: $crate::ast::Pooled<$owner>> ::std::ops::IndexMut<$crate::ast::List<T>> for $owner {
             #[inline]
-            fn index_mut(&mut self, list: $crate::glsl::ast::List<T>) -> &mut [T] {
+            fn index_mut(&mut self, list: $crate::ast::List<T>) -> &mut [T] {
                 &mut T::pool_mut(self)[list.range()]
             }
         }
         impl $owner {
             /// Stores children and returns their list. Collect them in a scratch stack first: lists nest.
             #[inline]
-            pub fn list<T: $crate::glsl::ast::Pooled<$owner>>(&mut self, items: &[T]) -> $crate::glsl::ast::List<T> {
+            pub fn list<T: $crate::ast::Pooled<$owner>>(&mut self, items: &[T]) -> $crate::ast::List<T> {
                 let pool = T::pool_mut(self);
                 let start = pool.len();
                 pool.extend_from_slice(items);
-                $crate::glsl::ast::List::new(start, items.len())
+                $crate::ast::List::new(start, items.len())
             }
         }
     };
 }
-pub(in crate::glsl) use arenas;
+pub(crate) use arenas;

@@ -21,7 +21,7 @@ mod position;
 mod rank;
 
 pub use arena::{List, Pooled};
-pub(in crate::glsl) use arena::{arenas, ids, with_room};
+pub(crate) use arena::{arenas, ids, with_room};
 pub use names::{Interner, Symbol};
 pub use position::{Expansion, ExpansionId, Ident, Loc, MacroDef, MacroId, Origin, Origins, TokenId};
 
@@ -495,7 +495,6 @@ pub struct Field {
     pub qualifiers: List<Qualifier>,
     pub ty: TypeSpecId,
     pub declarators: List<Declarator>,
-    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

@@ -5,7 +5,7 @@ use super::{
     names::{Interner, Symbol},
     with_room,
 };
-use crate::diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Span};
 use std::{
     fmt,
     hash::{Hash, Hasher},

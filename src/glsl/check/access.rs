@@ -1,7 +1,7 @@
 //! Parts of values: members, swizzles (section 5.5), indices (5.6, 5.7) and `.length()`.
 
 use super::{checker::Checker, types::MANY_MEMBERS};
-use crate::glsl::{
+use crate::{
     ast::{self, Loc, Symbol},
     hir::{DeclRef, ExprFlags, ExprId, ExprKind, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
 };
@@ -91,7 +91,7 @@ impl Checker<'_> {
             return;
         }
         let members: Vec<_> = self.module[self.module[id].members].iter().map(|m| self.name(m.name.symbol)).collect();
-        match crate::glsl::near::nearest_identifier(text, members.iter().copied()) {
+        match crate::near::nearest_identifier(text, members.iter().copied()) {
             Some(near) => self.did_you_mean(loc.last, near),
             None => self.hint(format!("its members are {}", quoted(&members))),
         }
@@ -174,7 +174,7 @@ impl Checker<'_> {
         let (element, len, what) = match types.get(bt) {
             Type::Array { element, len } => (element, len, "elements"),
             Type::Matrix { columns, rows } => {
-                (TypeId::vector(crate::glsl::hir::Scalar::Float, rows), columns.into(), "columns")
+                (TypeId::vector(crate::hir::Scalar::Float, rows), columns.into(), "columns")
             }
             Type::Vector { scalar, size } => (TypeId::vector(scalar, 1), size.into(), "components"),
             _ => {

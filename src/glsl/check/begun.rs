@@ -9,12 +9,10 @@ use super::{
     scope::Scopes,
 };
 use crate::{
-    diag::Diagnostic,
-    glsl::{
-        ast::{BasicType, Precision, Symbol},
-        hir::{self, ConstId, FuncId, Module, StructId, TypeId},
-    },
+    ast::{BasicType, Precision, Symbol},
+    hir::{self, ConstId, FuncId, Module, StructId, TypeId},
 };
+use eddy_diag::Diagnostic;
 use rustc_hash::FxHashMap;
 
 /// The precisions in force, by [`BasicType`].

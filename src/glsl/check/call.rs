@@ -1,7 +1,7 @@
 //! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
 
 use super::{checker::Checker, env, overloads, scope::Binding};
-use crate::glsl::{
+use crate::{
     ast::{self, BasicType, List, Loc, Symbol},
     hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, TypeId},
     parse::foreign_type,
@@ -216,7 +216,7 @@ impl Checker<'_> {
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         self.uses(loc.first, DeclRef::Builtin(builtin));
         let is_derivative = matches!(builtin, Builtin::DFdx | Builtin::DFdy | Builtin::Fwidth);
-        if is_derivative && self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
+        if is_derivative && self.env == super::env::Env::Pass(crate::PassKind::Vertex) && !self.is_shared(loc) {
             self.error(
                 loc,
                 format!(

@@ -8,14 +8,12 @@ use super::{
     scope::Scopes,
 };
 use crate::{
-    diag::{Diagnostic, Fix, SourceId, Span},
-    glsl::{
-        ast::{self, Ast, Interner, Loc, Origins, Symbol},
-        hir::{self, FuncId, Module, TypeId},
-        report::MAX_ERRORS,
-        source::{ChannelKind, CustomUniform, UniformValue},
-    },
+    ast::{self, Ast, Interner, Loc, Origins, Symbol},
+    hir::{self, FuncId, Module, TypeId},
+    report::MAX_ERRORS,
+    source::{ChannelKind, CustomUniform, UniformValue},
 };
+use eddy_diag::{Diagnostic, Fix, SourceId, Span};
 use rustc_hash::FxHashMap;
 
 /// A switch whose body is being checked.
@@ -216,7 +214,7 @@ impl<'a> Checker<'a> {
     pub fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
         if let Some(last) = self.diagnostics.last_mut() {
-            last.labels.push(crate::diag::Label { span, message: message.into() });
+            last.labels.push(eddy_diag::Label { span, message: message.into() });
         }
     }
 

@@ -1,7 +1,7 @@
 //! Constructors (section 5.4): scalars, vectors, matrices, structs and arrays.
 
 use super::{call, checker::Checker, fold, types::Size, words::Words};
-use crate::glsl::{
+use crate::{
     ast::{self, List, Loc, TypeSpecId, TypeSpecKind},
     hir::{ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId},
 };

@@ -3,12 +3,10 @@
 
 use super::checker::Checker;
 use crate::{
-    diag::{Edit, Fix, Span},
-    glsl::{
-        ast::{self, ExprKind as A},
-        hir::{ExprId, Scalar, TypeId},
-    },
+    ast::{self, ExprKind as A},
+    hir::{ExprId, Scalar, TypeId},
 };
+use eddy_diag::{Edit, Fix, Span};
 
 impl Checker<'_> {
     /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.

@@ -11,7 +11,7 @@ use super::{
     suggest::input_of_the_site,
     types::Size,
 };
-use crate::glsl::{
+use crate::{
     ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},
     hir::{
         ConstId, ExprId, Global, GlobalId, GlobalStorage, Local, LocalId, LocalKind, StmtKind, StructMember, Type,
@@ -158,8 +158,8 @@ impl Checker<'_> {
     fn as_const(&mut self, init: ExprId) -> Option<ConstId> {
         let expr = self.module[init];
         match expr.kind {
-            crate::glsl::hir::ExprKind::Const(id) => Some(id),
-            crate::glsl::hir::ExprKind::Literal(bits) => Some(self.module.constant(expr.ty, &[bits])),
+            crate::hir::ExprKind::Const(id) => Some(id),
+            crate::hir::ExprKind::Literal(bits) => Some(self.module.constant(expr.ty, &[bits])),
             _ => None,
         }
     }
@@ -293,7 +293,7 @@ impl Checker<'_> {
         let item = ast[items].iter().find(|item| self.name(item.name.symbol) == "location")?;
         let value = self.expr(item.value?);
         match self.module[value].kind {
-            crate::glsl::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 && self.is_constant(value) => Some(bits),
+            crate::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 && self.is_constant(value) => Some(bits),
             _ => {
                 let at = self.loc(value);
                 self.error(at, "a location is a number from 0");

@@ -1,14 +1,14 @@
 //! Says what is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for
 //! each kind of pass, and the entry point the header declares.
 
-use crate::glsl::{
+use crate::{
     hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
     source::{CustomUniformKind, PassKind},
 };
 
 /// The header that stands before the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::glsl) enum Env {
+pub(crate) enum Env {
     Pass(PassKind),
     /// Common alone: `iDate` and `iSampleRate`. The rest is in scope too, but naming it is noted.
     Common,
@@ -16,7 +16,7 @@ pub(in crate::glsl) enum Env {
 
 impl Env {
     /// Returns whether this text may name a uniform.
-    pub(in crate::glsl) fn has(self, uniform: Uniform) -> bool {
+    pub(crate) fn has(self, uniform: Uniform) -> bool {
         use Uniform as U;
         match self {
             Env::Common => uniform != U::ChannelLoaded && uniform.geometry_member().is_none(),
@@ -32,18 +32,18 @@ impl Env {
     }
 
     /// Returns whether this text may name a built-in variable.
-    pub(in crate::glsl) fn has_variable(self, variable: BuiltinVar) -> bool {
+    pub(crate) fn has_variable(self, variable: BuiltinVar) -> bool {
         variable.is_of_vertices() == (self == Env::Pass(PassKind::Vertex))
     }
 
     /// Returns whether it is a stage of a program that draws meshes.
-    pub(in crate::glsl) fn is_stage(self) -> bool {
+    pub(crate) fn is_stage(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_stage())
     }
 }
 
 /// The built-in constants of section 7.3, at the least values the specification promises.
-pub(in crate::glsl) const LIMITS: [(&str, i32); 11] = [
+pub(crate) const LIMITS: [(&str, i32); 11] = [
     ("gl_MaxVertexAttribs", 16),
     ("gl_MaxVertexUniformVectors", 256),
     ("gl_MaxVertexOutputVectors", 16),
@@ -61,7 +61,7 @@ pub(in crate::glsl) const LIMITS: [(&str, i32); 11] = [
 pub(super) const MIN_OFFSET: i32 = -8;
 pub(super) const MAX_OFFSET: i32 = 7;
 
-pub(in crate::glsl) const VARIABLES: [(&str, BuiltinVar); 8] = [
+pub(crate) const VARIABLES: [(&str, BuiltinVar); 8] = [
     ("gl_Position", BuiltinVar::Position),
     ("gl_PointSize", BuiltinVar::PointSize),
     ("gl_VertexID", BuiltinVar::VertexId),
@@ -85,12 +85,12 @@ pub(super) fn differ() -> impl Iterator<Item = &'static str> {
     uniforms.chain(CHANNELS).chain(CHANNEL_STRUCTS).chain(entries).chain(others)
 }
 
-pub(in crate::glsl) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
-pub(in crate::glsl) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
+pub(crate) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+pub(crate) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
 
 /// Names that the language or the site gives besides functions and uniforms.
 #[cfg(test)]
-pub(in crate::glsl) fn names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
     let limits = LIMITS.iter().map(|l| l.0);
     let variables = VARIABLES.iter().map(|v| v.0);
@@ -99,7 +99,7 @@ pub(in crate::glsl) fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Name and signature of a kind's entry point; `usage` is what an author has to write.
-pub(in crate::glsl) struct Entry {
+pub(crate) struct Entry {
     pub name: &'static str,
     pub result: TypeId,
     pub params: &'static [(LocalKind, TypeId)],
@@ -107,9 +107,9 @@ pub(in crate::glsl) struct Entry {
 }
 
 /// The parameter that an entry point draws with, as [`Entry::usage`] calls it.
-pub(in crate::glsl) const OUTPUT: &str = "fragColor";
+pub(crate) const OUTPUT: &str = "fragColor";
 
-pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
+pub(crate) fn entry(kind: PassKind) -> Entry {
     use LocalKind::{In, Out};
     match kind {
         PassKind::Image | PassKind::Buffer => Entry {
@@ -159,7 +159,7 @@ pub fn taken(name: &str) -> Option<&'static str> {
         Some("GLSL has a function of this name")
     } else if name.starts_with("gl_") || name.contains("__") {
         Some("GLSL reserves names that start with `gl_` or contain `__`")
-    } else if crate::glsl::lex::words::is_word(name) {
+    } else if crate::lex::words::is_word(name) {
         Some("it is a GLSL keyword")
     } else {
         None

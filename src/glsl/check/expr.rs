@@ -1,7 +1,7 @@
 //! Expressions: the loop over the tree's arena, names, and the kinds that need no rules of their own file.
 
 use super::{checker::Checker, scope::Binding};
-use crate::glsl::{
+use crate::{
     ast::{self, ExprKind as A, List, Loc, MAX_NESTING, Symbol, TokenId},
     hir::{self, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId, VarFlags},
 };

@@ -1,6 +1,6 @@
 //! Says what the checker knows of a type beyond its kind, and of a function.
 
-use crate::glsl::{
+use crate::{
     ast::Loc,
     hir::{FuncId, Type, TypeId, TypeTable},
 };
@@ -10,7 +10,7 @@ pub(super) const MAX_WORDS: u32 = 1 << 22;
 
 pub(super) const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
 
-/// Per function of [`Module::functions`](crate::glsl::hir::Module::functions), what only the checker needs.
+/// Per function of [`Module::functions`](crate::hir::Module::functions), what only the checker needs.
 #[derive(Clone)]
 pub(super) struct FuncFacts {
     /// Next overload of the same name.

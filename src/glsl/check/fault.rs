@@ -1,7 +1,7 @@
 //! Operations on constants whose result GLSL ES 3.00 leaves open, or that is no finite number. They are folded, so that
 //! no device and no walk comes to them.
 
-use crate::glsl::{ast::Loc, hir::Builtin as X};
+use crate::{ast::Loc, hir::Builtin as X};
 
 /// An operation on constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The checker notes what is wrong with operations on constants.
 
 use super::{checker::Checker, fault::Fault};
-use crate::glsl::{ast::Loc, hir::Scalar};
+use crate::{ast::Loc, hir::Scalar};
 
 const INFINITE: &str = "first infinity here";
 const NAN: &str = "this is NaN, which a GPU need not support: the result is undefined (4.5.1)";

@@ -1,7 +1,7 @@
 //! Values of operators and conversions on constants, bit for bit as a device with 32-bit floats and wrapping ints has
 //! them. What the specification leaves undefined is what ANGLE makes of it.
 
-use crate::glsl::hir::{BinaryOp, Scalar, Shape, UnaryOp};
+use crate::hir::{BinaryOp, Scalar, Shape, UnaryOp};
 
 /// Says what an author should know about a folded operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

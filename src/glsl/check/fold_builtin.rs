@@ -4,7 +4,7 @@
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::{checker::Checker, fault, words::Words};
-use crate::glsl::{
+use crate::{
     ast::Loc,
     hir::{Builtin as X, ExprId, Scalar, Type, TypeId},
 };

@@ -10,12 +10,10 @@ use super::{
     types::Size,
 };
 use crate::{
-    diag::{Edit, Fix},
-    glsl::{
-        ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
-        hir::{Builtin, FuncId, Function, Local, LocalKind, TypeId, VarFlags},
-    },
+    ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
+    hir::{Builtin, FuncId, Function, Local, LocalKind, TypeId, VarFlags},
 };
+use eddy_diag::{Edit, Fix};
 
 /// A parameter as declared: name, type, direction, precision.
 pub(super) type ParamSign = (Option<Ident>, TypeId, LocalKind, Option<Precision>);
@@ -300,7 +298,7 @@ impl Checker<'_> {
         self.returns = false;
         for (i, param) in params.iter().enumerate() {
             if let Some(name) = param.0 {
-                self.declare(name, Binding::Local(crate::glsl::hir::LocalId::new(start as usize + i)));
+                self.declare(name, Binding::Local(crate::hir::LocalId::new(start as usize + i)));
             }
         }
         let list = match self.ast[body].kind {

@@ -2,7 +2,7 @@
 //! pass's output.
 
 use super::{checker::Checker, qualifiers::Qualifiers, scope::Binding};
-use crate::glsl::{
+use crate::{
     ast::{Declarator, Ident, Loc, QualifierKind as Q, TypeSpecId},
     hir::{DeclRef, TypeId, Uniform, VarFlags},
 };

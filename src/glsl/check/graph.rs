@@ -6,7 +6,7 @@ use super::{
     env::{self, Env},
     scope::Binding,
 };
-use crate::glsl::hir::FuncId;
+use crate::hir::FuncId;
 
 /// Functions of a circle that are named.
 const SHOWN: usize = 8;
@@ -51,7 +51,7 @@ impl Checker<'_> {
         if self.broken_tree || has_main {
             return;
         }
-        let end = crate::glsl::ast::TokenId(self.origins.tokens.len() as u32 - 1);
+        let end = crate::ast::TokenId(self.origins.tokens.len() as u32 - 1);
         self.error(end, format!("this pass has no `{}`", wanted.name));
         self.hint(format!("write `{}`", wanted.usage));
         for other in ["mainImage", "mainSound", "mainCubemap"] {

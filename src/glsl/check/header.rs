@@ -6,7 +6,7 @@ use super::{
     function::FunctionSign,
     scope::{self, Binding},
 };
-use crate::glsl::{
+use crate::{
     ast::{BasicType, Loc, Symbol, TokenId},
     hir::{Builtin, DeclRef, TypeId, Uniform},
     source::PassKind,
@@ -83,7 +83,7 @@ impl Checker<'_> {
 
     /// Type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
-        use crate::glsl::ChannelKind as C;
+        use crate::ChannelKind as C;
         TypeId::basic(match self.settings.channels[usize::from(channel)] {
             C::Sampler2D => BasicType::Sampler2D,
             C::Sampler3D => BasicType::Sampler3D,

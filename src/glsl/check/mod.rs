@@ -17,7 +17,7 @@ mod checker;
 mod construct;
 mod conversion;
 mod declare;
-pub(in crate::glsl) mod env;
+pub(crate) mod env;
 mod expr;
 mod facts;
 mod fault;
@@ -29,7 +29,7 @@ mod given;
 mod graph;
 mod header;
 mod ops;
-pub(in crate::glsl) mod overloads;
+pub(crate) mod overloads;
 mod qualifiers;
 mod scope;
 mod size;
@@ -53,8 +53,8 @@ use super::{
     source::{CustomUniform, PassSource, UniformValue},
     stack::on_deep_stack,
 };
-use crate::diag::{Diagnostic, Span};
 use checker::{Checker, Settings};
+use eddy_diag::{Diagnostic, Span};
 use env::Env;
 
 /// A program, right or wrong: the module exists for any tree, lowering wants one without errors.

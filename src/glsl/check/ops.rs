@@ -6,7 +6,7 @@ use super::{
     fold::{self, Grid, Trouble},
     words::Words,
 };
-use crate::glsl::{
+use crate::{
     ast::{self, BinaryOp as Op, Loc},
     hir::{BinaryOp, ExprFlags, ExprId, ExprKind, IncDec, LogicalOp, Scalar, Shape, Type, TypeId, UnaryOp},
 };

@@ -1,14 +1,14 @@
 //! The built-in functions of chapter 8: every overload, as patterns over sizes, and finding the one that takes given
 //! types.
 
-use crate::glsl::{
+use crate::{
     ast::BasicType,
     hir::{Builtin, SamplerDim, Scalar, Type, TypeId, TypeTable},
 };
 
 /// A parameter's or result's type in an overload. Sizes and matrices agree within one overload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::glsl) enum Pattern {
+pub(crate) enum Pattern {
     /// `genType`, `genIType`, `genUType`, `genBType`: a scalar or vector.
     Gen(Scalar),
     /// `vec`, `ivec`, `uvec`, `bvec`: a vector.
@@ -27,7 +27,7 @@ pub(in crate::glsl) enum Pattern {
 }
 
 #[derive(Debug)]
-pub(in crate::glsl) struct Overload {
+pub(crate) struct Overload {
     pub result: Pattern,
     pub params: &'static [Pattern],
 }
@@ -72,7 +72,7 @@ macro_rules! overloads {
 
 /// Every overload of a built-in, the commoner ones first.
 #[rustfmt::skip]
-pub(in crate::glsl) fn of(builtin: Builtin) -> &'static [Overload] {
+pub(crate) fn of(builtin: Builtin) -> &'static [Overload] {
     use Builtin as X;
     match builtin {
         X::Radians | X::Degrees | X::Sin | X::Cos | X::Tan | X::Asin | X::Acos | X::Sinh | X::Cosh | X::Tanh | X::Asinh

@@ -1,7 +1,7 @@
 //! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
 
 use super::{checker::Checker, env::Env};
-use crate::glsl::{
+use crate::{
     PassKind,
     ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},
     hir::{LocalKind, Scalar, Type, TypeId},
@@ -192,7 +192,7 @@ impl Checker<'_> {
     }
 
     /// `precision highp float;`
-    pub(super) fn precision_statement(&mut self, precision: Precision, ty: crate::glsl::ast::TypeSpecId) {
+    pub(super) fn precision_statement(&mut self, precision: Precision, ty: crate::ast::TypeSpecId) {
         let base = self.base_type(ty);
         let spec = self.ast[ty];
         let legal = base == TypeId::FLOAT || base == TypeId::INT || self.is_sampler(base);

@@ -1,7 +1,7 @@
 //! Says what each name means where the checker stands. Owns the scopes of section 4.2; knows no rule about what may be
 //! declared.
 
-use crate::glsl::{
+use crate::{
     ast::{Ident, Symbol},
     hir::{Builtin, BuiltinVar, FuncId, GlobalId, LocalId, StructId, Uniform},
 };

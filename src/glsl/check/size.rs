@@ -5,7 +5,7 @@
 //! for it, so it is an error here.
 
 use super::checker::Checker;
-use crate::glsl::{
+use crate::{
     ast::{List, Loc},
     hir::{ExprId, ExprKind, FuncId, Module},
     lower::reached,

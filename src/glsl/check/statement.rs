@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::checker::{Checker, Switch};
-use crate::glsl::{
+use crate::{
     ast::{self, Condition, DeclKind, ExprKind as A, List, Loc, StmtKind as S},
     hir::{self, Case, ExprFlags, ExprId, ExprKind, StmtId, StmtKind, TypeId},
 };
@@ -126,7 +126,7 @@ impl Checker<'_> {
                 }
             }
             S::Discard => {
-                if self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
+                if self.env == super::env::Env::Pass(crate::PassKind::Vertex) && !self.is_shared(loc) {
                     self.error(loc, "`discard` works only in a fragment stage");
                     self.hint("move it to the fragment stage");
                 }

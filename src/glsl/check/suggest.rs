@@ -7,14 +7,12 @@ use super::{
     scope::Binding,
 };
 use crate::{
-    diag::Edit,
-    glsl::{
-        ast::{self, BasicType, List, Loc, Symbol, TokenId},
-        hir::LocalKind,
-        near,
-        parse::foreign_type,
-    },
+    ast::{self, BasicType, List, Loc, Symbol, TokenId},
+    hir::LocalKind,
+    near,
+    parse::foreign_type,
 };
+use eddy_diag::Edit;
 
 /// Functions of HLSL, old and later GLSL and C, with what stands for them here.
 const FUNCTIONS: &[(&str, &str)] = &[
@@ -225,8 +223,8 @@ impl Checker<'_> {
 
     /// Some names exist, but not in this kind of pass.
     fn env_explains(&mut self, name: &str) -> bool {
-        let Some(uniform) = crate::glsl::hir::Uniform::ALL.iter().find(|u| u.name() == name) else { return false };
-        if self.env == Env::Pass(crate::glsl::PassKind::Sound) {
+        let Some(uniform) = crate::hir::Uniform::ALL.iter().find(|u| u.name() == name) else { return false };
+        if self.env == Env::Pass(crate::PassKind::Sound) {
             self.hint(format!("a sound pass has no `{}`; its time is the parameter of mainSound", uniform.name()));
         } else {
             self.hint(format!("only sound passes have `{}`", uniform.name()));

@@ -7,7 +7,7 @@ use super::{
     facts::{MAX_WORDS, NOTHING, TypeFacts},
     scope::Binding,
 };
-use crate::glsl::{
+use crate::{
     ast::{self, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
     hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId},
 };

@@ -1,7 +1,7 @@
 //! Values that come from outside for the uniforms a text declares, as constants of the declared types.
 
 use super::checker::Checker;
-use crate::glsl::{
+use crate::{
     UntypedValue,
     ast::Ident,
     hir::{ConstId, Scalar, Type, TypeId},

@@ -1,7 +1,7 @@
 //! Making nodes of the typed program, and reading and writing folded values in it.
 
 use super::checker::Checker;
-use crate::glsl::{
+use crate::{
     ast::Loc,
     hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},
 };

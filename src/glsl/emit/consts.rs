@@ -7,7 +7,7 @@
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
 use super::context::Emitter;
-use crate::glsl::{
+use crate::{
     ir::ConstId,
     types::{Scalar, Type, TypeId},
 };

@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use naga::{Expression, FastHashMap, GlobalVariable, Handle, StructMember};
 
-use crate::glsl::{
+use crate::{
     PassSource, Reflection,
     ir::{self, ConstId, layout::Layouts},
 };
@@ -15,7 +15,7 @@ pub(super) struct Emitter<'a> {
     pub source: &'a PassSource<'a>,
     pub reflection: &'a mut Reflection,
     pub out: naga::Module,
-    /// By [`TypeId`](crate::glsl::types::TypeId).
+    /// By [`TypeId`](crate::types::TypeId).
     pub types: Vec<Option<Handle<naga::Type>>>,
     pub layouts: Layouts,
     pub consts: Constants,

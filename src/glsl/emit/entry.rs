@@ -6,7 +6,7 @@ use naga::{
 };
 
 use super::{context::Emitter, function::Builder};
-use crate::glsl::{
+use crate::{
     PassKind,
     interface::ENTRY_POINT,
     ir::{self, Input, Output, Value},

@@ -7,7 +7,7 @@ use super::{
     operators::{binary, math, pattern, unary},
     types,
 };
-use crate::glsl::{
+use crate::{
     ir::{self, Level, Op, Value},
     types::{Type, TypeId},
 };

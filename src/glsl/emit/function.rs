@@ -11,7 +11,7 @@ use super::{
     consts,
     context::{Emitter, Map},
 };
-use crate::glsl::{
+use crate::{
     ir::{self, Binary, Op, Stmt, Value},
     types::{Scalar, Type, TypeId},
 };

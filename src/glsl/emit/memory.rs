@@ -10,7 +10,7 @@ use super::{
     function::Builder,
     resources::{self, CUBE_FACE, ZERO},
 };
-use crate::glsl::{
+use crate::{
     builtins::Uniform,
     ir::{GlobalId, GlobalKind, Op, Value},
     types::{Type, TypeId},

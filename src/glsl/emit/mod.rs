@@ -25,7 +25,7 @@ use rustc_hash::FxHashSet;
 
 use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
-pub(in crate::glsl) use self::{
+pub(crate) use self::{
     long_arrays::LEAST_COPY,
     tables::{LEAST_STORAGE_TABLE, LEAST_UNIFORM_TABLE},
 };
@@ -47,7 +47,7 @@ pub(crate) struct Emitted {
 
 /// Emits a program, which keeps the rules of [`ir::verify`]; adds to `reflection` what the module declares. The result
 /// validates; a validation error is a bug of this compiler.
-pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &mut Reflection) -> Emitted {
+pub(crate) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &mut Reflection) -> Emitted {
     let mut emitter = Emitter {
         ir: program,
         source,

@@ -2,7 +2,7 @@
 
 use naga::{BinaryOperator, MathFunction, SwizzleComponent, UnaryOperator};
 
-use crate::glsl::{
+use crate::{
     ir::{Binary, Math, Unary},
     types::Swizzle,
 };

@@ -7,7 +7,7 @@
 use naga::{BinaryOperator, Expression, Handle};
 
 use super::{function::Builder, types};
-use crate::glsl::{
+use crate::{
     ir::{Op, Value},
     types::{Scalar, Type},
 };

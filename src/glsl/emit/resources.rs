@@ -10,7 +10,7 @@ use naga::{
 };
 
 use super::context::Emitter;
-use crate::glsl::{
+use crate::{
     ChannelKind, UniformSet,
     builtins::Uniform,
     interface::{self, GeometryBlock, UniformBlock},

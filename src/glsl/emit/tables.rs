@@ -14,7 +14,7 @@ use super::{
     context::{Buffer, Emitter, TablePlace},
     long_arrays::LEAST_COPY,
 };
-use crate::glsl::{
+use crate::{
     PassKind, interface,
     ir::{ConstId, layout::round_up},
     types::{Scalar, Type, TypeId},
@@ -23,12 +23,12 @@ use crate::glsl::{
 /// Scalars from which on a constant that is indexed goes into a storage buffer. Its load is slow where neighbours read
 /// different places (five times the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a
 /// loop folds reads of memory away.
-pub(in crate::glsl) const LEAST_STORAGE_TABLE: usize = 256;
+pub(crate) const LEAST_STORAGE_TABLE: usize = 256;
 
 /// Elements from which on a constant array that is indexed goes into the uniform buffer. To fill memory takes llvmpipe
 /// a store for each pixel and component at every start of the program; but Mesa unrolls loops of up to 32 turns
 /// (`max_unroll_iterations` in `lp_screen.c`), and then folds what they read of memory away.
-pub(in crate::glsl) const LEAST_UNIFORM_TABLE: u32 = 33;
+pub(crate) const LEAST_UNIFORM_TABLE: u32 = 33;
 
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;

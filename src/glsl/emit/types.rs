@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use naga::{AddressSpace, ArraySize, Handle, StructMember, TypeInner, VectorSize};
 
 use super::context::Emitter;
-use crate::glsl::{
+use crate::{
     ir::layout::{Layout, round_up},
     types::{Scalar, Type, TypeId},
 };

@@ -1,7 +1,7 @@
 //! Says what a program declares: variables, functions, folded values.
 
 use super::ids::{ConstId, ExprId, FuncId, StmtId};
-use crate::glsl::{
+use crate::{
     ast::{Ident, List, Loc, Precision, TokenId},
     types::TypeId,
 };
@@ -19,7 +19,6 @@ pub struct Global {
     /// The folded value: always for `Const`; for others where `init` is constant (then lowering may use either).
     pub value: Option<ConstId>,
     /// The whole declaration.
-    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
     pub flags: VarFlags,
     /// An input or output that is not interpolated.

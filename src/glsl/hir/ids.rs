@@ -1,6 +1,6 @@
 //! Names of what a module holds.
 
-use crate::glsl::ast;
+use crate::ast;
 
 ast::ids! {
     /// An expression of [`super::Module::exprs`].

@@ -160,7 +160,6 @@ pub struct Struct {
     pub name: Option<Ident>,
     pub ty: TypeId,
     pub members: List<StructMember>,
-    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

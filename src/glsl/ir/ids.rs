@@ -1,6 +1,6 @@
 //! Names of what a program and its functions hold.
 
-use crate::glsl::ast;
+use crate::ast;
 
 ast::ids! {
     /// A value, or an address, of one function: an index into [`super::Function`].

@@ -1,7 +1,7 @@
 //! The type of what an op computes.
 
 use super::{Binary, Function, Input, Math, Module, Op, Unary, Value};
-use crate::glsl::types::{Scalar, Type, TypeId};
+use crate::types::{Scalar, Type, TypeId};
 
 /// Returns the type of an op of this function; for a place, the type of its contents.
 pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {

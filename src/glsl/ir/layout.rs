@@ -2,7 +2,7 @@
 //! 14.4.1 of its specification).
 
 use super::Module;
-use crate::glsl::types::{Scalar, Type, TypeId};
+use crate::types::{Scalar, Type, TypeId};
 
 /// Bytes. Saturating: what is too large, a validator refuses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

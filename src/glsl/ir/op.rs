@@ -1,7 +1,7 @@
 //! Operations: what computes a value.
 
 use super::ids::{ConstId, FuncId, GlobalId, Value, VarId};
-use crate::glsl::types::{Scalar, Swizzle, TypeId};
+use crate::types::{Scalar, Swizzle, TypeId};
 
 /// The operation that computes a value. Operands have the types that each op says; `verify` checks them.
 #[derive(Clone, Debug, PartialEq)]

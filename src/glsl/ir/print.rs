@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::{Block, Function, GlobalKind, Level, Module, Op, Output, Stmt, Value};
-use crate::glsl::types::{Scalar, Type, TypeId};
+use crate::types::{Scalar, Type, TypeId};
 
 /// Returns the text of a program.
 pub fn print(module: &Module) -> String {
@@ -260,6 +260,6 @@ fn type_text(module: &Module, ty: TypeId) -> String {
     match module.types.get(ty) {
         Type::Array { element, len } => format!("{}[{len}]", type_text(module, element)),
         Type::Struct(id) => format!("struct {}", id.index()),
-        _ => ty.as_basic().map_or("?", crate::glsl::ast::BasicType::name).to_owned(),
+        _ => ty.as_basic().map_or("?", crate::ast::BasicType::name).to_owned(),
     }
 }

@@ -6,7 +6,7 @@
 use rustc_hash::FxHashMap;
 
 use super::{Binary, Block, Function, Module, Op, Stmt, Value, infer};
-use crate::glsl::{
+use crate::{
     ast::Loc,
     types::{Scalar, Type, TypeId},
 };

@@ -1,7 +1,7 @@
 //! Checks of the rules that can be read off a program. A broken one is a bug of the part of the compiler that ran last.
 
 use super::{Block, FuncId, Function, Module, Op, Stmt, Value};
-use crate::glsl::types::{Scalar, Type, TypeId};
+use crate::types::{Scalar, Type, TypeId};
 
 /// Checks a program; an error says which rule is broken, and where.
 ///
@@ -313,7 +313,7 @@ impl Check<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::glsl::ast::Loc;
+    use crate::ast::Loc;
 
     #[test]
     fn memory_that_nothing_has_written_is_not_read() {

@@ -15,7 +15,7 @@ mod token;
 pub(super) mod words;
 
 use super::ast::Interner;
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 pub(super) use number::bad_number;
 use splice::{Splices, join_lines};
 use std::{borrow::Cow, ops::Range};

@@ -5,7 +5,7 @@ use super::token::{Kind, is_name};
 /// The reason that a number is none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub(in crate::glsl) enum BadNumber {
+pub(crate) enum BadNumber {
     /// Letters or a second point directly behind it.
     Tail,
     /// `1f`.
@@ -30,7 +30,7 @@ const REASONS: [BadNumber; 6] = [
 ];
 
 /// Message and hints for a number that is none.
-pub(in crate::glsl) fn bad_number(value: u32, text: &str) -> (String, Option<String>) {
+pub(crate) fn bad_number(value: u32, text: &str) -> (String, Option<String>) {
     let digits: &str = &text[..text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len())];
     match REASONS[value as usize] {
         BadNumber::Tail => (format!("`{text}` is not a number"), tail_hint(text)),

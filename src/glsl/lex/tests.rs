@@ -2,7 +2,7 @@
 #![cfg(test)]
 
 use super::{Kind, Lexer, bad_number, words};
-use crate::diag::SourceId;
+use eddy_diag::SourceId;
 
 /// Kind, characters in the author's text, value.
 fn lex(text: &str) -> Vec<(Kind, String, u32)> {

@@ -1,11 +1,12 @@
 //! Says what the lexer reads a text into.
 
-use crate::{diag::Span, glsl::ast::ExpansionId};
+use crate::ast::ExpansionId;
+use eddy_diag::Span;
 
 /// Says what a token is. Keywords appear only behind the preprocessor, to which they are names like any other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
-pub(in crate::glsl) enum Kind {
+pub(crate) enum Kind {
     Eof,
     /// End of a directive's line; the lexer gives it only in a directive.
     Newline,
@@ -193,15 +194,15 @@ impl Kind {
 }
 
 /// White space or a comment stands before the token.
-pub(in crate::glsl) const SPACE: u8 = 1;
+pub(crate) const SPACE: u8 = 1;
 /// First token of its line.
-pub(in crate::glsl) const LINE_START: u8 = 2;
+pub(crate) const LINE_START: u8 = 2;
 /// A macro's name that is to be left alone from now on, because it came up while that macro was being expanded.
-pub(in crate::glsl) const PAINTED: u8 = 4;
+pub(crate) const PAINTED: u8 = 4;
 
 /// A token on its way through the preprocessor.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::glsl) struct Token {
+pub(crate) struct Token {
     pub kind: Kind,
     pub flags: u8,
     pub value: u32,
@@ -218,11 +219,11 @@ impl Token {
 }
 
 #[inline]
-pub(in crate::glsl) fn is_name_start(byte: u8) -> bool {
+pub(crate) fn is_name_start(byte: u8) -> bool {
     byte.is_ascii_alphabetic() || byte == b'_'
 }
 
 #[inline]
-pub(in crate::glsl) fn is_name(byte: u8) -> bool {
+pub(crate) fn is_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }

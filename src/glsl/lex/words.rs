@@ -4,7 +4,7 @@
 //! plain names here, as they are in GLSL ES 3.00.
 
 use super::token::Kind;
-use crate::glsl::{
+use crate::{
     ast::{BasicType, Interner},
     hir::{Builtin, Uniform},
 };
@@ -70,17 +70,17 @@ const RESERVED: &[&str] = &[
 ];
 
 /// Returns whether the language knows the word, as a keyword, a type or by any other meaning.
-pub(in crate::glsl) fn is_word(name: &str) -> bool {
+pub(crate) fn is_word(name: &str) -> bool {
     interner().find(name).is_some()
 }
 
 /// Returns every keyword that is no type.
-pub(in crate::glsl) fn keywords() -> impl Iterator<Item = &'static str> {
+pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
     KEYWORDS.iter().map(|k| k.0)
 }
 
 /// Returns an interner that knows all words of the language.
-pub(in crate::glsl) fn interner() -> Interner {
+pub(crate) fn interner() -> Interner {
     static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
         Interner::seeded(
             Builtin::ALL
@@ -98,7 +98,7 @@ pub(in crate::glsl) fn interner() -> Interner {
 
 /// `Ident`, or which keyword a name is.
 #[inline]
-pub(in crate::glsl) fn kind(symbol: u32) -> Kind {
+pub(crate) fn kind(symbol: u32) -> Kind {
     // One comparison for the names of the author, which come after the seed.
     if !(FIRST_TYPE..END).contains(&symbol) {
         Kind::Ident
@@ -112,7 +112,7 @@ pub(in crate::glsl) fn kind(symbol: u32) -> Kind {
 }
 
 /// Returns the type of a `Kind::Type` token's symbol.
-pub(in crate::glsl) fn basic_type(symbol: u32) -> BasicType {
+pub(crate) fn basic_type(symbol: u32) -> BasicType {
     let i = (symbol - FIRST_TYPE) as usize;
     BasicType::ALL.get(i).copied().unwrap_or_else(|| TYPE_ALIASES[i - BasicType::ALL.len()].1)
 }

@@ -4,7 +4,7 @@ use super::{
     context::const_id,
     function::{Builder, Slot},
 };
-use crate::glsl::{
+use crate::{
     hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
     ir::{Binary, Math, Op, Value},
 };

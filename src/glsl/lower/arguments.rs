@@ -3,7 +3,7 @@
 
 use rustc_hash::FxHashSet;
 
-use crate::glsl::{
+use crate::{
     ast::List,
     hir::{ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, LocalId, Module, Type, VarFlags},
 };

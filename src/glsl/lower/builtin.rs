@@ -1,7 +1,7 @@
 //! Built-in functions of chapter 8, textures excepted.
 
 use super::function::{Builder, PartOf};
-use crate::glsl::{
+use crate::{
     hir::{Builtin, ExprId, Scalar, TypeId},
     ir::{Axis, Binary, Block, Math, Op, Stmt, Value},
 };
@@ -218,7 +218,7 @@ impl Builder<'_, '_> {
     }
 
     fn derivative(&mut self, axis: Axis, expr: Value) -> Value {
-        if self.cx.source.kind == crate::glsl::PassKind::Vertex {
+        if self.cx.source.kind == crate::PassKind::Vertex {
             // Of a function of Common that the checker let pass.
             let zero = self.float(0.0);
             return self.op(Binary::Multiply, expr, zero);

@@ -10,7 +10,7 @@ use super::{
     function::{Builder, Slot},
     writes,
 };
-use crate::glsl::{
+use crate::{
     hir::{ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, TypeId},
     ir::Value,
 };

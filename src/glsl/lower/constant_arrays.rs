@@ -12,7 +12,7 @@
 //! each call would copy the array.
 
 use super::writes;
-use crate::glsl::{
+use crate::{
     ast::List,
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},
 };
@@ -28,7 +28,7 @@ const MOST_CALLS: u32 = 16;
 
 /// Makes constants of the arrays of at least so many scalars that are filled with constants before all else, and takes
 /// out what fills them.
-pub(in crate::glsl) fn arrays_to_constants(module: &mut Module, least: usize) {
+pub(crate) fn arrays_to_constants(module: &mut Module, least: usize) {
     let Some(entry) = module.entry else { return };
     let mut arrays = candidates(module, least);
     if arrays.is_empty() {
@@ -111,7 +111,7 @@ fn words(module: &Module, ty: TypeId) -> usize {
     }
 }
 
-/// Counts the expressions that call each function, by [`FuncId::index`](crate::glsl::hir::FuncId::index).
+/// Counts the expressions that call each function, by [`FuncId::index`](crate::hir::FuncId::index).
 fn call_counts(module: &Module) -> Vec<u32> {
     let mut counts = vec![0; module.functions.len()];
     for expr in &module.exprs {
@@ -125,7 +125,7 @@ fn call_counts(module: &Module) -> Vec<u32> {
 struct Search<'a> {
     module: &'a Module,
     arrays: &'a mut [Array],
-    /// Arrays that each function or what it calls names, by [`FuncId::index`](crate::glsl::hir::FuncId::index): a bit
+    /// Arrays that each function or what it calls names, by [`FuncId::index`](crate::hir::FuncId::index): a bit
     /// for each.
     named: Vec<u64>,
     calls: Vec<u32>,

@@ -7,7 +7,7 @@ use super::{
     names::{Marks, Names},
     options::Options,
 };
-use crate::glsl::{
+use crate::{
     PassSource, Reflection,
     hir::{self, BuiltinVar},
     ir::{self, GlobalKind, layout::Layouts},

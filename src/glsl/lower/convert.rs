@@ -1,7 +1,7 @@
 //! Constructors and conversions (section 5.4).
 
 use super::function::Builder;
-use crate::glsl::{
+use crate::{
     hir::{ExprId, Scalar, Type, TypeId},
     ir::{Op, Value},
 };

@@ -10,7 +10,7 @@
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
 use super::{function::Builder, operators::Typed};
-use crate::glsl::{
+use crate::{
     hir::{BinaryOp, Scalar, Shape, TypeId},
     ir::{Binary, Math, Op, Value},
 };

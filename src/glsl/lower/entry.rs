@@ -1,7 +1,7 @@
 //! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
-use crate::glsl::{
+use crate::{
     PassKind,
     hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},
     ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},

@@ -1,7 +1,7 @@
 //! Expressions: what they evaluate to, in which order, under which conditions.
 
 use super::{function::Builder, reachable::known_bool};
-use crate::glsl::{
+use crate::{
     hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
     ir::{Binary, Block, Op, Stmt, Unary, Value},
 };

@@ -6,7 +6,7 @@ use super::{
     names::Mark,
     reachable::known_bool,
 };
-use crate::glsl::{
+use crate::{
     ast::List,
     hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId, VarFlags},
     ir::{self, Binary, Block, Stmt, Value},
@@ -51,7 +51,7 @@ impl Builder<'_, '_> {
             StmtKind::Break => self.push(Stmt::Break),
             StmtKind::Continue => self.push(Stmt::Continue),
             // Of a function of Common that the checker let pass.
-            StmtKind::Discard if self.cx.source.kind == crate::glsl::PassKind::Vertex => {}
+            StmtKind::Discard if self.cx.source.kind == crate::PassKind::Vertex => {}
             StmtKind::Discard => {
                 self.cx.reflection.discards = true;
                 self.push(Stmt::Discard);
@@ -207,7 +207,7 @@ impl Builder<'_, '_> {
     /// first switch finds the number of the body to begin with, and a second, with one case, holds all bodies, each
     /// under a test that it is reached; a `break` leaves it.
     fn switch_with_fall_through(&mut self, selector: Value, cases: &[Case], bodies: Vec<(Block, bool)>) {
-        use crate::glsl::hir::Scalar;
+        use crate::hir::Scalar;
         let first = self.temporary(TypeId::INT);
         let none = self.literal(Scalar::Int, cases.len() as u32);
         let mut out = Vec::new();

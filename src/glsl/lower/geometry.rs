@@ -5,7 +5,7 @@
 //! differ. The instructions are as many either way, and drivers may still fuse them.
 
 use super::function::{Builder, PartOf};
-use crate::glsl::{
+use crate::{
     hir::{Scalar, TypeId},
     ir::{Binary, Math, Op, Value},
 };

@@ -2,7 +2,7 @@
 //! `determinant` in the order of OpenGL's compilers (see [`super::geometry`]).
 
 use super::function::Builder;
-use crate::glsl::{
+use crate::{
     hir::{Scalar, Type, TypeId},
     ir::{Binary, Math, Op, Value},
 };

@@ -44,7 +44,7 @@ mod writes;
 
 use rustc_hash::FxHashMap;
 
-pub(in crate::glsl) use self::{
+pub(crate) use self::{
     constant_arrays::arrays_to_constants,
     names::{FunctionNames, Mark, Marks, Names},
     options::Options,
@@ -64,7 +64,7 @@ use super::{
 pub(crate) struct Lowered {
     pub program: ir::Module,
     pub reflection: Reflection,
-    pub(in crate::glsl) names: Names,
+    pub(crate) names: Names,
 }
 
 /// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
@@ -72,7 +72,7 @@ pub(crate) struct Lowered {
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
-pub(in crate::glsl) fn lower_probed(
+pub(crate) fn lower_probed(
     module: &hir::Module,
     source: &PassSource<'_>,
     options: Options,
@@ -83,7 +83,7 @@ pub(in crate::glsl) fn lower_probed(
 }
 
 /// Does the same without a probe, for who walks through the program: with the marks that are asked for.
-pub(in crate::glsl) fn lower_to_walk(
+pub(crate) fn lower_to_walk(
     module: &hir::Module,
     source: &PassSource<'_>,
     options: Options,

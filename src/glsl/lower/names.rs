@@ -1,6 +1,6 @@
 //! Names of the author's, for who shows a program while it runs.
 
-use crate::glsl::{
+use crate::{
     ast::Symbol,
     hir::{LocalId, StmtId},
     ir,
@@ -8,17 +8,17 @@ use crate::glsl::{
 
 /// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
 #[derive(Debug, Default)]
-pub(in crate::glsl) struct Names {
+pub(crate) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
     pub globals: Vec<(Symbol, ir::GlobalId)>,
-    /// The members of each structure, by [`StructId::index`](crate::glsl::types::StructId::index).
+    /// The members of each structure, by [`StructId::index`](crate::types::StructId::index).
     pub members: Vec<Vec<Symbol>>,
 }
 
 /// The names in one function.
 #[derive(Debug, Default)]
-pub(in crate::glsl) struct FunctionNames {
+pub(crate) struct FunctionNames {
     /// None of the code around the author's.
     pub name: Option<Symbol>,
     /// Parameters and local variables, in the order of their declarations: each name has a value, or a place.
@@ -33,7 +33,7 @@ pub(in crate::glsl) struct FunctionNames {
 
 /// A part of the text that control comes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::glsl) enum Mark {
+pub(crate) enum Mark {
     /// A statement begins.
     Statement(StmtId),
     /// A loop begins a turn: with its test, if that stands before its body.
@@ -46,7 +46,7 @@ pub(in crate::glsl) enum Mark {
 
 /// Marks in a program for who walks through it; a device needs none.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::glsl) struct Marks {
+pub(crate) struct Marks {
     /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]).
     pub undefined: bool,
     /// The beginning of each statement is marked ([`FunctionNames::marks`]).

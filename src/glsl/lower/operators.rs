@@ -1,7 +1,7 @@
 //! Operators, assignments, equality.
 
 use super::function::Builder;
-use crate::glsl::{
+use crate::{
     hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp},
     ir::{Binary, Op, Unary, Value},
 };

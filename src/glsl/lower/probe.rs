@@ -4,7 +4,7 @@ use super::{
     context::{Lowering, Probed},
     function::Builder,
 };
-use crate::glsl::{
+use crate::{
     hir::{ExprId, Scalar, Type, TypeId},
     ir::{Binary, Block, Op, Stmt, Value},
 };

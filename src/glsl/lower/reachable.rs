@@ -11,7 +11,7 @@ use super::{
     walk::{Node, parts},
     writes,
 };
-use crate::glsl::{
+use crate::{
     ast::List,
     hir::{ExprId, ExprKind, FuncId, GlobalId, LogicalOp, Module, StmtId, StmtKind},
 };
@@ -112,7 +112,7 @@ impl Reachable {
 
 /// Returns the number of expressions and statements that are reached of a body, and the functions that they call, once
 /// for each call.
-pub(in crate::glsl) fn reached(module: &Module, body: List<StmtId>) -> (usize, Vec<FuncId>) {
+pub(crate) fn reached(module: &Module, body: List<StmtId>) -> (usize, Vec<FuncId>) {
     let mut walk = Walk::new(module);
     walk.statements(body);
     let facts = walk.run();

@@ -3,7 +3,7 @@
 //! Each is declared when it is first reached.
 
 use super::context::{Lowering, const_id};
-use crate::glsl::{
+use crate::{
     ast::Symbol,
     hir::{self, BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
     ir::{self, GlobalKind},

@@ -2,7 +2,7 @@
 //! variables the author reads, and what the author left in others is handed on.
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
-use crate::glsl::{
+use crate::{
     Attribute, PassKind,
     hir::{BuiltinVar, GlobalId, Scalar, Swizzle, Type, TypeId},
     ir::{self, Binary, Input, Op, Output, Stmt, Value},

@@ -1,7 +1,7 @@
 //! Texture functions (section 8.8) on channels.
 
 use super::function::Builder;
-use crate::glsl::{
+use crate::{
     ChannelKind,
     hir::{Builtin, ExprId, ExprKind, Scalar, Swizzle, TypeId},
     ir::{Binary, Level, Op, Value},
@@ -116,7 +116,7 @@ impl Builder<'_, '_> {
         if let (LevelForm::Implicit, Some(bias)) = (form.level, next()) {
             level = Level::Bias(self.value(bias));
         }
-        if self.cx.source.kind == crate::glsl::PassKind::Vertex && matches!(level, Level::Auto | Level::Bias(_)) {
+        if self.cx.source.kind == crate::PassKind::Vertex && matches!(level, Level::Auto | Level::Bias(_)) {
             // Section 8.8: without derivatives it is the base level that is read.
             level = Level::Exact(self.float(0.0));
         }

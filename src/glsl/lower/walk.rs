@@ -1,6 +1,6 @@
 //! All that statements and expressions consist of, reached or not, without recursion.
 
-use crate::glsl::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
+use crate::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
 
 #[derive(Clone, Copy)]
 pub(super) enum Node {

@@ -1,6 +1,6 @@
 //! Places that expressions write.
 
-use crate::glsl::hir::{Builtin, ExprId, ExprKind, Module};
+use crate::hir::{Builtin, ExprId, ExprKind, Module};
 
 /// Calls `visit` for each place that an expression writes by itself: what it consists of and what it calls left out.
 pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId)) {

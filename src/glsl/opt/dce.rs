@@ -1,7 +1,7 @@
 //! Dead code elimination: drops what is computed and used by nothing that has an effect. The passes before it leave the
 //! operations that they replaced.
 
-use crate::glsl::ir::{Block, Function, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, Module, Op, Stmt, Value};
 
 pub(super) fn run(module: &mut Module) {
     for function in &mut module.functions {

@@ -1,6 +1,6 @@
 //! The product of a number and one, which is that number: the example of `docs/compiler.md`, which shows this file.
 
-use crate::glsl::{
+use crate::{
     ir::{
         Binary, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

@@ -4,8 +4,8 @@
 //! OpenGL drivers split first, Vulkan ones later, so last bits differ; here it is done beforehand. Devices that compute
 //! by component have as much to do either way.
 
-use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
-use crate::glsl::{
+use crate::ir::rewrite::{self, Rewriter, Rule};
+use crate::{
     ir::{Binary, Math, Module, Op, Unary, Value},
     types::{Scalar, Type, TypeId},
 };

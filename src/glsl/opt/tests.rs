@@ -2,7 +2,7 @@
 //! `INSTA_UPDATE=always`, takes a change over.
 
 use super::{PASSES, identity};
-use crate::glsl::{Driver, Link, PassSource, compile::compile_seen, dump_ir, ir, opt::PassSet};
+use crate::{Driver, Link, PassSource, compile::compile_seen, dump_ir, ir, opt::PassSet};
 
 /// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before
 /// it.
@@ -53,7 +53,7 @@ fn every_pass_can_be_left_out() {
         let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
         let text = dump_ir(&source, &Link::default(), None, None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
-        crate::glsl::compile(&source).expect("it compiles all the same");
+        crate::compile(&source).expect("it compiles all the same");
     }
     assert!(PassSet::of("nonesuch").is_err());
 }

@@ -7,7 +7,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::glsl::{
+use crate::{
     ast::Loc,
     ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId},
     types::{Scalar, Type, TypeId},

@@ -1,15 +1,15 @@
 //! Pairs of brackets, found before parsing: they tell what `a[..] b` is without trying both, and let the parser step
 //! over a group that it did not understand.
 
-use crate::glsl::{lex::Kind, preprocess::Tok};
+use crate::{lex::Kind, preprocess::Tok};
 
 /// The partner of a bracket that has none.
-pub(in crate::glsl) const ALONE: u32 = u32::MAX;
+pub(crate) const ALONE: u32 = u32::MAX;
 
 /// Writes into the value of each bracket from `begin` on the index of its partner, or [`ALONE`]. Text with mistakes is
 /// paired the way its author most likely meant it: a closing brace closes what is still open inside it, a semicolon or
 /// an opening brace ends parentheses (but those of `for` hold semicolons).
-pub(in crate::glsl) fn pair(tokens: &mut [Tok], begin: usize) {
+pub(crate) fn pair(tokens: &mut [Tok], begin: usize) {
     let mut open = Open::default();
     for i in begin..tokens.len() {
         match tokens[i].kind {

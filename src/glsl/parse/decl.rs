@@ -4,7 +4,7 @@ use super::{
     hint,
     parser::{Failed, Parse, Parser},
 };
-use crate::glsl::{
+use crate::{
     ast::{
         DeclId, DeclKind, Declarator, ExprId, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecId,
         TypeSpecKind,

@@ -2,7 +2,7 @@
 //! stack.
 
 use super::parser::{MAX_LEVELS, Parse, Parser};
-use crate::glsl::{
+use crate::{
     ast::{BinaryOp, ExprId, ExprKind, List, PostfixOp, Symbol, TypeSpec, TypeSpecKind, UnaryOp},
     lex::{Kind, words},
     preprocess::Tok,

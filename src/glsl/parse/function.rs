@@ -1,7 +1,7 @@
 //! Functions: parameters, prototypes, bodies (section 6.1).
 
 use super::parser::{Failed, Parse, Parser};
-use crate::glsl::{
+use crate::{
     ast::{DeclId, DeclKind, FunctionDecl, List, Param, Qualifier, StmtId, StmtKind, TypeSpecId},
     lex::Kind,
 };

@@ -1,6 +1,6 @@
 //! Words of other languages (HLSL, WGSL, C++, JavaScript, desktop GLSL).
 
-use crate::glsl::ast::BasicType;
+use crate::ast::BasicType;
 
 /// Returns the mend for a reserved word, where another than a new name.
 pub(super) fn reserved(word: &str) -> Option<&'static str> {
@@ -39,7 +39,7 @@ pub(super) fn begins_foreign_declaration(word: &str) -> bool {
 }
 
 /// Returns the type that another language calls so.
-pub(in crate::glsl) fn foreign_type(word: &str) -> Option<BasicType> {
+pub(crate) fn foreign_type(word: &str) -> Option<BasicType> {
     use BasicType::*;
     Some(match word {
         "double" | "half" | "fixed" | "f32" | "float1" | "real" => Float,

@@ -1,7 +1,7 @@
 //! The parser's state, and what every rule of the grammar needs: tokens, places, depth, names.
 
 use super::{brackets, hint};
-use crate::glsl::{
+use crate::{
     ast::{Ast, Declarator, ExprId, ExprKind, Ident, Interner, Loc, MAX_NESTING, Origins, StmtId, Symbol, TokenId},
     lex::Kind,
     pieces::Piece,

@@ -1,10 +1,8 @@
 //! Saying what is wrong, each mistake once, and finding the place to go on from.
 
 use super::parser::{Failed, Parser};
-use crate::{
-    diag::{Diagnostic, Span},
-    glsl::lex::Kind,
-};
+use crate::lex::Kind;
+use eddy_diag::{Diagnostic, Span};
 
 impl Parser<'_> {
     /// Returns the token as the author wrote it, its beginning if it is long.

@@ -1,7 +1,7 @@
 //! Reports a token that does not fit, by what the author most likely meant.
 
 use super::parser::{Failed, Parser};
-use crate::glsl::lex::Kind;
+use crate::lex::Kind;
 
 impl Parser<'_> {
     /// Reports that the next token does not fit; `expected` would.

@@ -2,13 +2,11 @@
 
 use super::parser::{Failed, Parse, Parser};
 use crate::{
-    diag::Diagnostic,
-    glsl::{
-        ast::{Condition, DeclKind, List, StmtId, StmtKind},
-        lex::Kind,
-        near::nearest_identifier,
-    },
+    ast::{Condition, DeclKind, List, StmtId, StmtKind},
+    lex::Kind,
+    near::nearest_identifier,
 };
+use eddy_diag::Diagnostic;
 
 impl Parser<'_> {
     /// Reads `{ .. }`: its statements, each mistake left behind in its own.
@@ -323,7 +321,7 @@ impl Parser<'_> {
     }
 
     /// Reads a declaration of variables up to before its `;` or `)`.
-    fn declaration_without_end(&mut self) -> Parse<crate::glsl::ast::DeclId> {
+    fn declaration_without_end(&mut self) -> Parse<crate::ast::DeclId> {
         let first = self.at;
         let mut qualifiers = self.qualifiers()?;
         let ty = self.qualified_type(&mut qualifiers)?;

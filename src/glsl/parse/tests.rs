@@ -2,7 +2,7 @@
 #![cfg(test)]
 
 use super::*;
-use crate::glsl::ast::{
+use crate::ast::{
     Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind,
 };
 
@@ -75,7 +75,7 @@ fn expr(p: &Parsed, id: ExprId) -> String {
     }
 }
 
-fn dims(p: &Parsed, list: List<crate::glsl::ast::Dim>) -> String {
+fn dims(p: &Parsed, list: List<crate::ast::Dim>) -> String {
     p.ast[list].iter().map(|d| format!("[{}]", d.size.map_or(String::new(), |s| expr(p, s)))).collect()
 }
 
@@ -103,7 +103,7 @@ fn type_text(p: &Parsed, id: TypeSpecId) -> String {
     base + &dims(p, spec.dims)
 }
 
-fn qualifiers(p: &Parsed, list: List<crate::glsl::ast::Qualifier>) -> String {
+fn qualifiers(p: &Parsed, list: List<crate::ast::Qualifier>) -> String {
     p.ast[list].iter().map(|q| format!("{:?} ", q.kind).to_lowercase()).collect()
 }
 
@@ -480,7 +480,7 @@ fn several_mistakes_are_several_messages() {
         ],
     );
     let many = format!("void f() {{ {} }}", "a b c;\n".repeat(1000));
-    assert_eq!(messages(&many).len(), crate::glsl::report::MAX_ERRORS);
+    assert_eq!(messages(&many).len(), crate::report::MAX_ERRORS);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::{
     hint,
     parser::{Failed, Parse, Parser},
 };
-use crate::glsl::{
+use crate::{
     ast::{Declarator, Dim, ExprId, Field, List, StructDef, Symbol, TypeSpec, TypeSpecId, TypeSpecKind},
     lex::{Kind, words},
 };

@@ -18,7 +18,7 @@ use super::{
     parse::{self, Parsed},
     pieces,
 };
-use crate::diag::Diagnostic;
+use eddy_diag::Diagnostic;
 
 /// Common and what it includes, as all passes behind it find it.
 pub struct Preamble {

@@ -2,12 +2,10 @@
 
 use super::*;
 use crate::{
-    diag::{SourceId, Span},
-    glsl::{
-        ChannelKind, Compiled, CustomUniformKind, Link, PassKind, UntypedValue, compile_linked, diagnose, dump_ir,
-        services::Analysis,
-    },
+    ChannelKind, Compiled, CustomUniformKind, Link, PassKind, UntypedValue, compile_linked, diagnose, dump_ir,
+    services::Analysis,
 };
+use eddy_diag::{SourceId, Span};
 
 const COMMON: SourceId = SourceId(0);
 const CODE: SourceId = SourceId(1);

@@ -2,7 +2,7 @@
 //! the middle of a line.
 
 use super::state::Preprocessor;
-use crate::glsl::lex::{Kind, Token, bad_number};
+use crate::lex::{Kind, Token, bad_number};
 
 /// Says what stands for GLSL in typeset text, foreign keyboards and web pages, and what was meant.
 const LOOKALIKES: &[(&str, &str, Kind)] = &[

@@ -2,7 +2,7 @@
 //! choice.
 
 use super::state::Preprocessor;
-use crate::glsl::{
+use crate::{
     ast::Symbol,
     lex::{Kind, Token},
     stack::{STACK_LEFT, STACK_MORE},

@@ -6,12 +6,10 @@ use super::{
     state::Preprocessor,
 };
 use crate::{
-    diag::Diagnostic,
-    glsl::{
-        ast::{MacroDef, MacroId, Symbol},
-        lex::{Kind, SPACE, Token},
-    },
+    ast::{MacroDef, MacroId, Symbol},
+    lex::{Kind, SPACE, Token},
 };
+use eddy_diag::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 impl Preprocessor<'_, '_> {

@@ -3,14 +3,12 @@
 
 use super::state::{Conditional, Preprocessor};
 use crate::{
-    diag::{Diagnostic, Span},
-    glsl::{
-        ast::Symbol,
-        lex::{Kind, Token},
-    },
+    ast::Symbol,
+    lex::{Kind, Token},
 };
+use eddy_diag::{Diagnostic, Span};
 
-pub(in crate::glsl) const DIRECTIVES: [&str; 13] = [
+pub(crate) const DIRECTIVES: [&str; 13] = [
     "define",
     "undef",
     "if",

@@ -4,12 +4,10 @@
 
 use super::state::Preprocessor;
 use crate::{
-    diag::Span,
-    glsl::{
-        PassKind,
-        lex::{Kind, Lexer, Token},
-    },
+    PassKind,
+    lex::{Kind, Lexer, Token},
 };
+use eddy_diag::Span;
 
 /// The function a kind's entry point would be, up to its body, and the body: the name in it is expanded. A colour
 /// begins black and opaque, as in the site's wrapper.

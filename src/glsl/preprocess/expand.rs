@@ -6,13 +6,11 @@ use super::{
     state::{Context, MAX_CALL_DEPTH, MAX_MACRO_TOKENS, Preprocessor, end_token},
 };
 use crate::{
-    diag::{Diagnostic, Span},
-    glsl::{
-        ast::{Expansion, ExpansionId, MacroId},
-        lex::{Kind, PAINTED, Token},
-        stack::{STACK_LEFT, STACK_MORE},
-    },
+    ast::{Expansion, ExpansionId, MacroId},
+    lex::{Kind, PAINTED, Token},
+    stack::{STACK_LEFT, STACK_MORE},
 };
+use eddy_diag::{Diagnostic, Span};
 
 impl Preprocessor<'_, '_> {
     /// Returns the next token, not expanded: from the innermost context, else from the running text. `Eof` at the end
@@ -313,7 +311,7 @@ const END: Token = Token {
     kind: Kind::Eof,
     flags: 0,
     value: 0,
-    span: Span { source: crate::diag::SourceId(0), start: 0, end: 0 },
+    span: Span { source: eddy_diag::SourceId(0), start: 0, end: 0 },
     expansion: None,
 };
 

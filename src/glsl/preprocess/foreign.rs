@@ -4,7 +4,7 @@
 //! reading ends there.
 
 use super::{directive::DIRECTIVES, state::Preprocessor};
-use crate::glsl::{lex::Token, near::nearest_identifier};
+use crate::{lex::Token, near::nearest_identifier};
 
 /// Directives of Eddy's, which lie in the texts that it reads and are gone where the compiler sees them in their form.
 pub(super) const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];

@@ -5,10 +5,8 @@
 //! length is part of what they mean.
 
 use super::state::Preprocessor;
-use crate::{
-    diag::Span,
-    glsl::{lex::Token, pieces::Piece},
-};
+use crate::{lex::Token, pieces::Piece};
+use eddy_diag::Span;
 
 impl Preprocessor<'_, '_> {
     /// Returns what `__LINE__` is at a place.

@@ -1,10 +1,10 @@
 //! The macros that are defined: what a text leaves to those that follow it.
 
-use crate::glsl::{ast::ExpansionId, lex::Token};
+use crate::{ast::ExpansionId, lex::Token};
 
 /// Every macro so far. Names and places of definition are in `Origins::macros`, by the same number.
 #[derive(Clone, Debug, Default)]
-pub(in crate::glsl) struct MacroTable {
+pub(crate) struct MacroTable {
     /// By symbol: the number of its macro plus one.
     pub(super) defined: Vec<u32>,
     pub(super) macros: Vec<Macro>,

@@ -5,12 +5,10 @@
 
 use super::{directive::DIRECTIVES, foreign::OWN, state::Preprocessor};
 use crate::{
-    diag::{Diagnostic, Edit, Fix, Span},
-    glsl::{
-        ast::Symbol,
-        lex::{Kind, LINE_START, Token},
-    },
+    ast::Symbol,
+    lex::{Kind, LINE_START, Token},
 };
+use eddy_diag::{Diagnostic, Edit, Fix, Span};
 
 /// Directives without which the rest of a text is another one.
 const ESSENTIAL: [&str; 7] = ["include", "if", "ifdef", "ifndef", "elif", "else", "endif"];

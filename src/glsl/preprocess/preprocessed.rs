@@ -1,11 +1,11 @@
 //! The outcome of preprocessing.
 
 use super::{macros::MacroTable, token::Tok};
-use crate::glsl::ast::Origins;
+use crate::ast::Origins;
 
 /// Preprocessed tokens for the parser, and the state of the preprocessor where further texts follow.
 #[derive(Clone, Debug, Default)]
-pub(in crate::glsl) struct Preprocessed {
+pub(crate) struct Preprocessed {
     /// As many as `origins.tokens`; the last is `Eof`.
     pub tokens: Vec<Tok>,
     pub origins: Origins,

@@ -7,14 +7,12 @@ use super::{
     unit::{LineCount, Unit},
 };
 use crate::{
-    diag::{Diagnostic, Edit, Fix, Severity, SourceId, Span},
-    glsl::{
-        ast::{Interner, MacroDef, MacroId, Origin, Origins},
-        lex::{Kind, LINE_START, Lexer, Token, words},
-        pieces::Piece,
-        report::Report,
-    },
+    ast::{Interner, MacroDef, MacroId, Origin, Origins},
+    lex::{Kind, LINE_START, Lexer, Token, words},
+    pieces::Piece,
+    report::Report,
 };
+use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceId, Span};
 
 /// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
 /// known shader needs; a bomb reaches it in a fraction of a second.

@@ -3,13 +3,11 @@
 
 use super::*;
 use crate::{
-    diag::SourceId,
-    glsl::{
-        Text,
-        lex::{Kind, words},
-        pieces,
-    },
+    Text,
+    lex::{Kind, words},
+    pieces,
 };
+use eddy_diag::SourceId;
 
 /// The tokens as text with single spaces, and the diagnostics' messages.
 fn run(text: &str) -> (String, Vec<String>) {
@@ -311,7 +309,7 @@ fn origins_lead_back() {
     let done =
         preprocess(&pieces::of(&texts, &[]), Unit::CommonAlone, Preprocessed::default(), &mut names, &mut report);
     let spelled = |i: usize| &text[done.origins.tokens[i].spelled.range()];
-    let used = |i: usize| &text[done.origins.token_span(crate::glsl::ast::TokenId(i as u32)).range()];
+    let used = |i: usize| &text[done.origins.token_span(crate::ast::TokenId(i as u32)).range()];
     // a * k + b * k ;
     assert_eq!((spelled(0), used(0)), ("a", "OUT"));
     assert_eq!((spelled(2), used(2)), ("k", "OUT"));

@@ -1,10 +1,10 @@
 //! Says what the site puts in front of a text, for the numbers of lines.
 
-use crate::glsl::source::PassKind;
+use crate::source::PassKind;
 
 /// Says what is compiled, for what the site puts in front of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::glsl) enum Unit {
+pub(crate) enum Unit {
     Pass(PassKind),
     /// Common, as the site checks it.
     CommonAlone,

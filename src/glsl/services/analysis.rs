@@ -2,16 +2,14 @@
 
 use super::{symbols::Symbols, text::Source};
 use crate::{
-    diag::{SourceId, Span},
-    glsl::{
-        ast::{Ident, Interner, Origins, TokenId},
-        check::{self, custom_uniform_type},
-        hir::{Module, TypeId, Uniform},
-        parse,
-        preamble::Preamble,
-        source::{ChannelKind, PassKind, PassSource},
-    },
+    ast::{Ident, Interner, Origins, TokenId},
+    check::{self, custom_uniform_type},
+    hir::{Module, TypeId, Uniform},
+    parse,
+    preamble::Preamble,
+    source::{ChannelKind, PassKind, PassSource},
 };
+use eddy_diag::{SourceId, Span};
 
 /// A place in the texts of a pass: later texts come after earlier ones.
 pub(super) type Place = (usize, u32);

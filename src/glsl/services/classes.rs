@@ -6,12 +6,10 @@ use super::{
     text::{Directive, Source},
 };
 use crate::{
-    diag::SourceId,
-    glsl::{
-        hir::{Builtin, DeclRef, LocalKind, Uniform},
-        lex::Kind,
-    },
+    hir::{Builtin, DeclRef, LocalKind, Uniform},
+    lex::Kind,
 };
+use eddy_diag::SourceId;
 use std::ops::Range;
 
 /// Says what a run of a text is.

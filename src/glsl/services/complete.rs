@@ -9,15 +9,13 @@ use super::{
     text::{Directive, Source},
 };
 use crate::{
-    diag::SourceId,
-    glsl::{
-        ast::{BasicType, MacroId, Symbol},
-        check::env::{self, Env},
-        hir::{Builtin, DeclRef, FuncId, GlobalId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId, Uniform},
-        lex::{Kind as Token, words},
-        near,
-    },
+    ast::{BasicType, MacroId, Symbol},
+    check::env::{self, Env},
+    hir::{Builtin, DeclRef, FuncId, GlobalId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId, Uniform},
+    lex::{Kind as Token, words},
+    near,
 };
+use eddy_diag::SourceId;
 use std::{collections::HashSet, ops::Range};
 
 /// Says what is proposed, for a sign beside it.
@@ -237,7 +235,7 @@ impl Analysis {
             add(name, CompletionKind::Uniform, line(DeclRef::Channel(i as u8)), doc, 1_499);
         }
         for &builtin in Builtin::ALL {
-            if builtin == Builtin::StAssert && self.kind != crate::glsl::PassKind::Image {
+            if builtin == Builtin::StAssert && self.kind != crate::PassKind::Image {
                 continue;
             }
             let texts = show::builtin_texts(builtin);
@@ -304,7 +302,7 @@ impl Analysis {
         match self.module.types.get(ty) {
             Type::Struct(id) => {
                 let members = self.module[self.module[id].members].iter().enumerate();
-                let doc = |m: &crate::glsl::hir::StructMember| self.comment_above(self.spelled(m.name.token));
+                let doc = |m: &crate::hir::StructMember| self.comment_above(self.spelled(m.name.token));
                 members
                     .map(|(i, m)| {
                         let name = self.names.get(m.name.symbol);

@@ -8,14 +8,12 @@ use super::{
     text::{Directive, Source},
 };
 use crate::{
-    diag::{SourceId, Span},
-    glsl::{
-        ast::BasicType,
-        hir::{DeclRef, ExprId, ExprKind, LocalKind, Type},
-        lex::Kind as Token,
-        near,
-    },
+    ast::BasicType,
+    hir::{DeclRef, ExprId, ExprKind, LocalKind, Type},
+    lex::Kind as Token,
+    near,
 };
+use eddy_diag::{SourceId, Span};
 
 /// Names that a misspelled one is compared with at most: more take longer than a tooltip may.
 const MAX_CANDIDATES: usize = 20_000;

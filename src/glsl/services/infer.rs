@@ -8,7 +8,7 @@ use super::{
     symbols::Target,
     text::{Directive, Source},
 };
-use crate::glsl::{
+use crate::{
     ast::{BasicType, MacroId},
     check::overloads::{self, Pattern},
     hir::{Builtin, DeclRef, FuncId, Scalar, StructId, Type, TypeId},
@@ -306,7 +306,7 @@ impl Analysis {
 
     /// Type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
-        use crate::glsl::ChannelKind as C;
+        use crate::ChannelKind as C;
         TypeId::basic(match self.channels[usize::from(channel) & 3] {
             C::Sampler2D => BasicType::Sampler2D,
             C::Sampler3D => BasicType::Sampler3D,

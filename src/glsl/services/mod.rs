@@ -5,7 +5,7 @@
 //! what the language and the site give ([`docs`]). Nothing here needs a text that compiles: what the checker understood
 //! answers first, and for the statement that it did not, the words as written ([`text`]) with the scopes around them
 //! ([`scope`]) and the types that can be told from them ([`infer`]). Positions are bytes of a text, as in
-//! [`crate::diag::Span`].
+//! [`eddy_diag::Span`].
 
 mod analysis;
 mod classes;

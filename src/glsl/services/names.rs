@@ -5,10 +5,8 @@ use super::{
     infer::Infer,
     symbols::Target,
 };
-use crate::{
-    diag::{SourceId, Span},
-    glsl::{hir::DeclRef, lex::Kind},
-};
+use crate::{hir::DeclRef, lex::Kind};
+use eddy_diag::{SourceId, Span};
 
 impl Analysis {
     /// Returns where the name at `offset` is declared: its name there, which may stand in Common. `None` for what the

@@ -5,12 +5,10 @@ use super::{
     symbols::{Symbols, Target},
 };
 use crate::{
-    diag::Span,
-    glsl::{
-        ast::MacroId,
-        hir::{DeclRef, FuncId, GlobalId, LocalId, StructId},
-    },
+    ast::MacroId,
+    hir::{DeclRef, FuncId, GlobalId, LocalId, StructId},
 };
+use eddy_diag::Span;
 
 impl Analysis {
     /// Collects what every name stands for, as far as the checker got.

@@ -8,7 +8,7 @@ use super::{
     symbols::Target,
     text::Source,
 };
-use crate::glsl::{
+use crate::{
     PassKind,
     ast::{Symbol, TokenId},
     check::env::{self, Env},
@@ -108,14 +108,14 @@ impl Analysis {
 
     /// Returns the macro of a name that was defined last before a place. An `#undef` in between is passed over: a name
     /// that was a macro once is more likely meant than none.
-    pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::glsl::ast::MacroId> {
+    pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
                 && def
                     .name_at
                     .is_none_or(|span| self.source_index(span.source).is_some_and(|source| (source, span.start) <= at))
         })?;
-        Some(crate::glsl::ast::MacroId::new(found))
+        Some(crate::ast::MacroId::new(found))
     }
 
     /// Returns what the language or the site declares under a name.

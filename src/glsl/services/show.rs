@@ -1,7 +1,7 @@
 //! Declarations as GLSL writes them: what a tooltip shows and a completion is told apart by.
 
 use super::{analysis::Analysis, docs, symbols::Target};
-use crate::glsl::{
+use crate::{
     ast::{BasicType, MacroId, Precision, Symbol},
     check::{
         env,
@@ -102,7 +102,7 @@ impl Analysis {
         format!("const int {name} = {value}")
     }
 
-    pub(super) fn local_text(&self, id: crate::glsl::hir::LocalId) -> String {
+    pub(super) fn local_text(&self, id: crate::hir::LocalId) -> String {
         let local = &self.module[id];
         let kind = match local.kind {
             LocalKind::In | LocalKind::Var => "",
@@ -140,7 +140,7 @@ impl Analysis {
     pub(super) fn function_text(&self, id: FuncId) -> (String, Vec<Range<usize>>) {
         let function = &self.module[id];
         let params: Vec<String> = (0..function.param_count)
-            .map(|i| self.local_text(crate::glsl::hir::LocalId::new((function.locals.start + i) as usize)))
+            .map(|i| self.local_text(crate::hir::LocalId::new((function.locals.start + i) as usize)))
             .collect();
         call_text(&format!("{} {}", self.type_name(function.result), self.names.get(function.name.symbol)), &params)
     }

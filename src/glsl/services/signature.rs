@@ -9,13 +9,11 @@ use super::{
     text::Source,
 };
 use crate::{
-    diag::SourceId,
-    glsl::{
-        check::overloads,
-        hir::{DeclRef, FuncId, StructId, Type, TypeId},
-        lex::{Kind, words},
-    },
+    check::overloads,
+    hir::{DeclRef, FuncId, StructId, Type, TypeId},
+    lex::{Kind, words},
 };
+use eddy_diag::SourceId;
 use std::ops::Range;
 
 /// One way to call.
@@ -163,7 +161,7 @@ fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
 }
 
 /// Returns the usual ways to make a value of a keyword type.
-fn constructors(ty: TypeId, types: &crate::glsl::hir::TypeTable) -> Vec<Signature> {
+fn constructors(ty: TypeId, types: &crate::hir::TypeTable) -> Vec<Signature> {
     let Some(basic) = ty.as_basic() else { return Vec::new() };
     let one = |params: &[&str]| {
         let params: Vec<String> = params.iter().map(|p| (*p).to_owned()).collect();

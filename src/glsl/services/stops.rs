@@ -1,10 +1,8 @@
 //! Says where a debugger can stop.
 
 use super::analysis::Analysis;
-use crate::{
-    diag::{SourceId, Span},
-    glsl::statements::Statements,
-};
+use crate::statements::Statements;
+use eddy_diag::{SourceId, Span};
 use std::{collections::HashSet, ops::Range};
 
 impl Analysis {

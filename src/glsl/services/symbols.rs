@@ -2,12 +2,10 @@
 //! symbol.
 
 use crate::{
-    diag::Span,
-    glsl::{
-        ast::{MacroId, Symbol},
-        hir::{DeclRef, LocalId},
-    },
+    ast::{MacroId, Symbol},
+    hir::{DeclRef, LocalId},
 };
+use eddy_diag::Span;
 
 /// Whatever a name can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -4,15 +4,13 @@
 //! is asked of half a line is answered from here.
 
 use crate::{
-    diag::{SourceId, Span},
-    glsl::{
-        Text,
-        ast::{Interner, Origins, Symbol},
-        lex::{Kind, LINE_START, Lexer, words},
-        parse::brackets,
-        preprocess::Tok,
-    },
+    Text,
+    ast::{Interner, Origins, Symbol},
+    lex::{Kind, LINE_START, Lexer, words},
+    parse::brackets,
+    preprocess::Tok,
 };
+use eddy_diag::{SourceId, Span};
 use std::{ops::Range, sync::Arc};
 
 /// One token of the text.

@@ -7,7 +7,7 @@ use super::{
     state::{Frame, Lanes, State, of},
     world::Lod,
 };
-use crate::glsl::{
+use crate::{
     ir::{Axis, Binary, Level, Math, Op, Value},
     types::Scalar,
 };

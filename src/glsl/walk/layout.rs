@@ -1,7 +1,7 @@
 //! The layout of a function's values while it runs: cells, one a scalar, without gaps.
 
 use super::number::{Cell, Real};
-use crate::glsl::{
+use crate::{
     ir::{Function, GlobalId, Module, Op, Value},
     types::{Scalar, Type, TypeId},
 };

@@ -8,7 +8,7 @@ use super::{
     state::{ALL, Frame, LANES, Lanes, State, of},
     world::{World, uniform_words},
 };
-use crate::glsl::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Level, Module, Op, Output, Stmt, Value};
+use crate::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Level, Module, Op, Output, Stmt, Value};
 
 /// The reason that a walk ended before the program did.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::number::{Cell, Real};
-use crate::glsl::{
+use crate::{
     ir::{Binary, Math, Unary},
     types::{Scalar, Type},
 };

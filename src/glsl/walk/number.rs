@@ -7,7 +7,7 @@ use std::{
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-use crate::glsl::ir::Math;
+use crate::ir::Math;
 
 /// The floats of a walk.
 pub trait Real:

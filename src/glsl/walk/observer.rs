@@ -5,7 +5,7 @@ use super::{
     number::{Cell, Real},
     state::{Frame, LANES, State},
 };
-use crate::glsl::ir::{FuncId, Function, GlobalId, Module, Op, Output, Value};
+use crate::ir::{FuncId, Function, GlobalId, Module, Op, Output, Value};
 
 /// One activation of a function, as the pixel that is watched sees it.
 pub struct View<'v, 'a, R> {

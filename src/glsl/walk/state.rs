@@ -5,7 +5,7 @@ use super::{
     number::{Cell, Real},
     world::World,
 };
-use crate::glsl::ir::{FuncId, GlobalId, Module, Value};
+use crate::ir::{FuncId, GlobalId, Module, Value};
 
 /// Pixels that run together: at (0, 0), (1, 0), (0, 1) and (1, 1) of a block of two by two.
 pub const LANES: usize = 4;

@@ -1,14 +1,12 @@
 use super::{number::Real, *};
 use crate::{
-    diag::SourceId,
-    glsl::{
-        Link, PassKind, PassSource, Text,
-        interface::{GeometryBlock, UniformBlock},
-        ir::Output,
-        walkable::{Detail, Walkable},
-    },
+    Link, PassKind, PassSource, Text,
+    interface::{GeometryBlock, UniformBlock},
+    ir::Output,
+    walkable::{Detail, Walkable},
 };
 use bytemuck::Zeroable;
+use eddy_diag::SourceId;
 
 const LIMIT: u64 = 1_000_000;
 
@@ -242,7 +240,7 @@ fn an_observer_sees_the_way_of_one_pixel() {
         fn turn(&mut self, _: &View<'_, '_, f32>) {
             self.0.push("turn".into());
         }
-        fn store(&mut self, view: &View<'_, '_, f32>, place: crate::glsl::ir::Value, _: crate::glsl::ir::Value) {
+        fn store(&mut self, view: &View<'_, '_, f32>, place: crate::ir::Value, _: crate::ir::Value) {
             self.0.push(format!("store {:?}", view.memory(place)[0].float()));
         }
     }
@@ -258,7 +256,7 @@ fn an_observer_sees_the_way_of_one_pixel() {
     let mut other = Log::default();
     Machine::<f32>::new(&walkable.program, &world, EntryInputs::of_pixel((0, 0)), LIMIT).run(0, &mut other).unwrap();
     assert!(!other.0.contains(&"enter 0".to_owned()), "{:#?}", other.0);
-    let names: Vec<&str> = walkable.locals(crate::glsl::ir::FuncId::new(1)).map(|(name, _)| name).collect();
+    let names: Vec<&str> = walkable.locals(crate::ir::FuncId::new(1)).map(|(name, _)| name).collect();
     assert_eq!(names, ["r", "p", "s", "i"]);
-    assert_eq!(walkable.function_name(crate::glsl::ir::FuncId::new(0)), Some("twice"));
+    assert_eq!(walkable.function_name(crate::ir::FuncId::new(0)), Some("twice"));
 }

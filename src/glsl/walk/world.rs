@@ -1,6 +1,6 @@
 //! Everything that a program reads beside its own memory.
 
-use crate::glsl::{
+use crate::{
     builtins::Uniform,
     interface::{GeometryBlock, UniformBlock},
 };

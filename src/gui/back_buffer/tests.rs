@@ -2,9 +2,9 @@
 
 use super::{BackBuffer, Painting, paint_areas};
 use crate::{
-    gpu::{Gpu, Readback, Texture, TextureDescriptor},
+    gpu::{Gpu, Readback, Texture, TextureDescriptor, testing},
     gui::{damage::Area, frame, shell::Shell, theme},
-    session::{Command, Session, SessionOptions, testing},
+    session::{Command, Session, SessionOptions},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
 use egui_wgpu::{Renderer, ScreenDescriptor};

@@ -1,8 +1,9 @@
 //! The window's contents under egui_kittest: frames without a window, judged by what screen readers are told.
 
 use crate::{
+    gpu::testing,
     gui::{shell::Shell, theme},
-    session::{Command, Session, SessionOptions, testing},
+    session::{Command, Session, SessionOptions},
 };
 use egui::{
     Key, Modifiers,

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::{
+    gpu::testing,
     project::{Input, Media, PassId, Tab},
-    session::{Command, SessionOptions, testing},
+    session::{Command, SessionOptions},
 };
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
 use std::{

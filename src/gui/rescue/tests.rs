@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
+    gpu::testing,
     project::{PassId, Tab},
-    session::testing,
 };
 use std::sync::Arc;
 

@@ -111,7 +111,7 @@ impl Fft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::reference::sampled;
+    use crate::reference::sampled;
 
     #[test]
     fn a_field_comes_back_and_a_wave_is_one_number() {

@@ -1,9 +1,7 @@
 //! Ambient occlusion by rays, in f64, with its closed forms, and meshes for rays to meet.
 
-use crate::{
-    media::mesh::{self, MeshError},
-    project::MeshDraw,
-};
+use eddy_media::mesh::{self, MeshError};
+use eddy_project::MeshDraw;
 
 pub type V = [f64; 3];
 
@@ -209,7 +207,7 @@ fn meets([a, b, c]: &[V; 3], from: V, ray: V) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::MeshSource;
+    use eddy_project::MeshSource;
 
     const UP: V = [0.0, 1.0, 0.0];
 
@@ -241,7 +239,7 @@ mod tests {
 
     #[test]
     fn a_ray_meets_a_mesh_where_it_is() {
-        let ssao = crate::project::presets::load("ssao").unwrap().project;
+        let ssao = eddy_project::presets::load("ssao").unwrap().project;
         let geometry = ssao.passes.iter().find_map(|p| p.settings.meshes()).unwrap();
         let draw = MeshDraw { mesh: MeshSource::parse("builtin:cube"), ..geometry.draws[0].clone() };
         let draw = MeshDraw { scale: 0.5, rotation: [0.0; 3], position: [0.0, 2.0, 0.0], ..draw };

@@ -1,6 +1,6 @@
 //! A Siemens star, a hairline and a moving disc, sampled as finely as one likes.
 
-use crate::lab::picture::Picture;
+use crate::picture::Picture;
 use std::ops::RangeInclusive;
 
 /// Side of the canvas in pixels.

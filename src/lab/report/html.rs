@@ -1,7 +1,7 @@
 //! One page of all studies, which needs no other file and no network.
 
 use super::table::{Reach, Row, Table};
-use crate::lab::{
+use crate::{
     Extent, Results,
     cost::{Clock, MIN_REPEATS},
 };

@@ -8,8 +8,8 @@ mod plot;
 mod table;
 
 use super::{LabError, Results, Study};
-use crate::project;
 pub use axis::{decades, tick};
+use eddy_project as project;
 use std::{fs, io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 

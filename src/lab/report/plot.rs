@@ -5,7 +5,7 @@ use super::{
     labels,
     table::{Look, Row, TARGET, Table, sign},
 };
-use crate::lab::LabError;
+use crate::LabError;
 use plotters::{
     coord::{Shift, combinators::WithKeyPoints},
     prelude::*,

@@ -6,7 +6,7 @@
 //! nobody can say what they were measured of.
 
 use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
-use crate::project::{self, ProjectError, confine, limits};
+use eddy_project::{self as project, ProjectError, confine, limits};
 use serde::{Deserialize, Serialize};
 use std::{
     fs::{self, File, OpenOptions},

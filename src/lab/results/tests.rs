@@ -1,5 +1,5 @@
 use super::*;
-use crate::lab::HardCase;
+use crate::HardCase;
 
 fn run() -> Provenance {
     let text = |t: &str| t.to_owned();

@@ -1,19 +1,17 @@
 //! A method's project, with everything set for one point.
 
 use super::{LabError, fingerprint::Fingerprint};
-use crate::{
-    diag::SourceId,
-    engine::BuildOptions,
-    media::{MediaSet, TexelFormat, Texels},
-    project::{
-        self, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassFormat, PassId, Project,
-        Sampler, Wrap,
-    },
+use eddy_diag::SourceId;
+use eddy_engine::BuildOptions;
+use eddy_media::{MediaSet, TexelFormat, Texels};
+use eddy_project::{
+    self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassFormat, PassId,
+    Project, Sampler, Wrap,
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
 
-static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/lab");
+static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/lab");
 
 /// Says how the texels of all passes are to be stored, where that is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

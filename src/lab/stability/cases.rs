@@ -5,10 +5,8 @@ use super::{
     inputs::{Hand, Steps},
     pairs,
 };
-use crate::{
-    lab::{Extent, stability_record::Kind},
-    project::{CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues},
-};
+use crate::{Extent, stability_record::Kind};
+use eddy_project::{CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues};
 use std::collections::BTreeSet;
 
 /// Seed of the rows of pairs.

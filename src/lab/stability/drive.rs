@@ -9,14 +9,12 @@ use super::{
     judge,
 };
 use crate::{
-    engine::{BuildOptions, Engine, Pixels, Program},
-    gpu::Gpu,
-    lab::{
-        LabError, Number,
-        stability_record::{Offence, Outcome, Recovery, StabilityRecord},
-    },
-    project::PassId,
+    LabError, Number,
+    stability_record::{Offence, Outcome, Recovery, StabilityRecord},
 };
+use eddy_engine::{BuildOptions, Engine, Pixels, Program};
+use eddy_gpu::Gpu;
+use eddy_project::PassId;
 use std::collections::BTreeMap;
 
 /// Frames that may wait on the device at once.

@@ -1,7 +1,7 @@
 //! Says what the hand and the clock do in a case, frame by frame. Nothing here is random: the same case has the same
 //! inputs.
 
-use crate::engine::FrameInputs;
+use eddy_engine::FrameInputs;
 
 /// The rate of the usual step.
 const FRAMES_A_SECOND: f64 = 60.0;

@@ -6,7 +6,7 @@ use super::{
     check::{Allowed, HARD_LIMIT},
     inputs::Hand,
 };
-use crate::lab::Number;
+use crate::Number;
 use std::collections::BTreeMap;
 
 /// Returns what a case is drawn with, as far as bounds depend on it.

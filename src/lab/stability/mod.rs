@@ -20,7 +20,7 @@ mod report;
 pub mod run;
 mod subject;
 
-pub use crate::lab::stability_record::{Kind, Offence, Outcome, Recovery, StabilityRecord};
+pub use crate::stability_record::{Kind, Offence, Outcome, Recovery, StabilityRecord};
 pub use cases::Case;
 pub use check::{Allowed, Area, Check, Found, Quantity, Situation};
 pub use drive::Driver;

@@ -2,12 +2,10 @@
 
 use super::{Subject, check::Rule};
 use crate::{
-    lab::{
-        Extent, LabError, Results,
-        stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
-    },
-    project,
+    Extent, LabError, Results,
+    stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
 };
+use eddy_project as project;
 use std::{collections::BTreeMap, fmt::Write, fs, io::Write as _, path::Path};
 
 /// A line for each project and kind, then every case that left what it should keep.

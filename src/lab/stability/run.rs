@@ -2,13 +2,11 @@
 
 use super::{Case, Driver, StabilityRecord, Subject, cases, judge};
 use crate::{
-    gpu::Gpu,
-    lab::{
-        Extent, LabError, Results, Shard,
-        results::{Journal, Record},
-        run as studies,
-    },
+    Extent, LabError, Results, Shard,
+    results::{Journal, Record},
+    run as studies,
 };
+use eddy_gpu::Gpu;
 use std::path::PathBuf;
 
 /// Says how to run.
@@ -127,7 +125,7 @@ fn is_known(record: &StabilityRecord, subject: &Subject, case: &Case, fingerprin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{
+    use crate::{
         Number,
         stability::{BoundArgument, Outcome, presets},
     };
@@ -137,7 +135,7 @@ mod tests {
     /// that has been changed must not cost hours.
     #[test]
     fn recorded_cases_of_the_present_texts_are_accepted() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/stability");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/stability");
         let records = Results::read(&folder).unwrap().cases;
         let mut accepted = 0;
         for name in presets::NAMES {

@@ -4,11 +4,9 @@ use super::{
     check::{Allowed, Area, Check, Quantity, Rule, Situation},
     presets,
 };
-use crate::{
-    lab::{LabError, fingerprint::Fingerprint},
-    media::{self, MediaSet},
-    project::{self, CustomUniform, CustomUniformValues, Origin, PassId, Project},
-};
+use crate::{LabError, fingerprint::Fingerprint};
+use eddy_media::{self as media, MediaSet};
+use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassId, Project};
 use std::collections::BTreeSet;
 
 /// Says what a number of a project that declares nothing may come to: what is larger is no colour, and no state that a
@@ -177,7 +175,7 @@ fn any(pass: PassId, low: f64, high: f64, reason: &str) -> Check {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::presets as library;
+    use eddy_project::presets as library;
 
     #[test]
     fn a_bound_is_read_or_refused_with_the_mend() {

@@ -1,6 +1,6 @@
 //! Advection by a rotation: the interpolation alone errs, as the path is exact.
 
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, area_above, drift, overshoot},
     reference::{gaussian_spot, zalesak_disk},

@@ -4,7 +4,7 @@ use super::{
     ao_closed::{closed, closed_of_meshes},
     ao_setup::{ROOM_RADIUS, TABLE_RADIUS, room_falloff, setup, texel},
 };
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::{
@@ -89,7 +89,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let (world, normals) = (running.read_target("geometry", 1)?, running.read_target("geometry", 2)?);
     let open = running.read("blur")?;
     let (project, _) = setup.project()?;
-    let pass = project.pass(&crate::lab::setup::pass("geometry"));
+    let pass = project.pass(&crate::setup::pass("geometry"));
     let geometry = pass.and_then(|p| p.settings.meshes()).ok_or_else(lacks)?;
     let meshes = Meshes::of(&geometry.draws).map_err(|_| lacks())?;
     let falloff = |d: f64| room_falloff(ROOM_RADIUS, d);
@@ -179,7 +179,7 @@ impl Study for Ao {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studies::ao_setup::slices;
+    use crate::studies::ao_setup::slices;
 
     #[test]
     fn samples_are_slices_times_steps_on_both_sides() {

@@ -2,13 +2,11 @@
 
 use super::ao_setup::{ROOM_RADIUS, room_falloff, setup, texel};
 use crate::{
-    lab::{
-        Field, LabError, Rig,
-        reference::rays::{add, behind_high_wall, behind_wall, hidden, meets_sphere, under_sphere},
-        setup::pass,
-    },
-    project::{Camera, MeshDraw, MeshSource, Project},
+    Field, LabError, Rig,
+    reference::rays::{add, behind_high_wall, behind_wall, hidden, meets_sphere, under_sphere},
+    setup::pass,
 };
+use eddy_project::{Camera, MeshDraw, MeshSource, Project};
 
 /// A floor with a wall (SHAPE 1) or a sphere (2) on it, or with nothing (0), as the G-buffer has it.
 const SHAPES: &str = "

@@ -1,6 +1,6 @@
 //! Owns what measures of ambient occlusion share: the two presets at so many samples, and their radii and falloff.
 
-use crate::lab::{Field, Setup};
+use crate::{Field, Setup};
 
 /// Radii of the two presets, in units of their scenes.
 pub(super) const TABLE_RADIUS: f64 = 0.8;

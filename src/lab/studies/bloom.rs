@@ -1,7 +1,7 @@
 //! Bloom by pyramids: a bright texel's light and place at every phase of the pyramid, in the middle and at the edges.
 
 use super::blur::pyramid;
-use crate::lab::{
+use crate::{
     About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, mean},
     three_of,

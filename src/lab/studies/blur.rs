@@ -2,13 +2,11 @@
 //! filter.
 
 use crate::{
-    lab::{
-        About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-        metrics::{Norms, drift},
-        three_of,
-    },
-    project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap},
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    metrics::{Norms, drift},
+    three_of,
 };
+use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap};
 use std::f64::consts::TAU;
 
 pub struct Blur;

@@ -1,6 +1,6 @@
 //! The ball of a game of bricks against one that is computed in fractions.
 
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit, metrics::Norms,
     reference::billiard::Billiard,
 };

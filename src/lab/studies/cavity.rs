@@ -1,7 +1,7 @@
 //! The lid-driven cavity: how close its steady state comes to the tables, and how quiet it is under the lid.
 
 use super::flow::{Flow, Solver, Watched, largest};
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::cavity::{REYNOLDS, SUSPECT, U, U_HIGH, V, V_HIGH, extrema},

@@ -1,6 +1,6 @@
 //! Multigrid V-cycles on a torus as passes of a project: one for every thing that is done on a grid.
 
-use crate::project::{Channel, Filter, Input, Pass, PassFormat, PassId, PassSize, Project, Sampler, Source, Wrap};
+use eddy_project::{Channel, Filter, Input, Pass, PassFormat, PassId, PassSize, Project, Sampler, Source, Wrap};
 
 const SWEPT: &str = include_str!("../../../assets/lab/poisson_cycle/swept.glsl");
 const FIRST: &str = include_str!("../../../assets/lab/poisson_cycle/first.glsl");

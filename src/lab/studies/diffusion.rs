@@ -1,7 +1,7 @@
 //! Diffusion of a Gaussian on a torus: how the length of a step, the stencil and the format of a texel show in the
 //! error.
 
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, checkerboard, drift},
     reference::gaussian_on_torus,

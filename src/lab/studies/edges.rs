@@ -1,7 +1,7 @@
 //! Lines found in a G-buffer, against the silhouettes and creases of what is in it.
 
 use super::silhouettes::Found;
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     reference::shapes::{Placed, Shape, V, along, dot, first_hit, is_seen, turned},
     three_of,

@@ -2,10 +2,8 @@
 //! any velocity, and read back in the same units.
 
 use super::cycle::{self, Component};
-use crate::{
-    lab::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage},
-    project::{PassFormat, PassId, Project},
-};
+use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
+use eddy_project::{PassFormat, PassId, Project};
 use std::f64::consts::TAU;
 
 /// Holds what is to be computed.

@@ -4,7 +4,7 @@ use super::{
     flow::{Flow, STIFFNESS, Solver, divergence, largest, without_format},
     rest,
 };
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Race, Rig, Setup, Study, Unit,
     metrics::{Norms, mean, square_drift, viscosity_ratio},
     reference::{poisson::Random, taylor_green},

@@ -1,15 +1,13 @@
 //! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler against Strang's splitting, and the preset.
 
 use crate::{
-    lab::{
-        About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
-        metrics::{Norms, area_above, mean},
-        reference::gray_scott::{DIFFUSION, FEED, KILL, five_point, growth, known, rest, seeded},
-        setup::{Storage, frames_of, pass},
-        three_of,
-    },
-    project::PassFormat,
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
+    metrics::{Norms, area_above, mean},
+    reference::gray_scott::{DIFFUSION, FEED, KILL, five_point, growth, known, rest, seeded},
+    setup::{Storage, frames_of, pass},
+    three_of,
 };
+use eddy_project::PassFormat;
 use std::f64::consts::TAU;
 
 pub struct GrayScott;

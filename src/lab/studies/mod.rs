@@ -25,7 +25,7 @@ pub mod taa;
 pub mod torus;
 
 use super::{LabError, Study};
-use crate::project::{listed, nearest};
+use eddy_project::{listed, nearest};
 
 /// Every study, in the order of the report.
 pub fn all() -> Vec<&'static dyn Study> {
@@ -71,7 +71,7 @@ pub fn named(names: &[String]) -> Result<Vec<&'static dyn Study>, LabError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Extent;
+    use crate::Extent;
 
     #[test]
     fn every_study_keeps_the_form() {

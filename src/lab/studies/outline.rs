@@ -2,13 +2,11 @@
 
 use super::silhouettes::Found;
 use crate::{
-    lab::{
-        About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-        reference::shapes::{Placed, Shape, V, along, dot, first_hit, length, turned},
-        three_of,
-    },
-    project::{Camera, MeshDraw, MeshSource, Project},
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    reference::shapes::{Placed, Shape, V, along, dot, first_hit, length, turned},
+    three_of,
 };
+use eddy_project::{Camera, MeshDraw, MeshSource, Project};
 
 pub struct Outline;
 

@@ -1,6 +1,6 @@
 //! Particles in flight and in orbit: the order of their time steps, and what becomes of their energy.
 
-use crate::lab::{
+use crate::{
     About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, mean, order},
     reference::motion::{Particle, flight, orbit, orbit_energy},

@@ -1,7 +1,7 @@
 //! Poisson's equation on a torus: what a sweep, a sum over mip levels and a V-cycle are worth.
 
 use super::cycle::{self, Component};
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, mean},
     reference::poisson::{residual, solution, source},

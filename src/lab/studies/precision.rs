@@ -1,13 +1,11 @@
 //! Simulations stored in 16 bits against themselves in 32.
 
 use crate::{
-    engine::FrameInputs,
-    lab::{
-        About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-        precision::{Comparison, PrecisionError, compare, cuts_off},
-        setup::Storage,
-    },
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    precision::{Comparison, PrecisionError, compare, cuts_off},
+    setup::Storage,
 };
+use eddy_engine::FrameInputs;
 
 pub struct Precision;
 

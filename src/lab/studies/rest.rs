@@ -2,7 +2,7 @@
 //! not see.
 
 use super::flow::{Flow, Solver, without_format};
-use crate::lab::{LabError, Rig, metrics::checkerboard, reference::linear::one_pass_growth};
+use crate::{LabError, Rig, metrics::checkerboard, reference::linear::one_pass_growth};
 use std::f64::consts::TAU;
 
 /// The amplitude of u = sin(k y), one wave in the box, after `time`, over what its exact decay leaves: 1 - 4 nu dt

@@ -1,6 +1,6 @@
 //! Lines found in a picture against the lines there are.
 
-use crate::lab::metrics::Norms;
+use crate::metrics::Norms;
 
 /// Says how many found texels are right, and how much of what there is was found, each from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

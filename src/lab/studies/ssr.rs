@@ -1,6 +1,6 @@
 //! Reflections by marching through the picture: how far from the exactly reflected ray's end they look.
 
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::{

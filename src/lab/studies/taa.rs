@@ -1,7 +1,7 @@
 //! Temporal anti-aliasing against plain supersampling: how much of a resting picture it resolves, what a moving thing
 //! leaves behind, and how much it flickers.
 
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
     metrics::{Norms, mean},
     picture::{Picture, psnr, ssim},

@@ -1,7 +1,7 @@
 //! Flows on a torus of side 1 at a Courant number: a finer grid is a finer answer to the same question.
 
 use super::flow::{Flow, Solver, Watched, divergence};
-use crate::lab::{
+use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, square_drift},
     reference::{

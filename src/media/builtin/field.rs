@@ -1,7 +1,7 @@
 //! Functions over the unit square that materials are made of. All of them are periodic, and exact on every machine.
 
 use super::noise::hash2;
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 pub type Colour = [f32; 3];
 

@@ -6,7 +6,7 @@
 //! cells, 0.5 on the outline and less inside. The letters are drawn here, as strokes on a grid.
 
 use super::field::byte;
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 /// Strokes of the printable ASCII characters, from the space on. A stroke is a row of points, two digits each: x, 1 to
 /// 5, and y, where 2 is the base line, 6 the height of an x, 8 that of a capital and 0 the lowest descender. `~` rounds

@@ -1,7 +1,7 @@
 //! Materials that grew, and what is made of them.
 
 use super::field::{Cells, Colour, Fractal, Noise, byte, lit, mix3, ramp, random, rgb, scale, smoothstep, wave};
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 /// Boards side by side, their grain along them.
 pub fn wood() -> Texels {

@@ -1,6 +1,6 @@
 //! Noises and ordered patterns: values without a picture in them.
 
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 /// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT
 /// 2020).

@@ -4,7 +4,7 @@ use super::{
     field::{Colour, Fractal, lit, mix, mix3, ramp, rgb, scale, smoothstep, wave},
     noise::hash2,
 };
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 /// Red grows to the right and green upwards, so that a place can be read off its colour; blue is one half.
 pub fn gradient() -> Texels {

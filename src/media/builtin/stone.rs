@@ -1,7 +1,7 @@
 //! Materials of stone, earth and metal.
 
 use super::field::{Cells, Fractal, Noise, byte, lit, mix, mix3, ramp, random, rgb, scale, smoothstep};
-use crate::media::{TexelFormat, Texels};
+use crate::{TexelFormat, Texels};
 
 /// Veins through folded stone.
 pub fn marble() -> Texels {

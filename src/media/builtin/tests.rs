@@ -1,7 +1,7 @@
 //! Tests of the built-in pictures: sizes, ranges, spectra, and the same bytes each time.
 
 use super::*;
-use crate::media::site::SITE_TEXTURES;
+use crate::site::SITE_TEXTURES;
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// Every texture, made once for all these tests.

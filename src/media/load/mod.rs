@@ -7,7 +7,7 @@ mod radiance;
 mod tests;
 
 use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, played::Played, site};
-use crate::project::{Media, confine, limits, nearest};
+use eddy_project::{Media, confine, limits, nearest};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{io::Cursor, path::Path};
 

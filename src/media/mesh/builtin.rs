@@ -5,7 +5,7 @@ use super::{
     model::{Mesh, Raw, Vertex},
     shape::{Grid, lathe, round_profile, tube},
 };
-use crate::project::Normals;
+use eddy_project::Normals;
 use glam::{Mat3, Mat4, Vec3};
 use std::{collections::HashMap, f32::consts::TAU};
 

@@ -1,7 +1,7 @@
 //! The error of loading a mesh, with what to do about it.
 
 use super::{builtin::NAMES, trouble::Trouble};
-use crate::project::{confine::FileError, listed, nearest};
+use eddy_project::{confine::FileError, listed, nearest};
 use std::path::PathBuf;
 
 /// An error of loading a mesh.

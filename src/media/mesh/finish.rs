@@ -5,7 +5,7 @@ use super::{
     normals, tangents,
     trouble::Trouble,
 };
-use crate::project::Normals;
+use eddy_project::Normals;
 
 /// A mesh with everything a vertex has. `normals`: which are made where there are none.
 pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, Trouble> {

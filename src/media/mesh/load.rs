@@ -9,24 +9,24 @@ use super::{
     obj,
     trouble::{Counts, Trouble},
 };
-use crate::project::{MeshSource, Normals, confine, limits};
+use eddy_project::{MeshSource, Normals, confine, limits};
 use std::path::Path;
 
 /// Loads a mesh. A file lies in the project's folder `base`, see [`confine`]. `normals` says which are made where a file
-/// has none; unsaid they are as the kind of file wants them: see [`crate::project::MeshDraw::normals`].
+/// has none; unsaid they are as the kind of file wants them: see [`eddy_project::MeshDraw::normals`].
 pub fn load(source: &MeshSource, normals: Option<Normals>, base: Option<&Path>) -> Result<Mesh, MeshError> {
     load_within(source, normals, base, limits::MEDIA_BYTES).map(|loaded| loaded.mesh)
 }
 
 /// A mesh, and what is to be said of it.
-pub(in crate::media) struct Loaded {
+pub(crate) struct Loaded {
     pub mesh: Mesh,
     /// Parts that are not drawn as the file's author may think.
     pub warnings: Vec<MeshWarning>,
 }
 
 /// The same where pictures and models may take `room` bytes more.
-pub(in crate::media) fn load_within(
+pub(crate) fn load_within(
     source: &MeshSource,
     normals: Option<Normals>,
     base: Option<&Path>,

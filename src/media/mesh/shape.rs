@@ -4,7 +4,7 @@ use super::{
     finish::finished,
     model::{Mesh, Raw, Vertex},
 };
-use crate::project::Normals;
+use eddy_project::Normals;
 use glam::Vec3;
 use std::f32::consts::TAU;
 

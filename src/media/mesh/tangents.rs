@@ -5,8 +5,8 @@ use super::{
     normals,
     trouble::Trouble,
 };
-use crate::project::limits;
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
+use eddy_project::limits;
 use std::collections::HashMap;
 
 /// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each

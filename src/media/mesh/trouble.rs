@@ -1,7 +1,7 @@
 //! Says what can be wrong with a model, and how much of one is loaded.
 
 use super::model::Vertex;
-use crate::project::{confine::FileError, limits};
+use eddy_project::{confine::FileError, limits};
 
 /// An error of a model before the model's name is added.
 #[derive(Debug)]

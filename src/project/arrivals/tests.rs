@@ -1,5 +1,5 @@
 use super::*;
-use crate::project::{Input, Origin, PassId};
+use crate::{Input, Origin, PassId};
 
 const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
     {"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],
@@ -8,7 +8,7 @@ const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
      "inputs":[{"id":"4dXGR8","channel":2,"type":"buffer","filepath":"/media/previz/buffer00.png",
                 "sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
 
-fn project(text: &str) -> crate::project::Project {
+fn project(text: &str) -> crate::Project {
     match arrival_of_text(text) {
         Ok(TextArrival::Project(loaded)) => loaded.project,
         other => panic!("{other:?}"),

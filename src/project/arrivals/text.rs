@@ -1,9 +1,7 @@
 //! A pasted text is Shadertoy JSON, GLSL, the name of a file, or an address.
 
-use crate::{
-    diag::Diagnostic,
-    project::{Loaded, Project, ProjectError, folder, json, limits, presets, unescaped},
-};
+use crate::{Loaded, Project, ProjectError, folder, json, limits, presets, unescaped};
+use eddy_diag::Diagnostic;
 use std::path::Path;
 
 /// A text that is something.
@@ -11,7 +9,7 @@ use std::path::Path;
 pub enum TextArrival {
     /// The text is a project; it lies nowhere else.
     Project(Box<Loaded>),
-    /// The text names one, as [`crate::project::load`] takes it, or a file of another kind.
+    /// The text names one, as [`crate::load`] takes it, or a file of another kind.
     Place(String),
 }
 

@@ -1,6 +1,6 @@
 //! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
 
-use crate::project::{
+use crate::{
     Camera, Channel, Cull, DepthTest, Geometry, Input, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
     PassSettings, Project, Sampler, Source, Stage, limits,
 };

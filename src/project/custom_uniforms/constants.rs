@@ -1,12 +1,12 @@
 //! Custom uniforms as constants, for where nobody can turn them: the site.
 
 use super::CustomUniform;
-use crate::project::{CustomUniformValues, lines::hash_lines};
+use crate::{CustomUniformValues, lines::hash_lines};
 use std::fmt::Write;
 
 /// A text with plain GLSL constants at its top in place of the custom uniforms it declares. The declaring lines stay as
 /// comments. Uniforms in GLSL's own way become constants where they stand, if they have a value.
-pub(in crate::project) fn text<'k>(
+pub(crate) fn text<'k>(
     text: &str,
     custom_uniforms: impl Iterator<Item = &'k CustomUniform>,
     values: &CustomUniformValues,

@@ -1,11 +1,11 @@
 //! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes
 //! later.
 
-use crate::project::{CustomUniformValue, CustomUniformValues};
+use crate::{CustomUniformValue, CustomUniformValues};
 use std::{collections::BTreeSet, ops::Range};
 
 /// Every word of the declarations `uniform .. name ..;` of a text, names of uniforms among them.
-pub(in crate::project) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
+pub(crate) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
     let text = blanked(text);
     declarations(&text)
         .into_iter()

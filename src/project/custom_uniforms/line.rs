@@ -16,17 +16,15 @@
 
 use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
 use crate::{
-    diag::{Diagnostic, SourceId, Span},
-    project::{
-        lines::{HashLine, trim_start},
-        listed, nearest,
-    },
+    lines::{HashLine, trim_start},
+    listed, nearest,
 };
+use eddy_diag::{Diagnostic, SourceId, Span};
 use std::ops::Range;
 
 const FORM: &str = "write #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step are optional";
 
-pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
+pub(crate) fn is_declaration(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
@@ -116,7 +114,7 @@ impl Line {
 }
 
 /// A value as a person writes it outside of a line: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (which is one number for all).
-pub(in crate::project) fn value(text: &str) -> Option<CustomUniformValue> {
+pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
     let text = text.trim();
     match text {
         "true" => return Some(CustomUniformValue::Bool(true)),

@@ -15,8 +15,8 @@ mod line;
 mod types;
 
 use super::{lines::hash_lines, nearest};
-use crate::diag::{Diagnostic, SourceId, Span};
 pub(super) use declared::words_of_uniforms;
+use eddy_diag::{Diagnostic, SourceId, Span};
 use line::Line;
 pub(super) use line::{is_declaration, value};
 pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};

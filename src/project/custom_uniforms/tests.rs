@@ -1,11 +1,9 @@
 //! Tests of `#iUniform` lines, alone and together, and of the values that fit them.
 
 use super::*;
-use crate::project::Project;
-use crate::{
-    diag::{SourceMap, render_all},
-    project::{Origin, Pass, PassId, Source, json},
-};
+use crate::Project;
+use crate::{Origin, Pass, PassId, Source, json};
+use eddy_diag::{SourceMap, render_all};
 
 fn read(texts: &[&str]) -> CustomUniforms {
     CustomUniforms::read(texts.iter().enumerate().map(|(i, t)| (SourceId(i as u16), *t)))
@@ -34,7 +32,7 @@ fn a_line_goes_on_behind_a_backslash() {
     let k = one("#iUniform float speed = 1.5 \\\r\n  in { 0.0, \\\n 5.0 }\n");
     assert_eq!((k.default, k.range), (CustomUniformValue::Float(1.5), range([0.0; 4], [5.0, 0.0, 0.0, 0.0])));
     let text = "#iUniform float speed = 1.5 \\\n in { 0.0, 5.0 }\nfloat f;";
-    let blank = crate::project::directives::blank(text).into_owned();
+    let blank = crate::directives::blank(text).into_owned();
     assert_eq!((blank.trim(), blank.find("float f")), ("float f;", text.find("float f")));
     assert_eq!(blank.matches('\n').count(), 2);
 }

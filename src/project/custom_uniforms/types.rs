@@ -1,6 +1,6 @@
 //! A custom uniform, and the values it takes.
 
-use crate::diag::{SourceId, Span};
+use eddy_diag::{SourceId, Span};
 use std::collections::BTreeMap;
 
 /// The type of a custom uniform. In GLSL a `color3` is a `vec3`.

@@ -1,6 +1,6 @@
 //! Tells which lines are directives, and which passes they may name.
 
-use crate::project::{PassId, Project, confine, lines::HashLine};
+use crate::{PassId, Project, confine, lines::HashLine};
 
 pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
@@ -8,7 +8,7 @@ pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
 
 /// The passes that a text's directives may name.
 #[derive(Clone, Copy)]
-pub(in crate::project) struct Around<'p> {
+pub(crate) struct Around<'p> {
     /// The pass whose text it is.
     pub id: &'p PassId,
     /// The text's own file.
@@ -29,6 +29,6 @@ impl Around<'_> {
 }
 
 /// The passes of a project, by the files of their texts.
-pub(in crate::project) fn files_of_passes(project: &Project) -> Vec<(String, PassId)> {
+pub(crate) fn files_of_passes(project: &Project) -> Vec<(String, PassId)> {
     project.passes.iter().map(|p| (p.source.name.clone(), p.id.clone())).collect()
 }

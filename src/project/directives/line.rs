@@ -2,13 +2,11 @@
 
 use super::around::Around;
 use crate::{
-    diag::{Diagnostic, Span},
-    project::{
-        Channel, Filter, Input, Media, PassId, Sampler, Wrap, file_names,
-        lines::{HashLine, trim_start},
-        listed, nearest,
-    },
+    Channel, Filter, Input, Media, PassId, Sampler, Wrap, file_names,
+    lines::{HashLine, trim_start},
+    listed, nearest,
 };
+use eddy_diag::{Diagnostic, Span};
 use std::path::{Path, PathBuf};
 
 /// The channel, the setting if it gives one, and the quoted text.

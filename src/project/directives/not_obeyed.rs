@@ -4,10 +4,8 @@ use super::{
     around::{Around, files_of_passes, is_channel},
     read::read,
 };
-use crate::{
-    diag::{Diagnostic, Severity, SourceId, Span},
-    project::{Channel, Origin, Project, lines::hash_lines},
-};
+use crate::{Channel, Origin, Project, lines::hash_lines};
+use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 
 /// Returns what to say of `#iChannel` lines that are not obeyed: those in texts that are no pass, which have no
 /// channels, and those that say something else than what the project is read from. Spans are of [`Project::sources`].

@@ -2,20 +2,18 @@
 
 use super::{around::is_channel, line};
 use crate::{
-    diag::{Diagnostic, Span},
-    project::{
-        Pass, PassId, Project, Source, confine, file_names,
-        files::{Files, Read},
-        limits,
-        lines::hash_lines,
-        nearest,
-    },
+    Pass, PassId, Project, Source, confine, file_names,
+    files::{Files, Read},
+    limits,
+    lines::hash_lines,
+    nearest,
 };
+use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, ops::Range};
 
 /// Adds a buffer for every GLSL file that a directive names and that is no pass yet, and for those that these name.
 /// Each is drawn before the pass that names it. Returns what is wrong with files that cannot be had.
-pub(in crate::project) fn passes_beside(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
+pub(crate) fn passes_beside(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
     let known = project.passes.len();
     // By pass: the passes behind `known` that it names.
     let mut names: Vec<Vec<usize>> = Vec::new();

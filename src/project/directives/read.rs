@@ -4,14 +4,12 @@ use super::{
     around::{Around, is_channel},
     line,
 };
-use crate::{
-    diag::{Diagnostic, SourceId, Span},
-    project::{Channel, lines::hash_lines},
-};
+use crate::{Channel, lines::hash_lines};
+use eddy_diag::{Diagnostic, SourceId, Span};
 
 /// The directives of one pass.
 #[derive(Debug, Default)]
-pub(in crate::project) struct Declared {
+pub(crate) struct Declared {
     /// `None` where no directive names what a channel reads.
     pub channels: Option<[Option<Channel>; 4]>,
     /// The line that says what each channel reads.
@@ -20,12 +18,7 @@ pub(in crate::project) struct Declared {
 }
 
 /// Reads the directives of a pass. `default`: what its channels read where no directive says it.
-pub(in crate::project) fn read(
-    text: &str,
-    source: SourceId,
-    around: Around<'_>,
-    default: &[Option<Channel>; 4],
-) -> Declared {
+pub(crate) fn read(text: &str, source: SourceId, around: Around<'_>, default: &[Option<Channel>; 4]) -> Declared {
     let mut found = Declared::default();
     // Inputs first, settings after: a setting may stand above the line that names the input.
     let mut settings: Vec<(usize, &str, &str, Span)> = Vec::new();

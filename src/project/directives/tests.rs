@@ -1,11 +1,9 @@
 //! Tests of `#iChannel` lines.
 
 use super::{read::Declared, *};
-use crate::project::{Filter, Input, Media, Sampler, Wrap};
-use crate::{
-    diag::SourceId,
-    project::{Channel, PassId},
-};
+use crate::{Channel, PassId};
+use crate::{Filter, Input, Media, Sampler, Wrap};
+use eddy_diag::SourceId;
 
 /// Reads a text of Buffer A, beside which Buffer B and Image are.
 fn of_a(text: &str) -> Declared {

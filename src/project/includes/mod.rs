@@ -16,7 +16,7 @@ use super::{
     lines::{HashLine, hash_lines},
     nearest,
 };
-use crate::diag::{Diagnostic, SourceId, Span};
+use eddy_diag::{Diagnostic, SourceId, Span};
 use std::{
     borrow::Cow,
     collections::{BTreeMap, BTreeSet, VecDeque},

@@ -1,9 +1,7 @@
 //! Tests of `#include` lines.
 
-use crate::{
-    diag::{SourceId, render_all},
-    project::{Origin, Overwrite, PassId, Project, json, load, save::save},
-};
+use crate::{Origin, Overwrite, PassId, Project, json, load, save::save};
+use eddy_diag::{SourceId, render_all};
 use std::{fs, path::Path};
 
 fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {

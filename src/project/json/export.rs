@@ -2,12 +2,9 @@
 
 use super::ids;
 use crate::{
-    diag::SourceId,
-    project::{
-        Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants,
-        directives,
-    },
+    Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants, directives,
 };
+use eddy_diag::SourceId;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 

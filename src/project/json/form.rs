@@ -3,7 +3,7 @@
 //! A file may be a stranger's. What is not read is passed over without taking memory, every list has a limit, and what
 //! a shader says besides its passes is kept as text until its length is known.
 
-use crate::project::limits;
+use crate::limits;
 use serde::{
     Deserialize, Deserializer,
     de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor},

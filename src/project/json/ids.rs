@@ -1,6 +1,6 @@
 //! The site's fixed ids: what a pass writes and what an input reads.
 
-use crate::project::PassId;
+use crate::PassId;
 
 pub const IMAGE: &str = "4dfGRr";
 pub const SOUND: &str = "XsfGRr";

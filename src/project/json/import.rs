@@ -11,12 +11,10 @@ use super::{
     several,
 };
 use crate::{
-    diag::{Diagnostic, SourceMap, Span},
-    project::{
-        Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules,
-        Source, Wrap, limits,
-    },
+    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules, Source,
+    Wrap, limits,
 };
+use eddy_diag::{Diagnostic, SourceMap, Span};
 use serde_json::{Map, Value, value::RawValue};
 use std::{
     collections::{BTreeMap, HashMap, HashSet, VecDeque},
@@ -64,7 +62,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
     let skipped = text.len() - body.len();
     let body = &*readable(body);
     let at =
-        |offset: usize, length: usize| Span::new(crate::diag::SourceId(0), skipped + offset..skipped + offset + length);
+        |offset: usize, length: usize| Span::new(eddy_diag::SourceId(0), skipped + offset..skipped + offset + length);
     // `part` is a slice of `body`.
     let begin_of = |part: &str| part.as_ptr() as usize - body.as_ptr() as usize;
     // The key's place where it is found; the part's start where it is not.
@@ -114,8 +112,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
             }
             Top::Object(Object { keys, .. }) => {
                 let keys: Vec<String> = keys.iter().map(|k| format!("\"{}\"", shown(k))).collect();
-                let has =
-                    if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::project::listed(&keys)) };
+                let has = if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::listed(&keys)) };
                 let message = format!("{NO_SHADER}: the object {has}, and no \"renderpass\"");
                 return refuse(at(begin_of(part), 0), message, EXPECTED);
             }

@@ -1,6 +1,6 @@
 //! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
 
-use crate::project::{Input, Media, Pass, PassId, Project, advice, listed};
+use crate::{Input, Media, Pass, PassId, Project, advice, listed};
 
 /// The buffers that the site has.
 const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -51,7 +51,7 @@ fn is_further(id: &PassId) -> bool {
 
 /// Says which settings of a pass are left out.
 fn settings(pass: &Pass) -> Option<String> {
-    let (own, usual) = (&pass.settings, crate::project::PassSettings::default());
+    let (own, usual) = (&pass.settings, crate::PassSettings::default());
     let all = [
         (own.size != usual.size, "size"),
         (own.format != usual.format, "format"),

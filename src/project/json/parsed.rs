@@ -71,7 +71,7 @@ fn escaped(bytes: &[u8], at: usize) -> Option<u16> {
 
 /// Returns the text of a file in UTF-16, as PowerShell writes what it fetches; `None` for any other. It is known by its
 /// byte order mark, or by the zero in its first letter, which is of ASCII.
-pub(in crate::project) fn utf16(bytes: &[u8]) -> Option<String> {
+pub(crate) fn utf16(bytes: &[u8]) -> Option<String> {
     let (is_little, skipped) = match bytes {
         [0xff, 0xfe, ..] => (true, 2),
         [0xfe, 0xff, ..] => (false, 2),

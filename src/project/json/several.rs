@@ -1,7 +1,8 @@
 //! One shader of a file that holds several.
 
 use super::form::{Head, HeadInfo, Scalar, Shaders, Top, shown};
-use crate::{diag::Diagnostic, project::listed};
+use crate::listed;
+use eddy_diag::Diagnostic;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 

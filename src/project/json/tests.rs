@@ -1,9 +1,7 @@
 //! Tests of the site's JSON: what is read, what is written, and that nothing is lost on the way there and back.
 
 use super::{export, holds_several, import, import_one};
-use crate::project::{
-    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
-};
+use crate::{Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap};
 use serde_json::{Value, json};
 
 fn input(channel: u32, kind: &str, id: &str, path: &str, wrap: &str) -> Value {
@@ -295,18 +293,18 @@ fn files_in_utf_16_and_one_shader_of_a_file_are_opened() {
     let text = exported(&[called(json!("a"), "first", "1"), called(json!("b"), "second", "2")]).to_string();
     let bytes: Vec<u8> = format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     std::fs::write(&file, bytes).unwrap();
-    let open = |name: &str| crate::project::load(&format!("{}{name}", file.display()));
+    let open = |name: &str| crate::load(&format!("{}{name}", file.display()));
     let first = open("").unwrap();
     assert_eq!((first.project.name.as_str(), first.warnings.len()), ("first", 1));
     let second = open("#b").unwrap();
     assert_eq!((second.project.name.as_str(), second.warnings.len()), ("second", 0));
     let Origin::Json(path) = &second.project.origin else { panic!("{:?}", second.project.origin) };
-    assert_eq!(crate::project::load(path.to_str().unwrap()).unwrap().project, second.project, "it is found again");
-    assert_eq!(crate::project::stem(path.to_str().unwrap()), "all_b");
+    assert_eq!(crate::load(path.to_str().unwrap()).unwrap().project, second.project, "it is found again");
+    assert_eq!(crate::stem(path.to_str().unwrap()), "all_b");
     assert!(open("#c").unwrap_err().to_string().contains("none of the 2 shaders"));
     // The other shader would be lost.
     for project in [&first.project, &second.project] {
-        let refused = crate::project::save(project, &file, crate::project::Overwrite::Refuse);
-        assert!(matches!(refused, Err(crate::project::ProjectError::WouldOverwrite { .. })), "{refused:?}");
+        let refused = crate::save(project, &file, crate::Overwrite::Refuse);
+        assert!(matches!(refused, Err(crate::ProjectError::WouldOverwrite { .. })), "{refused:?}");
     }
 }

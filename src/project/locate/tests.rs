@@ -1,7 +1,7 @@
 //! Tests of opening: every kind of project, and what is said of those that are broken.
 
 use super::*;
-use crate::project::{Channel, Filter, Input, Media, Origin, PassFormat, PassSize, Region, Sampler, Wrap};
+use crate::{Channel, Filter, Input, Media, Origin, PassFormat, PassSize, Region, Sampler, Wrap};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -95,7 +95,7 @@ fn eddy_toml_says_what_the_texts_cannot() {
     assert_eq!(image[0].as_ref().unwrap().input, Input::Buffer("B".into()));
     assert!(!image[1].as_ref().unwrap().sampler.vflip);
     assert_eq!(image[2].as_ref().unwrap().input, Input::Keyboard);
-    assert_eq!(&*sources.get(crate::diag::SourceId(0)).unwrap().text, "c", "common is source 0");
+    assert_eq!(&*sources.get(eddy_diag::SourceId(0)).unwrap().text, "c", "common is source 0");
     assert_eq!(load_path(&dir.path().join("eddy.toml")).unwrap().project.passes, project.passes);
 }
 
@@ -147,7 +147,7 @@ fn a_read_of_a_buffer_without_a_pass_is_a_warning_at_its_line() {
     let dir = folder(&[("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n"), ("image.glsl", "")]);
     let loaded = load_path(dir.path()).unwrap();
     let [warning] = loaded.warnings.as_slice() else { panic!("{:?}", loaded.warnings) };
-    let said = crate::diag::render(warning, &loaded.sources);
+    let said = eddy_diag::render(warning, &loaded.sources);
     assert!(
         said.contains("eddy.toml:2:") && said.contains("reads Buffer A, but the project has no such pass"),
         "{said}"

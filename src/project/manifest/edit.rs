@@ -1,6 +1,6 @@
 //! Changing a manifest's text no more than needed.
 
-use crate::project::{PassId, file_names::pass_of_stem};
+use crate::{PassId, file_names::pass_of_stem};
 use toml_edit::{Item, Table, TableLike, Value};
 
 /// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any

@@ -1,7 +1,7 @@
 //! The keys of `eddy.toml` that fill texels from outside a pass's own program: `initial` and `boundary`.
 
 use super::{edit::set, reader::Reader};
-use crate::project::{Boundary, Fill, FillValue, PassId, PassSettings, Written};
+use crate::{Boundary, Fill, FillValue, PassId, PassSettings, Written};
 use std::path::PathBuf;
 use toml_edit::{InlineTable, Item, TableLike, Value};
 

@@ -4,7 +4,7 @@ use super::{
     edit::{child, set},
     reader::Reader,
 };
-use crate::project::{
+use crate::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassFormat, PassId, PassSettings,
     Source, Stage,
 };
@@ -194,7 +194,7 @@ impl Reader<'_> {
             }
             None => {
                 let known = PassFormat::ALL.map(PassFormat::name);
-                let shape = format!("a list of one to {MAX_TARGETS} of the formats {}", crate::project::listed(&known));
+                let shape = format!("a list of one to {MAX_TARGETS} of the formats {}", crate::listed(&known));
                 self.wrong_type("targets", item, &shape);
                 Vec::new()
             }

@@ -6,15 +6,13 @@ use super::{
     settings,
 };
 use crate::{
-    diag::{Diagnostic, SourceId, SourceMap},
-    project::{
-        Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project,
-        ProjectError, SamplerRules, Source, Wrap,
-        file_names::{self, Role},
-        files::{Files, MANIFEST},
-        includes, limits, listed, nearest,
-    },
+    Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project, ProjectError,
+    SamplerRules, Source, Wrap,
+    file_names::{self, Role},
+    files::{Files, MANIFEST},
+    includes, limits, listed, nearest,
 };
+use eddy_diag::{Diagnostic, SourceId, SourceMap};
 use std::path::PathBuf;
 use toml_edit::{Document, Item, TableLike};
 

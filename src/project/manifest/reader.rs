@@ -1,13 +1,11 @@
 //! The reading of single values of an `eddy.toml`: every complaint is a diagnostic at its place.
 
 use crate::{
-    diag::{Diagnostic, SourceId, SourceMap, Span},
-    project::{
-        FileError, Source,
-        files::{self, Files, Read},
-        limits, listed, nearest,
-    },
+    FileError, Source,
+    files::{self, Files, Read},
+    limits, listed, nearest,
 };
+use eddy_diag::{Diagnostic, SourceId, SourceMap, Span};
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 use toml_edit::{Item, TableLike};
 

@@ -1,7 +1,7 @@
 //! Tables of passes that were renamed.
 
 use super::geometry;
-use crate::project::{
+use crate::{
     Project,
     file_names::{Role, pass_of_stem, role_of_file},
 };

@@ -4,7 +4,7 @@ use super::{
     edit::{child, key_of, set},
     reader::Reader,
 };
-use crate::project::{
+use crate::{
     Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, draws::draws, file_names, limits, listed,
     nearest,
 };

@@ -1,10 +1,8 @@
 //! `[uniforms]` of `eddy.toml`: values of the author's own uniforms.
 
 use super::reader::Reader;
-use crate::{
-    diag::Diagnostic,
-    project::{CustomUniformValue, CustomUniformValues, Project, custom_uniforms::words_of_uniforms, limits},
-};
+use crate::{CustomUniformValue, CustomUniformValues, Project, custom_uniforms::words_of_uniforms, limits};
+use eddy_diag::Diagnostic;
 use std::collections::BTreeSet;
 use toml_edit::{Item, TableLike};
 

@@ -5,7 +5,7 @@ use super::{
     edit::{child, key_of, set},
     fills, geometry, read, settings, uniforms,
 };
-use crate::project::{
+use crate::{
     Channel, CustomUniformValue, Filter, Input, Media, PassId, Project, SamplerRules, Wrap, file_names::pass_of_stem,
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};

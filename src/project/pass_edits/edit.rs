@@ -1,7 +1,7 @@
 //! The edits, and what each does.
 
 use super::{error::PassEditError, groups};
-use crate::project::{
+use crate::{
     Boundary, Fill, FillValue, Filter, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler, Source, Tab, Wrap,
     confine,
     draws::draws,

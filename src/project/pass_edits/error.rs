@@ -1,6 +1,6 @@
 //! Edits of passes are refused for these reasons.
 
-use crate::project::{PassId, limits};
+use crate::{PassId, limits};
 
 /// The reason why passes cannot be edited so.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

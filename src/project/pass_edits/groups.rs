@@ -1,7 +1,7 @@
 //! Groups while passes are edited: their passes follow each other, and none is empty.
 
 use super::error::PassEditError;
-use crate::project::{Group, PassId, Project};
+use crate::{Group, PassId, Project};
 
 /// Draws a buffer so many times a frame, with the others of its group.
 pub fn set_steps(project: &mut Project, id: &PassId, steps: u32) -> Result<(), PassEditError> {

@@ -1,7 +1,7 @@
 use super::*;
-use crate::project::{
-    self, Channel, FillValue, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project, Region, Sampler,
-    Tab, Wrap,
+use crate::{
+    self as project, Channel, FillValue, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project,
+    Region, Sampler, Tab, Wrap,
 };
 use std::{
     fs,

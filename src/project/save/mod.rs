@@ -12,7 +12,7 @@ use super::{
     manifest, picked,
     writes::{self, Overwrite, Writes},
 };
-use crate::diag::Diagnostic;
+use eddy_diag::Diagnostic;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},

@@ -1,7 +1,7 @@
 //! Tests of saving: what is written reads back the same, and nothing else is touched.
 
 use super::*;
-use crate::project::{
+use crate::{
     Boundary, Channel, Fill, Filter, Info, Input, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
 };
 use std::{
@@ -443,10 +443,7 @@ fn a_full_disk_loses_nothing() {
     };
     let old = files(&folder);
     let run = std::process::Command::new("sh")
-        .args([
-            "-c",
-            "trap '' XFSZ; ulimit -f 16; exec \"$0\" --exact project::save::tests::save_on_a_full_disk --ignored",
-        ])
+        .args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" --exact save::tests::save_on_a_full_disk --ignored"])
         .arg(std::env::current_exe().unwrap())
         .env("EDDY_TEST_FOLDER", &folder)
         .output()

@@ -1,7 +1,7 @@
 //! The tests hold what a snapshot gives back.
 
 use super::*;
-use crate::project::{self, Sampler, presets};
+use crate::{self as project, Sampler, presets};
 
 fn round_trip(project: &Project) -> Project {
     read_snapshot(&write_snapshot(project).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", project.name))

@@ -4,12 +4,10 @@ use super::{
     distance::error_of,
     watch::{Blame, Watch},
 };
-use crate::{
-    glsl::{
-        ir::{FuncId, Value},
-        walk::{Cell, Observer, Shadowed},
-    },
-    session::trace::TraceError,
+use crate::trace::TraceError;
+use eddy_glsl::{
+    ir::{FuncId, Value},
+    walk::{Cell, Observer, Shadowed},
 };
 
 /// Errors of a pixel's value that are not looked into, relative to a value of 1: a few roundings.

@@ -1,6 +1,6 @@
 //! The distance of the two precisions from each other.
 
-use crate::glsl::walk::Shadowed;
+use eddy_glsl::walk::Shadowed;
 
 /// Returns the distance of one number; infinite where one of the two alone is a number.
 pub fn apart(x: Shadowed) -> f64 {

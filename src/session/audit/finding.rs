@@ -1,6 +1,6 @@
 //! A finding says what is wrong at a place of the text.
 
-use crate::diag::Span;
+use eddy_diag::Span;
 
 /// The numbers of an operation on constants.
 pub(super) const CONSTANT: &str = "constant";

@@ -3,16 +3,14 @@
 
 use super::run::walk;
 use crate::{
-    engine::{PassInputs, Sources},
-    glsl::{
-        ir::{FuncId, Math, Module, Op, Value},
-        walk::{Cell, Observer, Shadowed},
-        walkable::Detail,
-    },
-    session::{
-        trace::TraceError,
-        walked::{AtPixel, WalkedPass},
-    },
+    trace::TraceError,
+    walked::{AtPixel, WalkedPass},
+};
+use eddy_engine::{PassInputs, Sources};
+use eddy_glsl::{
+    ir::{FuncId, Math, Module, Op, Value},
+    walk::{Cell, Observer, Shadowed},
+    walkable::Detail,
 };
 
 /// ULPs that Vulkan lets a device be off in an arc tangent ("Precision and Operation of SPIR-V Instructions"), by which

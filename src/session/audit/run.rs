@@ -7,18 +7,16 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    diag::SourceId,
-    engine::{PassInputs, Sources},
-    glsl::{
-        walk::{Observer, Shadowed},
-        walkable::{Detail, Walkable},
-    },
-    project::PassSettings,
-    session::{
-        trace::TraceError,
-        walked::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
-    },
+    trace::TraceError,
+    walked::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
 };
+use eddy_diag::SourceId;
+use eddy_engine::{PassInputs, Sources};
+use eddy_glsl::{
+    walk::{Observer, Shadowed},
+    walkable::{Detail, Walkable},
+};
+use eddy_project::PassSettings;
 use std::{
     collections::BTreeMap,
     sync::atomic::{AtomicUsize, Ordering},

@@ -1,13 +1,11 @@
 //! Faults that were planted, and code without any.
 
 use super::*;
-use crate::{
-    engine::{Level as TextureLevel, PassInputs, Sources, TextureCopy},
-    glsl::interface::UniformBlock,
-    project::Filter,
-    session::{template, trace::STEPS},
-};
+use crate::{template, trace::STEPS};
 use bytemuck::Zeroable;
+use eddy_engine::{Level as TextureLevel, PassInputs, Sources, TextureCopy};
+use eddy_glsl::interface::UniformBlock;
+use eddy_project::Filter;
 
 fn inputs() -> PassInputs {
     let uniforms = UniformBlock { resolution: [8.0, 4.0, 1.0], time: 0.5, ..UniformBlock::zeroed() };

@@ -1,6 +1,6 @@
 //! GLSL ES 3.00 leaves results undefined by the operands of an operation. Sections are those of its specification.
 
-use crate::glsl::{
+use eddy_glsl::{
     ir::{Binary, Math, Op, Value},
     types::Scalar,
     walk::{Cell, Shadowed, View},

@@ -5,15 +5,13 @@ use super::{
     finding::{Finding, Kind},
     undefined,
 };
-use crate::{
-    diag::Span,
-    engine::{DrawInputs, Sources},
-    glsl::{
-        ast::Loc,
-        ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
-        walk::{Cell, Observer, Shadowed, View, World},
-        walkable::Walkable,
-    },
+use eddy_diag::Span;
+use eddy_engine::{DrawInputs, Sources};
+use eddy_glsl::{
+    ast::Loc,
+    ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
+    walk::{Cell, Observer, Shadowed, View, World},
+    walkable::Walkable,
 };
 use std::collections::{HashMap, HashSet};
 

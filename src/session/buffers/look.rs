@@ -1,9 +1,7 @@
 //! The values of a buffer become colours by a person's choice.
 
-use crate::{
-    engine::{Paint, ValueLook},
-    session::probe::Statistics,
-};
+use crate::probe::Statistics;
+use eddy_engine::{Paint, ValueLook};
 
 /// Holds what a person has chosen to see.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +48,7 @@ impl BufferLook {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Pixels;
+    use eddy_engine::Pixels;
 
     #[test]
     fn exposure_scales_the_range_and_alpha_does_not_widen_it() {

@@ -1,9 +1,7 @@
 //! A pass is not drawn for one of these reasons.
 
-use crate::{
-    engine::{PassCost, PassRole, When},
-    project::PassId,
-};
+use eddy_engine::{PassCost, PassRole, When};
+use eddy_project::PassId;
 
 /// Returns in words why a pass was not drawn in the newest frame; `None` for one that was.
 pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
@@ -41,7 +39,7 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::PassRead;
+    use eddy_engine::PassRead;
 
     fn cost(name: &str, role: PassRole, reads: &[&str]) -> PassCost {
         let id = |name: &str| if name == "image" { PassId::Image } else { PassId::Buffer(name.into()) };

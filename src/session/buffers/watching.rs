@@ -1,11 +1,9 @@
 //! Keeps what is looked at, when it is due, and the newest of it.
 
 use super::BufferLook;
-use crate::{
-    engine::{Picture, Pixels, TexelAt},
-    project::PassId,
-    session::{nonfinite::NonfiniteTexels, probe::Statistics},
-};
+use crate::{nonfinite::NonfiniteTexels, probe::Statistics};
+use eddy_engine::{Picture, Pixels, TexelAt};
+use eddy_project::PassId;
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -56,7 +54,7 @@ pub struct BuffersRead {
 
 /// Keeps what is looked at, if anything is.
 #[derive(Default)]
-pub(in crate::session) struct Watching {
+pub(crate) struct Watching {
     watch: BufferWatch,
     shown: Option<(Arc<BufferRead>, u64)>,
     under: Vec<TexelAt>,

@@ -120,7 +120,7 @@ fn steps_land_on_the_times_of_a_fixed_step_run() {
     let mut c = Clock::default();
     for i in 0..1000 {
         let f = c.step_frame();
-        let want = crate::engine::FrameInputs::at_fixed_step(i, 60.0);
+        let want = eddy_engine::FrameInputs::at_fixed_step(i, 60.0);
         assert_eq!(
             (f.frame, f.time_secs, f.time_delta_secs, f.frame_rate),
             (want.frame, want.time_secs, want.time_delta_secs, want.frame_rate)

@@ -1,6 +1,7 @@
 //! A comparison has two projects and a result.
 
-use crate::{engine::Pixels, project::PassId};
+use eddy_engine::Pixels;
+use eddy_project::PassId;
 use std::sync::{
     Arc,
     atomic::{AtomicBool, AtomicUsize},
@@ -44,7 +45,7 @@ pub struct Comparison {
     /// The run's first frames are no longer kept: both began later, from empty buffers.
     pub is_cut: bool,
     /// The revision of the project that was compared.
-    pub(in crate::session) revision: u64,
+    pub(crate) revision: u64,
 }
 
 /// A comparison, from its begin on.

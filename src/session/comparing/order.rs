@@ -5,14 +5,12 @@ use super::{
     work::{self, Job, Reference},
 };
 use crate::{
-    engine::Trial,
-    gpu::Gpu,
-    project::{Origin, PassId, Project},
-    session::{
-        drawing::Run,
-        worker::{Panicked, Worker},
-    },
+    drawing::Run,
+    worker::{Panicked, Worker},
 };
+use eddy_engine::Trial;
+use eddy_gpu::Gpu;
+use eddy_project::{Origin, PassId, Project};
 use std::{
     path::PathBuf,
     sync::{
@@ -23,7 +21,7 @@ use std::{
 };
 
 /// Holds the projects that are to be compared.
-pub(in crate::session) struct Order {
+pub(crate) struct Order {
     pub gpu: Gpu,
     pub project: Project,
     pub saved: Project,
@@ -38,7 +36,7 @@ pub(in crate::session) struct Order {
 /// `None`: nobody wants it any more.
 type End = Option<Result<Arc<Comparison>, String>>;
 
-pub(in crate::session) struct Comparing {
+pub(crate) struct Comparing {
     worker: Worker<(Job, Arc<Progress>), End>,
     against: Option<Against>,
     /// The frames are to be handed out.

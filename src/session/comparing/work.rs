@@ -2,16 +2,14 @@
 
 use super::comparison::{Against, Comparison, Progress};
 use crate::{
-    diag,
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial},
-    gpu::{Gpu, GpuOptions},
-    media,
-    project::{self, PassId, Project},
-    session::{
-        drawing::{Frame, Run},
-        revision,
-    },
+    drawing::{Frame, Run},
+    revision,
 };
+use eddy_diag as diag;
+use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial};
+use eddy_gpu::{Gpu, GpuOptions};
+use eddy_media as media;
+use eddy_project::{self as project, PassId, Project};
 use std::{
     path::{Path, PathBuf},
     sync::atomic::Ordering,

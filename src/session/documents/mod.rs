@@ -4,7 +4,7 @@
 //! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
-use crate::project::{Included, Origin, Pass, Project, Source, Tab};
+use eddy_project::{Included, Origin, Pass, Project, Source, Tab};
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},

@@ -1,7 +1,7 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, CustomUniformValue, Included, Input, PassBody, PassId, Sampler, SamplerRules, Source};
+use eddy_project::{Channel, CustomUniformValue, Included, Input, PassBody, PassId, Sampler, SamplerRules, Source};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project::new("p", Vec::new(), Origin::Folder { path: "/p".into(), has_manifest });
@@ -50,7 +50,7 @@ fn edits_make_a_tab_dirty_and_undoing_them_makes_it_clean() {
 
 #[test]
 fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
-    let scene = crate::project::presets::load("toon-outline").unwrap().project;
+    let scene = eddy_project::presets::load("toon-outline").unwrap().project;
     let geometry = |p: &Project| p.passes.iter().position(|p| p.settings.meshes().is_some()).unwrap();
     assert!(structure::is_same(&scene, &scene.clone()));
     type Change = fn(&mut Project, usize);
@@ -64,17 +64,15 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
             p.passes[0].channels[3] = Some(Channel { input: Input::Webcam, sampler: Sampler::BUFFER })
         }),
         ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
-        ("groups", |p, _| p.groups.push(crate::project::Group { name: "g".into(), passes: vec![], steps: 2 })),
+        ("groups", |p, _| p.groups.push(eddy_project::Group { name: "g".into(), passes: vec![], steps: 2 })),
         ("a value", |p, _| drop(p.custom_uniform_values.insert("x".into(), CustomUniformValue::Int(1)))),
-        ("size", |p, _| p.passes[0].settings.size = crate::project::PassSize::Scale(0.25)),
-        ("format", |p, _| p.passes[0].settings.format = crate::project::PassFormat::R8),
-        ("region", |p, _| {
-            p.passes[0].settings.region = Some(crate::project::Region { x: 0, y: 0, width: 1, height: 1 })
-        }),
+        ("size", |p, _| p.passes[0].settings.size = eddy_project::PassSize::Scale(0.25)),
+        ("format", |p, _| p.passes[0].settings.format = eddy_project::PassFormat::R8),
+        ("region", |p, _| p.passes[0].settings.region = Some(eddy_project::Region { x: 0, y: 0, width: 1, height: 1 })),
         ("no meshes", |p, i| p.passes[i].settings.body = PassBody::Screen),
         ("a draw less", |p, i| drop(p.passes[i].settings.meshes_mut().unwrap().draws.pop())),
         ("a target more", |p, i| {
-            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(crate::project::PassFormat::R8)
+            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(eddy_project::PassFormat::R8)
         }),
         ("the camera", |p, i| p.passes[i].settings.meshes_mut().unwrap().camera.fov += 1.0),
         ("a stage's file", |p, i| p.passes[i].settings.meshes_mut().unwrap().stages[0].name.push('x')),

@@ -5,7 +5,7 @@ use super::{
     job::{Done, Job},
     studio::Studio,
 };
-use crate::gpu::{self, Gpu, GpuError, GpuOptions};
+use eddy_gpu::{self as gpu, Gpu, GpuError, GpuOptions};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},

@@ -1,6 +1,6 @@
 //! A device that another thread opens.
 
-use crate::gpu::{Gpu, GpuError};
+use eddy_gpu::{Gpu, GpuError};
 use std::sync::{Arc, OnceLock};
 
 /// Holds the place where a device will be once it is open. Every clone is the same place.

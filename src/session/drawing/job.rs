@@ -3,17 +3,17 @@
 use super::gate::Gate;
 use super::history::{Frame, Replay, ReplayFrom, Run, Travelled};
 use crate::{
-    engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
-    project::{CustomUniform, CustomUniformValues, PassId, Project},
-    session::{
-        buffers::{BuffersRead, BuffersWanted},
-        capture::Format,
-        measuring::{Measured, MeasuresWanted},
-        probe::{NumbersWanted, ProbeNumbers},
-        seeking::{Goal, Reach},
-        tracing::Taken,
-    },
+    buffers::{BuffersRead, BuffersWanted},
+    capture::Format,
+    measuring::{Measured, MeasuresWanted},
+    probe::{NumbersWanted, ProbeNumbers},
+    seeking::{Goal, Reach},
+    tracing::Taken,
 };
+use eddy_engine::{
+    CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook,
+};
+use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};
 use std::{path::PathBuf, time::Duration};
 
 /// Changes that wait for the engine, each the newest of its kind.

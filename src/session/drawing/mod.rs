@@ -17,13 +17,11 @@ pub(super) use gate::Way;
 pub(super) use history::{Frame, Replay, ReplayFrom, Run, Travelled};
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, Reads, TileLimit};
 
-use crate::{
-    engine::{CostClock, EngineError, PassCost, Picture},
-    gpu::{Gpu, GpuError, Presenter, Texture},
-    project::{CustomUniform, PassId, Project},
-    session::seeking::Reach,
-};
+use crate::seeking::Reach;
 use apart::Apart;
+use eddy_engine::{CostClock, EngineError, PassCost, Picture};
+use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
+use eddy_project::{CustomUniform, PassId, Project};
 use gate::Gate;
 use std::{
     sync::Arc,

@@ -7,7 +7,9 @@ use super::{
     view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
     worker::Panicked,
 };
-use crate::{diag::Severity, engine::EngineError, gpu::GpuError};
+use eddy_diag::Severity;
+use eddy_engine::EngineError;
+use eddy_gpu::GpuError;
 use std::{
     sync::atomic::Ordering,
     time::{Duration, Instant},

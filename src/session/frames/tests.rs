@@ -4,14 +4,11 @@ use super::super::{
     Command, SessionOptions,
     compile::{Done, Job},
     drawing::Drawing,
-    testing,
     worker::Worker,
 };
 use super::*;
-use crate::{
-    gpu::Gpu,
-    project::{PassId, Tab},
-};
+use eddy_gpu::{Gpu, testing};
+use eddy_project::{PassId, Tab};
 use std::{
     sync::{
         Arc,

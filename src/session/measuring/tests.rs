@@ -1,8 +1,6 @@
 use super::*;
-use crate::{
-    project::{PassId, Project, Tab},
-    session::template,
-};
+use crate::template;
+use eddy_project::{PassId, Project, Tab};
 use std::time::{Duration, Instant};
 
 fn sample(frame: i32, value: f64) -> Sample {

@@ -2,12 +2,10 @@
 
 use super::record::{Record, Sample};
 use crate::{
-    project::Project,
-    session::{
-        reduction::{self, Quantity, Unmeasured},
-        view::Place,
-    },
+    reduction::{self, Quantity, Unmeasured},
+    view::Place,
 };
+use eddy_project::Project;
 use std::time::{Duration, Instant};
 
 /// Measuring takes this part of the time at most: each time waits for the device.
@@ -46,7 +44,7 @@ pub struct Measured {
 }
 
 #[derive(Default)]
-pub(in crate::session) struct Measuring {
+pub(crate) struct Measuring {
     measures: Vec<Measure>,
     /// The state of the project that the comments are of.
     read_at: Option<(u64, u64)>,

@@ -2,17 +2,15 @@
 
 use super::texels::{NonfiniteTexels, born, drawn, stored};
 use crate::{
-    diag::Span,
-    engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot},
-    gpu::Gpu,
-    media,
-    project::{CustomUniformValues, PassId, Project},
-    session::{
-        trace::STEPS,
-        view::Place,
-        worker::{Panicked, Worker},
-    },
+    trace::STEPS,
+    view::Place,
+    worker::{Panicked, Worker},
 };
+use eddy_diag::Span;
+use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot};
+use eddy_gpu::Gpu;
+use eddy_media as media;
+use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
     path::PathBuf,
     sync::{
@@ -75,7 +73,7 @@ pub enum Search<'s> {
 pub type SearchView<'s> = Option<Search<'s>>;
 
 /// Frames, and what they are drawn by.
-pub(in crate::session) struct SearchJob {
+pub(crate) struct SearchJob {
     pub gpu: Gpu,
     pub project: Project,
     pub shown: PassId,
@@ -93,7 +91,7 @@ struct Progress {
 }
 
 /// A search, if somebody has asked for one.
-pub(in crate::session) struct Searching {
+pub(crate) struct Searching {
     worker: Worker<(SearchJob, Arc<Progress>), Option<SearchEnd>>,
     /// The frames are to be handed out.
     pub is_due: bool,

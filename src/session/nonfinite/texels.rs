@@ -1,13 +1,11 @@
 //! Texels that are no finite numbers, and the operation that makes one.
 
 use crate::{
-    engine::{PassInputs, Pixels, Sources},
-    project::{PassFormat, PassId, Project},
-    session::{
-        audit::{self, Class, Finding},
-        trace::TraceError,
-    },
+    audit::{self, Class, Finding},
+    trace::TraceError,
 };
+use eddy_engine::{PassInputs, Pixels, Sources};
+use eddy_project::{PassFormat, PassId, Project};
 
 /// Texels of a picture of which a stored component is NaN or infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,9 @@
 //! The assignments of a trace that a probe can draw.
 
-use crate::{
-    diag::Span,
-    engine::Sources,
-    glsl::Probe,
-    session::trace::{Event, Number, Trace},
-};
+use crate::trace::{Event, Number, Trace};
+use eddy_diag::Span;
+use eddy_engine::Sources;
+use eddy_glsl::Probe;
 use std::collections::HashMap;
 
 /// A value that a variable, or a part of one, takes.

@@ -7,15 +7,13 @@ use super::{
     search::{Parted, search},
 };
 use crate::{
-    engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot, Sources},
-    gpu::Gpu,
-    media,
-    project::{CustomUniformValues, PassId},
-    session::{
-        trace::{Extent, STEPS, Traced},
-        worker::{Panicked, Worker},
-    },
+    trace::{Extent, STEPS, Traced},
+    worker::{Panicked, Worker},
 };
+use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot, Sources};
+use eddy_gpu::Gpu;
+use eddy_media as media;
+use eddy_project::{CustomUniformValues, PassId};
 use std::{path::PathBuf, sync::Arc};
 
 /// Values of the device that are drawn at most: each is a program to compile.
@@ -31,7 +29,7 @@ pub enum PartingView<'s> {
 }
 
 /// A traced pixel, and the frames that lead to it.
-pub(in crate::session) struct PartingJob {
+pub(crate) struct PartingJob {
     pub gpu: Gpu,
     pub traced: Arc<Traced>,
     pub shown: PassId,
@@ -44,7 +42,7 @@ pub(in crate::session) struct PartingJob {
 }
 
 /// A search, if somebody has asked for one.
-pub(in crate::session) struct Finding {
+pub(crate) struct Finding {
     worker: Worker<PartingJob, (Arc<Traced>, Result<Parted, String>)>,
     /// The frames are to be handed out.
     is_due: bool,

@@ -12,7 +12,7 @@ mod probes;
 mod search;
 
 pub use assignment::{Assignment, assignments};
-pub(in crate::session) use finding::{Finding, PartingJob};
+pub(crate) use finding::{Finding, PartingJob};
 pub use finding::{MOST, PartingView, STEPS_KEPT};
 pub use probes::{ProbeError, Probes};
 pub use search::{Parted, Parting, search};

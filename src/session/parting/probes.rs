@@ -1,11 +1,9 @@
 //! A frame that is drawn again and again, each time with another value beside it.
 
 use super::assignment::Assignment;
-use crate::{
-    engine::{BuildError, BuildOptions, Builder, Engine, EngineError, FrameInputs, Snapshot},
-    media::MediaSet,
-    project::{CustomUniformValues, PassId, Project},
-};
+use eddy_engine::{BuildError, BuildOptions, Builder, Engine, EngineError, FrameInputs, Snapshot};
+use eddy_media::MediaSet;
+use eddy_project::{CustomUniformValues, PassId, Project};
 
 /// A value could not be drawn.
 #[derive(Debug, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! Says which assignments are compared.
 
 use super::assignment::Assignment;
-use crate::session::trace::{Number, ulps};
+use crate::trace::{Number, ulps};
 
 /// An assignment that comes out otherwise on the device.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,10 +76,8 @@ fn parting(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Parting>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        diag::{SourceId, Span},
-        glsl::Probe,
-    };
+    use eddy_diag::{SourceId, Span};
+    use eddy_glsl::Probe;
     use std::convert::Infallible;
 
     fn all(count: usize) -> Vec<Assignment> {

@@ -2,18 +2,16 @@
 //! numbers.
 //!
 //! Owns the place in the text, which follows edits, and how often the numbers come back from the device. Drawing is
-//! the engine's, and how a value becomes a colour is [`crate::engine::ValueLook`]'s.
+//! the engine's, and how a value becomes a colour is [`eddy_engine::ValueLook`]'s.
 
 mod statistics;
 
 pub use statistics::{BINS, Statistics};
 
-use crate::{
-    diag::follow,
-    engine::{BuildOptions, Paint, Pixels, Sources, ValueLook},
-    glsl::{Probe, ProbedExpression},
-    project::{PassId, Project, Tab},
-};
+use eddy_diag::follow;
+use eddy_engine::{BuildOptions, Paint, Pixels, Sources, ValueLook};
+use eddy_glsl::{Probe, ProbedExpression};
+use eddy_project::{PassId, Project, Tab};
 use std::{
     sync::Arc,
     time::{Duration, Instant},

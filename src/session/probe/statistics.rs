@@ -1,6 +1,6 @@
 //! Figures of the values of a picture.
 
-use crate::engine::Pixels;
+use eddy_engine::Pixels;
 
 /// Bars of a histogram.
 pub const BINS: usize = 64;

@@ -10,19 +10,17 @@
 //! false. Members that a later version of Eddy adds are passed over.
 
 use super::{RecordedFrame, Recording};
-use crate::{
-    engine::FrameInputs,
-    media::Keyboard,
-    project::{
-        CustomUniformValue, CustomUniformValues,
-        limits::{self, Limit, in_bytes},
-    },
+use eddy_engine::FrameInputs;
+use eddy_media::Keyboard;
+use eddy_project::{
+    CustomUniformValue, CustomUniformValues,
+    limits::{self, Limit, in_bytes},
 };
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, Write};
 
 /// The extension of the files' names.
-pub const EXTENSION: &str = crate::project::RECORDING;
+pub const EXTENSION: &str = eddy_project::RECORDING;
 const VERSION: u32 = 1;
 /// Bytes of a frame's keys, which frames of the same keys share.
 const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
@@ -122,7 +120,7 @@ impl Recording {
     }
 
     /// Reads at most `limit` of a file, into frames of at most `most` bytes.
-    pub(in crate::session) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
+    pub(crate) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
         let mut text = text.take(limit.bytes + 1);
         let read = Self::read_lines(&mut text, most);
         if text.limit() == 0 { Err(ReadError::TooLarge(limit)) } else { read }

@@ -7,7 +7,8 @@ mod file;
 
 pub use file::{EXTENSION, ReadError};
 
-use crate::{engine::FrameInputs, project::CustomUniformValues};
+use eddy_engine::FrameInputs;
+use eddy_project::CustomUniformValues;
 
 /// Holds what a frame is drawn with.
 #[derive(Clone, Debug, PartialEq)]

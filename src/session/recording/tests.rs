@@ -1,8 +1,6 @@
 use super::*;
-use crate::{
-    media::Keyboard,
-    project::{CustomUniformValue, CustomUniformValues, limits::Limit},
-};
+use eddy_media::Keyboard;
+use eddy_project::{CustomUniformValue, CustomUniformValues, limits::Limit};
 
 fn frame(number: i32, change: impl FnOnce(&mut RecordedFrame)) -> RecordedFrame {
     let mut frame = RecordedFrame {

@@ -5,7 +5,7 @@ use super::{
     replaced,
     slot::Slot,
 };
-use crate::project::{self, Project, write_snapshot};
+use eddy_project::{self as project, Project, write_snapshot};
 use std::{
     collections::HashMap,
     io::{self, Write},
@@ -32,14 +32,14 @@ enum Job {
 }
 
 /// Something the session should hear.
-pub(in crate::session) enum News {
+pub(crate) enum News {
     /// All work that was left behind; the newest first.
     Found(Vec<Left>),
     Trouble(String),
 }
 
 /// The session's end of the thread. Every call returns at once.
-pub(in crate::session) struct Recovery {
+pub(crate) struct Recovery {
     /// `None` only while dropping.
     jobs: Option<Sender<Job>>,
     news: Receiver<News>,

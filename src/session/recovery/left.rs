@@ -1,15 +1,13 @@
 //! Unsaved work that a process left behind, beside what the disk has of the same project now.
 
 use super::super::{documents, template};
-use crate::{
-    project::{self, Origin, Project, Tab, read_snapshot},
-    session::command::{Recovered, RecoveredTab},
-};
+use crate::command::{Recovered, RecoveredTab};
+use eddy_project::{self as project, Origin, Project, Tab, read_snapshot};
 use jiff::{Timestamp, tz::TimeZone};
 use std::{fs, path::Path};
 
 /// Work that was left behind.
-pub(in crate::session) struct Left {
+pub(crate) struct Left {
     pub shown: Recovered,
     /// The project as it was being edited.
     pub project: Project,

@@ -1,6 +1,6 @@
 //! Files that a save has replaced though they were another project's are kept for a while, below the recovery files.
 //!
-//! Owns where they lie and how long. The copying itself is done by [`project::save`](crate::project::save), before
+//! Owns where they lie and how long. The copying itself is done by [`project::save`](eddy_project::save), before
 //! anything is written.
 
 use super::super::capture::file_stem;

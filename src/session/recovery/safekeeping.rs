@@ -5,7 +5,7 @@ use std::{io, path::PathBuf, sync::Arc};
 
 /// Unsaved work and its recovery file.
 #[derive(Default)]
-pub(in crate::session) struct Safekeeping {
+pub(crate) struct Safekeeping {
     /// `None`: this session keeps nothing.
     pub recovery: Option<Recovery>,
     /// The revision of the documents that the file was last told of.

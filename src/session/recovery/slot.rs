@@ -4,7 +4,7 @@
 //! processes take one slot, and none removes a lock that another is about to hold.
 
 use super::super::capture::file_stem;
-use crate::project::{Origin, Project};
+use eddy_project::{Origin, Project};
 use std::{
     fs::{self, DirBuilder, File, TryLockError},
     hash::{DefaultHasher, Hash, Hasher},

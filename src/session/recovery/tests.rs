@@ -1,7 +1,7 @@
 //! Recovery files without a session.
 
 use super::*;
-use crate::project::{self, PassId, Project, Tab};
+use eddy_project::{self as project, PassId, Project, Tab};
 use std::{
     fs,
     path::Path,

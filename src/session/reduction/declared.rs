@@ -1,10 +1,8 @@
 //! The comments `//@probe` of a project ask for these quantities.
 
 use super::quantity::Quantity;
-use crate::{
-    diag::{Diagnostic, Span},
-    project::{self, PassId, Project, inspect_comments},
-};
+use eddy_diag::{Diagnostic, Span};
+use eddy_project::{self as project, PassId, Project, inspect_comments};
 
 /// Says why a number cannot be had, and what mends that.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,8 @@
 //! One number of a pass's texels.
 
 use super::reader::Reader;
-use crate::{
-    engine::Pixels,
-    project::{self, PassId},
-};
+use eddy_engine::Pixels;
+use eddy_project::{self as project, PassId};
 use std::fmt;
 
 /// Says how numbers become one.

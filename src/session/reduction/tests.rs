@@ -1,5 +1,6 @@
 use super::*;
-use crate::{engine::Pixels, project::PassId};
+use eddy_engine::Pixels;
+use eddy_project::PassId;
 
 fn pixels(texels: &[[f32; 4]]) -> Pixels {
     Pixels { width: texels.len() as u32, height: 1, texels: texels.to_vec() }

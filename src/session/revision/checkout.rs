@@ -8,7 +8,7 @@ use super::{
     error::{RevisionError, WITH_GIT},
     objects::{HASH, Objects, cause},
 };
-use crate::project::{
+use eddy_project::{
     confine,
     limits::{self, Limit, in_bytes},
 };

@@ -1,6 +1,6 @@
 //! Errors of reading a revision.
 
-use crate::project::confine::{FileError, Reason};
+use eddy_project::confine::{FileError, Reason};
 use std::{io, path::Path};
 
 /// There is no such revision of a project, or it is not read. The text is complete: what, why and the mend.

@@ -4,7 +4,7 @@
 //! which it was named: so no tree holds itself. Objects of other repositories ("alternates") are not read.
 
 use super::{error::RevisionError, repository};
-use crate::project::{
+use eddy_project::{
     confine::{self, Reason},
     limits::{self, Limit, in_bytes},
 };

@@ -5,7 +5,7 @@ use super::{
     objects::{HASH, cause},
     repository::Repository,
 };
-use crate::project::{
+use eddy_project::{
     confine::{self, Reason},
     limits::{self, Limit},
 };

@@ -6,7 +6,7 @@
 //! it. Which user owns a folder decides nothing, as nothing of it is run.
 
 use super::error::{RevisionError, WITH_GIT};
-use crate::project::{confine, limits::Limit};
+use eddy_project::{confine, limits::Limit};
 use std::{
     fs,
     path::{Path, PathBuf},

@@ -7,7 +7,7 @@ use super::{
     refs::Refs,
     repository::Repository,
 };
-use crate::project::limits;
+use eddy_project::limits;
 use gix_hash::{ObjectId, Prefix};
 use gix_object::{
     CommitRefIter, Kind, TagRefIter,

@@ -8,7 +8,8 @@ use super::{
     mouse::Mouse,
     recording::{Change, Recording},
 };
-use crate::{engine::FrameInputs, media::Keyboard};
+use eddy_engine::FrameInputs;
+use eddy_media::Keyboard;
 use jiff::{SignedDuration, civil::DateTime};
 use std::sync::Arc;
 

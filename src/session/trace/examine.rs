@@ -7,16 +7,14 @@ use super::{
     ulps,
     watch::{Watched, Watches},
 };
-use crate::{
-    diag::{SourceId, Span},
-    engine::{PassInputs, Pixels, Sources},
-    glsl::{
-        walk::{EntryInputs, Shadowed, Stop},
-        walkable::Detail,
-    },
-    project::{FillKind, PassFormat, PassId, Project, Stage, Tab, inspect_comments},
-    session::walked::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel},
+use crate::walked::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel};
+use eddy_diag::{SourceId, Span};
+use eddy_engine::{PassInputs, Pixels, Sources};
+use eddy_glsl::{
+    walk::{EntryInputs, Shadowed, Stop},
+    walkable::Detail,
 };
+use eddy_project::{FillKind, PassFormat, PassId, Project, Stage, Tab, inspect_comments};
 use std::sync::Arc;
 
 /// Statements after which a walk is given up: a few seconds.

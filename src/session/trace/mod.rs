@@ -2,7 +2,7 @@
 //!
 //! Owns the record of a walk: calls, turns of loops, and every value that one of the author's names takes, each with
 //! its place in the text; and the history that a person goes forwards and backwards in, with expressions over it. The
-//! walk itself is [`crate::glsl::walk`]'s.
+//! walk itself is [`eddy_glsl::walk`]'s.
 
 mod examine;
 mod history;
@@ -19,16 +19,14 @@ pub use number::Number;
 pub use step::{Event, Step};
 pub use watch::Watched;
 
-use crate::{
-    diag::Diagnostic,
-    engine::{PassInputs, Sources},
-    glsl::{
-        walk::{Shadowed, Stop},
-        walkable::Detail,
-    },
-    project::Region,
-    session::walked::{AtPixel, WalkError, WalkedPass},
+use crate::walked::{AtPixel, WalkError, WalkedPass};
+use eddy_diag::Diagnostic;
+use eddy_engine::{PassInputs, Sources};
+use eddy_glsl::{
+    walk::{Shadowed, Stop},
+    walkable::Detail,
 };
+use eddy_project::Region;
 use recorder::Recorder;
 
 /// Statements after which a walk is given up, unless somebody asks for another limit.

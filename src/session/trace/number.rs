@@ -1,6 +1,6 @@
 //! A scalar of a trace.
 
-use crate::glsl::types::Scalar;
+use eddy_glsl::types::Scalar;
 use serde::{Serialize, Serializer};
 use std::fmt;
 

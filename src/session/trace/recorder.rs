@@ -4,15 +4,13 @@ use super::{
     number::Number,
     step::{Event, Step},
 };
-use crate::{
-    diag::Span,
-    glsl::{
-        ast::Loc,
-        ir::{FuncId, GlobalKind, Op, Value},
-        types::{Scalar, Type, TypeId},
-        walk::{Cell, Observer, Real, View},
-        walkable::Walkable,
-    },
+use eddy_diag::Span;
+use eddy_glsl::{
+    ast::Loc,
+    ir::{FuncId, GlobalKind, Op, Value},
+    types::{Scalar, Type, TypeId},
+    walk::{Cell, Observer, Real, View},
+    walkable::Walkable,
 };
 
 pub struct Recorder<'w> {

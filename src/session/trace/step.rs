@@ -1,7 +1,7 @@
 //! A step of a trace.
 
 use super::number::Number;
-use crate::diag::Span;
+use eddy_diag::Span;
 
 /// Says what happened in a step.
 #[derive(Clone, Debug, PartialEq)]

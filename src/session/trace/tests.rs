@@ -3,11 +3,9 @@ use super::{
     travel::{self, Direction, Stride},
     ulps,
 };
-use crate::{
-    engine::{PassInputs, Pixels, TextureCopy},
-    project::{PassId, Tab},
-    session::template,
-};
+use crate::template;
+use eddy_engine::{PassInputs, Pixels, TextureCopy};
+use eddy_project::{PassId, Tab};
 use std::sync::Arc;
 
 const CODE: &str = "float glow = 0.25;
@@ -238,12 +236,12 @@ fn distances_are_counted_in_numbers() {
 
 #[test]
 fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
-    use crate::project::{Boundary, Fill, Region};
+    use eddy_project::{Boundary, Fill, Region};
     let mut project = template::project();
     project.passes[0].source.text = CODE.into();
     let settings = &mut project.passes[0].settings;
     settings.region = Some(Region { x: 1, y: 1, width: 2, height: 3 });
-    let refused = |project: &crate::project::Project, place| {
+    let refused = |project: &eddy_project::Project, place| {
         let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0; 4]; 16] };
         Traced::new(project.clone(), &PassId::Image, 3, (inputs(), &drawn), place)
             .map(|_| ())

@@ -8,16 +8,14 @@ use super::{
     history::{History, Value},
     number::Number,
 };
-use crate::{
-    engine::{DrawInputs, Sources},
-    glsl::{
-        ir::GlobalId,
-        types::{Scalar, Type},
-        walk::{EntryInputs, Machine, Observer, View},
-        walkable::Walkable,
-    },
-    project::Project,
+use eddy_engine::{DrawInputs, Sources};
+use eddy_glsl::{
+    ir::GlobalId,
+    types::{Scalar, Type},
+    walk::{EntryInputs, Machine, Observer, View},
+    walkable::Walkable,
 };
+use eddy_project::Project;
 use std::collections::HashMap;
 
 /// Types that a result can have, beside those of variables that are shown as they are.

@@ -1,6 +1,6 @@
 //! A vertex as its stage leaves it.
 
-use crate::glsl::walk::{Cell, Shadowed};
+use eddy_glsl::walk::{Cell, Shadowed};
 
 /// The outputs of a vertex stage for one vertex, in both precisions.
 #[derive(Clone, Debug)]

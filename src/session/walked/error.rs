@@ -1,6 +1,7 @@
 //! Says why a pass cannot be walked.
 
-use crate::{diag::Diagnostic, glsl::walk::Stop};
+use eddy_diag::Diagnostic;
+use eddy_glsl::walk::Stop;
 
 /// A pass has errors, or one of its programs does not end.
 #[derive(Clone, Debug)]

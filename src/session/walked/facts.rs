@@ -1,6 +1,6 @@
 //! Owns what a fragment stage may do besides colouring its texel.
 
-use crate::glsl::ir::{Module, Output, Stmt};
+use eddy_glsl::ir::{Module, Output, Stmt};
 
 /// Holds what has to be known of a fragment stage before it runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

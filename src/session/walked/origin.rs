@@ -1,6 +1,6 @@
 //! Owns what a texel's value comes from.
 
-use crate::project::Region;
+use eddy_project::Region;
 
 /// Says what leaves its value in a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,14 +7,12 @@ use super::{
     raster::Raster,
     writer::Writer,
 };
-use crate::{
-    engine::{PassInputs, Sources},
-    glsl::{
-        walk::{EntryInputs, Machine, Stop},
-        walkable::{Detail, Walkable},
-    },
-    project::PassSettings,
+use eddy_engine::{PassInputs, Sources};
+use eddy_glsl::{
+    walk::{EntryInputs, Machine, Stop},
+    walkable::{Detail, Walkable},
 };
+use eddy_project::PassSettings;
 
 /// The programs of a pass, and for one that draws meshes its triangles in the picture. Made once for all pixels.
 pub struct WalkedPass<'p> {

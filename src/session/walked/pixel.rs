@@ -1,13 +1,11 @@
 //! A pixel of a pass, ready to be walked.
 
 use super::origin::Origin;
-use crate::{
-    engine::DrawInputs,
-    glsl::{
-        ir::Output,
-        walk::{Drawn, EntryInputs, Machine, Real},
-        walkable::Walkable,
-    },
+use eddy_engine::DrawInputs;
+use eddy_glsl::{
+    ir::Output,
+    walk::{Drawn, EntryInputs, Machine, Real},
+    walkable::Walkable,
 };
 
 /// Says what there is to walk at a pixel.

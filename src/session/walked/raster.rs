@@ -10,15 +10,13 @@ use super::{
     vertices::{VertexStage, triangle},
     weights::{self, Weights},
 };
-use crate::{
-    engine::{PassInputs, Sources},
-    glsl::{
-        ir::Output,
-        walk::{Cell, EntryInputs, LANES, Machine, Nobody, Shadowed, SlotCells, Stop, quad},
-        walkable::{Detail, Walkable},
-    },
-    project::{Cull, DepthTest, Geometry, Stage},
+use eddy_engine::{PassInputs, Sources};
+use eddy_glsl::{
+    ir::Output,
+    walk::{Cell, EntryInputs, LANES, Machine, Nobody, Shadowed, SlotCells, Stop, quad},
+    walkable::{Detail, Walkable},
 };
+use eddy_project::{Cull, DepthTest, Geometry, Stage};
 
 /// The depth of every texel before the first draw: the far plane.
 const FAR: f32 = 1.0;

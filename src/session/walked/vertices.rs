@@ -1,16 +1,14 @@
 //! Runs a vertex stage on the processor, four vertices at a time.
 
 use super::corner::{Corner, CornerVarying};
-use crate::{
-    engine::{DrawInputs, MeshInputs},
-    glsl::{
-        Attribute,
-        ir::{Input, Op, Output},
-        walk::{Cell, Drawn, EntryInputs, LANES, Machine, Nobody, Real, Shadowed, SlotCells, Stop},
-        walkable::Walkable,
-    },
-    media::mesh::Vertex,
+use eddy_engine::{DrawInputs, MeshInputs};
+use eddy_glsl::{
+    Attribute,
+    ir::{Input, Op, Output},
+    walk::{Cell, Drawn, EntryInputs, LANES, Machine, Nobody, Real, Shadowed, SlotCells, Stop},
+    walkable::Walkable,
 };
+use eddy_media::mesh::Vertex;
 use std::thread;
 
 /// Vertices that a thread is worth.

@@ -1,6 +1,6 @@
 //! Owns what writes a texel of a pass: its own programs, its boundary, or nothing.
 
-use crate::project::{PassSettings, Region};
+use eddy_project::{PassSettings, Region};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Writer {
@@ -48,7 +48,7 @@ fn whole((width, height): (u32, u32)) -> Region {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Boundary, Fill};
+    use eddy_project::{Boundary, Fill};
 
     #[test]
     fn own_texels_are_those_that_the_programs_write() {

@@ -2,7 +2,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 use syn::{
-    Attribute, File, ItemMod, ItemUse, Macro, Meta, UseTree, Visibility,
+    File, ItemMod, ItemUse, Macro, UseTree, Visibility,
     spanned::Spanned,
     visit::{self, Visit},
 };
@@ -14,12 +14,6 @@ pub struct Named {
     pub within: Vec<String>,
     pub segments: Vec<String>,
     pub line: usize,
-    /// The name that a `use` gives it here.
-    pub bound: Option<String>,
-    /// Others may use the name that is bound here.
-    pub is_public: bool,
-    /// It stands in a module for tests alone.
-    pub is_test: bool,
 }
 
 /// Returns every path, single names among them. Comments and strings name nothing; what macros are given counts.
@@ -39,18 +33,13 @@ pub fn of_tokens(tokens: TokenStream) -> Vec<Named> {
 #[derive(Default)]
 struct Reader {
     within: Vec<String>,
-    /// Modules for tests that are open.
-    tests: usize,
-    /// The `use` that is read is public.
-    is_public: bool,
     found: Vec<Named>,
 }
 
 impl Reader {
-    fn add(&mut self, segments: Vec<String>, line: usize, bound: Option<String>) {
+    fn add(&mut self, segments: Vec<String>, line: usize) {
         if !segments.is_empty() {
-            let (within, is_public, is_test) = (self.within.clone(), self.is_public, self.tests > 0);
-            self.found.push(Named { within, segments, line, bound, is_public, is_test });
+            self.found.push(Named { within: self.within.clone(), segments, line });
         }
     }
 
@@ -59,14 +48,10 @@ impl Reader {
         let line = tree.span().start().line;
         match tree {
             UseTree::Path(path) => self.tree(&path.tree, &with(path.ident.to_string())),
-            UseTree::Name(name) if name.ident == "self" => {
-                self.add(before.to_vec(), line, before.last().cloned());
-            }
-            UseTree::Name(name) => self.add(with(name.ident.to_string()), line, Some(name.ident.to_string())),
-            UseTree::Rename(name) => {
-                self.add(with(name.ident.to_string()), line, Some(name.rename.to_string()));
-            }
-            UseTree::Glob(_) => self.add(with("*".into()), line, None),
+            UseTree::Name(name) if name.ident == "self" => self.add(before.to_vec(), line),
+            UseTree::Name(name) => self.add(with(name.ident.to_string()), line),
+            UseTree::Rename(name) => self.add(with(name.ident.to_string()), line),
+            UseTree::Glob(_) => self.add(with("*".into()), line),
             UseTree::Group(group) => group.items.iter().for_each(|tree| self.tree(tree, before)),
         }
     }
@@ -88,25 +73,18 @@ impl Reader {
                     continue;
                 }
                 TokenTree::Ident(name) => {
-                    self.add(std::mem::take(&mut segments), line, None);
+                    self.add(std::mem::take(&mut segments), line);
                     (segments, line, colons) = (vec![name.to_string()], name.span().start().line, 0);
                     continue;
                 }
                 TokenTree::Group(group) => self.scan(group.stream()),
                 TokenTree::Punct(_) | TokenTree::Literal(_) => {}
             }
-            self.add(std::mem::take(&mut segments), line, None);
+            self.add(std::mem::take(&mut segments), line);
             colons = 0;
         }
-        self.add(segments, line, None);
+        self.add(segments, line);
     }
-}
-
-/// Whether an item is compiled for tests alone.
-fn is_for_tests(attributes: &[Attribute]) -> bool {
-    attributes.iter().any(|attribute| {
-        matches!(&attribute.meta, Meta::List(list) if list.path.is_ident("cfg") && list.tokens.to_string() == "test")
-    })
 }
 
 impl<'ast> Visit<'ast> for Reader {
@@ -114,23 +92,18 @@ impl<'ast> Visit<'ast> for Reader {
         if module.content.is_none() {
             return;
         }
-        let tests = usize::from(is_for_tests(&module.attrs));
         self.within.push(module.ident.to_string());
-        self.tests += tests;
         visit::visit_item_mod(self, module);
-        self.tests -= tests;
         self.within.pop();
     }
 
     fn visit_item_use(&mut self, item: &'ast ItemUse) {
-        self.is_public = !matches!(item.vis, Visibility::Inherited);
         self.tree(&item.tree, &[]);
-        self.is_public = false;
     }
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let segments = path.segments.iter().map(|s| s.ident.to_string()).collect();
-        self.add(segments, path.span().start().line, None);
+        self.add(segments, path.span().start().line);
         visit::visit_path(self, path);
     }
 

@@ -2,7 +2,7 @@
 //! every file must check without an error. Skipped where the variable is not set.
 
 use super::checked;
-use crate::glsl::{ChannelKind, PassKind};
+use crate::{ChannelKind, PassKind};
 use std::{env, fs, path::PathBuf};
 
 fn channel_kind(input: &serde_json::Value) -> ChannelKind {

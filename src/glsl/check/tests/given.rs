@@ -1,7 +1,7 @@
 //! Declarations of what the header gives.
 
 use super::checked;
-use crate::glsl::{ChannelKind, PassKind};
+use crate::{ChannelKind, PassKind};
 
 const CHANNELS: [ChannelKind; 4] =
     [ChannelKind::Sampler2D, ChannelKind::SamplerCube, ChannelKind::Sampler2D, ChannelKind::Sampler3D];

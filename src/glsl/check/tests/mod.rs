@@ -9,10 +9,8 @@ mod robust;
 mod spec;
 
 use super::{Checked, check};
-use crate::{
-    diag::{SourceId, SourceMap, render_all},
-    glsl::{ChannelKind, PassKind, PassSource, Text, parse},
-};
+use crate::{ChannelKind, PassKind, PassSource, Text, parse};
+use eddy_diag::{SourceId, SourceMap, render_all};
 
 /// Parses and checks a pass alone; parser's and checker's messages in caret form, and whether one is an error.
 fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, code: &str) -> (Checked, bool, String) {

@@ -1,7 +1,7 @@
 //! Tests what editors are told: every use of a name and what it refers to.
 
 use super::checked;
-use crate::glsl::hir::{Builtin, BuiltinVar, DeclRef, Uniform};
+use crate::hir::{Builtin, BuiltinVar, DeclRef, Uniform};
 
 const CODE: &str = "struct S { float a; vec2 b; };
 const float K = 2.0;
@@ -16,8 +16,8 @@ void mainImage(out vec4 c, in vec2 f) {
 
 #[test]
 fn every_use_names_its_declaration() {
-    let source = crate::glsl::PassSource::image(CODE);
-    let parsed = crate::glsl::parse::parse(&source, None);
+    let source = crate::PassSource::image(CODE);
+    let parsed = crate::parse::parse(&source, None);
     let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
     assert!(failed, "`unknown` is not declared; the rest must be known all the same");
     let module = &checked.module;
@@ -26,7 +26,7 @@ fn every_use_names_its_declaration() {
         .iter()
         .map(|used| {
             let span = parsed.origins.token_span(used.token);
-            let name = |ident: crate::glsl::ast::Ident| parsed.origins.token_span(ident.token).start.to_string();
+            let name = |ident: crate::ast::Ident| parsed.origins.token_span(ident.token).start.to_string();
             let target = match used.target {
                 DeclRef::Local(id) => format!("local at {}", name(module[id].name.unwrap())),
                 DeclRef::Global(id) => format!("global at {}", name(module[id].name)),
@@ -76,17 +76,12 @@ fn common_alone_knows_two_uniforms() {
     let common = "#define NOW iTime\nfloat f() { return iDate.w + iSampleRate; }\nfloat g() { return iTime; }\n\
                   vec4 h(vec2 p) { return texture(iChannel0, p) + iResolution.x + iTime; }\n\
                   void i(out vec4 c) { mainImage(c, vec2(0)); }\n";
-    let warnings =
-        crate::glsl::check_common(crate::glsl::Text { id: crate::diag::SourceId(0), text: common }, &[], &[]);
+    let warnings = crate::check_common(crate::Text { id: eddy_diag::SourceId(0), text: common }, &[], &[]);
     let named: Vec<&str> = warnings.iter().map(|d| &common[d.span.unwrap().range()]).collect();
     assert_eq!(named, ["iTime", "iChannel0", "iResolution", "mainImage(c, vec2(0))"]);
     assert!(warnings.iter().all(|d| !d.is_error()));
     assert!(
-        crate::glsl::check_common(
-            crate::glsl::Text { id: crate::diag::SourceId(0), text: "int f() { return x }" },
-            &[],
-            &[]
-        )
-        .is_empty()
+        crate::check_common(crate::Text { id: eddy_diag::SourceId(0), text: "int f() { return x }" }, &[], &[])
+            .is_empty()
     );
 }

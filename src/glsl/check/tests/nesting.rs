@@ -1,7 +1,7 @@
 //! Expressions may nest as deep as browsers read them, and what is deeper is refused by name.
 
 use super::checked;
-use crate::glsl::{ChannelKind, PassKind};
+use crate::{ChannelKind, PassKind};
 
 fn image(body: &str) -> (bool, String) {
     let code = format!("float g(float x) {{ return x; }}\nvoid mainImage(out vec4 o, in vec2 p) {{ {body} }}");

@@ -1,7 +1,7 @@
 //! Tests what `hir` promises to lowering, checked on every program that has no error: post-order, one parent a node, no
 //! type and node of an error, types that fit, places that are places, constants folded.
 
-use crate::glsl::{
+use crate::{
     ast::List,
     hir::{
         BinaryOp, Builtin, ExprFlags, ExprId, ExprKind, GlobalStorage, LocalKind, Module, Shape, StmtId, StmtKind,

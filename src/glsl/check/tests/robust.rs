@@ -1,7 +1,7 @@
 //! Nothing a user types may panic, hang or overflow the stack: long and deep programs, and ours with pieces torn out.
 
 use super::checked;
-use crate::glsl::{ChannelKind, PassKind};
+use crate::{ChannelKind, PassKind};
 use std::fmt::Write;
 
 const CHANNELS: [ChannelKind; 4] = [ChannelKind::Sampler2D; 4];
@@ -48,8 +48,7 @@ impl Random {
 #[test]
 fn torn_programs() {
     let texts = [4, 5, 6, 7, 8].map(|i| {
-        std::fs::read_to_string(format!("{}/src/glsl/check/tests/spec/section_{i}.glsl", env!("CARGO_MANIFEST_DIR")))
-            .unwrap()
+        std::fs::read_to_string(format!("{}/check/tests/spec/section_{i}.glsl", env!("CARGO_MANIFEST_DIR"))).unwrap()
     });
     let cases: Vec<&str> = texts
         .iter()

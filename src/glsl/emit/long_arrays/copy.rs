@@ -12,7 +12,7 @@ use super::writer::{LEAST_ARRAY, Value, Writer};
 
 /// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop
 /// counts lane by lane, which takes up to twice as long.
-pub(in crate::glsl) const LEAST_COPY: u32 = 128;
+pub(crate) const LEAST_COPY: u32 = 128;
 
 /// Loads since which nothing has written what they read, each with its pointer's root.
 #[derive(Default)]

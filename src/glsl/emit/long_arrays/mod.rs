@@ -5,7 +5,7 @@
 //! their square (`InstCombinePass` looks at all accesses of a variable whenever it has changed one): a local `float
 //! a[500]` takes half a minute to the first frame. A program with long arrays therefore
 //! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
-//!   ([`crate::glsl::Compiled::initialized_arrays`]);
+//!   ([`crate::Compiled::initialized_arrays`]);
 //! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
 //!   constants are emitted, and calls pass and return long values by pointer, [`super::context::Emitter::is_long`]).
 
@@ -21,7 +21,7 @@ use naga::{
     MemoryDecorations, Module, Scalar, Span, Type, TypeInner,
 };
 
-pub(in crate::glsl) use copy::LEAST_COPY;
+pub(crate) use copy::LEAST_COPY;
 use sizes::Sizes;
 use writer::{LEAST_ARRAY, Writer};
 

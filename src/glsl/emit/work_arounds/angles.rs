@@ -4,7 +4,7 @@
 //! point other than the origin" (reference of HLSL), and naga writes `atan` as that (`back/hlsl/writer.rs`); drivers
 //! give NaN. So the angle of (0, 1) is asked for instead, unless an argument is known to be no zero.
 
-use crate::glsl::{
+use crate::{
     ir::{
         Binary, Math, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

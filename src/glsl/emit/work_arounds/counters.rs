@@ -4,7 +4,7 @@
 //! it costs (`force_unroll_array_access` in `nir_loop_analyze.c`). Of a loop in a loop, as sorting has them, that is the
 //! square of the elements: LLVM takes 15 s for twelve structures of four numbers, and minutes for twenty.
 
-use crate::glsl::{
+use crate::{
     ir::{
         Block, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

@@ -5,7 +5,7 @@
 //! run: a pass that discards what it does not need takes the time of the whole picture. Mesa's GLSL compiler
 //! therefore ends loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; nothing does so for SPIR-V.
 
-use crate::glsl::{
+use crate::{
     ast::Loc,
     ir::{
         Block, Function, GlobalId, GlobalKind, Module, Op, Stmt, Value,

@@ -4,7 +4,7 @@
 //! (`generate_unswizzled_blend` in `lp_state_fs.c`), and no longer takes denormal numbers for zeros then. Programs that
 //! may discard test depth on another way.
 
-use crate::glsl::ir::{
+use crate::ir::{
     Module, Op, Stmt, Value,
     rewrite::{self, Rewriter, Rule},
 };

@@ -5,7 +5,7 @@
 //! llvmpipe (`lp_build_div` in `lp_bld_arit.c`). Which edges become equal is not known here, so each width is hidden.
 //! Where edges are constants that differ, lowering leaves `smoothstep` to the driver.
 
-use crate::glsl::ir::{
+use crate::ir::{
     Binary, Function, Math, Module, Op, Value,
     rewrite::{self, Rewriter, Rule},
 };

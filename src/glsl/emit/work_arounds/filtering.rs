@@ -4,9 +4,9 @@
 //! mix with the weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip
 //! levels, the same in both.
 //!
-//! [`PassSource::bilinear_by_hand`]: crate::glsl::PassSource::bilinear_by_hand
+//! [`PassSource::bilinear_by_hand`]: crate::PassSource::bilinear_by_hand
 
-use crate::glsl::{
+use crate::{
     ir::{
         Axis, Binary, Level, Math, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

@@ -8,7 +8,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::glsl::ir::{
+use crate::ir::{
     Binary, Block, Function, GlobalId, Module, Op, Stmt, Unary, Value, VarId,
     rewrite::{self, Rewriter, Rule},
 };

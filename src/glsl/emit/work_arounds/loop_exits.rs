@@ -3,7 +3,7 @@
 //! computed anew for pixels that have left. With an exit before anything changes, each variable that the loop changes
 //! has two values at its exits, the one with which a round began and a new one, and needs a phi after the loop.
 
-use crate::glsl::ir::{
+use crate::ir::{
     Block, Function, Module, Op, Stmt, Value,
     rewrite::{self, Rewriter, Rule},
 };

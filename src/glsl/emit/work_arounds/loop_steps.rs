@@ -4,7 +4,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::glsl::ir::{Block, Function, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, Module, Op, Stmt, Value};
 
 /// Statements of a step that is repeated.
 const LONGEST: usize = 16;

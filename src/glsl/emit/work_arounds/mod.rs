@@ -15,10 +15,10 @@ mod small_arrays;
 mod uniforms;
 mod zero_divisors;
 
-use crate::glsl::{PassKind, PassSource, ir::Module};
+use crate::{PassKind, PassSource, ir::Module};
 
 /// Applies those that a device and its driver need.
-pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
+pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
     if driver.small_arrays {
         small_arrays::run(program);

@@ -8,7 +8,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::glsl::{
+use crate::{
     ir::{
         Binary, Block, Function, Module, Op, Stmt, Value, VarId,
         rewrite::{self, Rewriter, Rule},

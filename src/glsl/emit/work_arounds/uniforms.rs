@@ -6,7 +6,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::glsl::{
+use crate::{
     ir::{
         GlobalId, GlobalKind, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

@@ -1,7 +1,7 @@
 //! Statements and blocks.
 
 use super::Builder;
-use crate::glsl::ir::{Block, FuncId, Op, Stmt, Value};
+use crate::ir::{Block, FuncId, Op, Stmt, Value};
 
 impl Builder<'_, '_> {
     pub fn push(&mut self, statement: Stmt) {

@@ -1,7 +1,7 @@
 //! Literals, zeros and folded composites, each made once a function; memory of the module.
 
 use super::Builder;
-use crate::glsl::{
+use crate::{
     hir::{ConstId, Scalar, Type, TypeId},
     ir::{self, Op, Value},
     lower::context::const_id,
@@ -9,7 +9,7 @@ use crate::glsl::{
 
 /// One component of a value, as far as it can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::glsl::lower) enum Part {
+pub(in crate::lower) enum Part {
     Known(f32),
     /// Component `.1` of a vector, or a scalar.
     Of(Value, u32),

@@ -12,7 +12,7 @@ use super::{
     context::{Lowering, const_id},
     names::{FunctionNames, Mark},
 };
-use crate::glsl::{
+use crate::{
     ast::{List, Loc},
     hir::{FuncId, LocalId, LocalKind, TypeId},
     ir::{self, Block, Op, Param, Stmt, Value},

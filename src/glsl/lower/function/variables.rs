@@ -1,7 +1,7 @@
 //! Locals: what each stands for, and what is known of where values come from.
 
 use super::{Builder, Slot};
-use crate::glsl::{
+use crate::{
     hir::{FuncId, LocalId, Type, TypeId, VarFlags},
     ir::{Op, Value},
     lower::names::FunctionNames,
@@ -77,7 +77,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the author's names in a function whose body is done, with what each stands for.
-    pub(in crate::glsl::lower) fn names(&self, func: FuncId) -> FunctionNames {
+    pub(in crate::lower) fn names(&self, func: FuncId) -> FunctionNames {
         let function = &self.cx.hir[func];
         let local = |index: u32| {
             let id = LocalId::new(index as usize);

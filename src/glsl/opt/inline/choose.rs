@@ -2,7 +2,7 @@
 //! chains of calls a driver would copy too often.
 
 use super::returns::returns;
-use crate::glsl::{
+use crate::{
     ir::{Block, FuncId, Function, Module, Op, Stmt},
     types::TypeId,
 };

@@ -12,7 +12,7 @@
 mod choose;
 mod returns;
 
-use crate::glsl::{
+use crate::{
     ast::Loc,
     ir::{Block, Case, Function, Module, Op, Stmt, Value, Var, VarId},
     types::{Scalar, TypeId},

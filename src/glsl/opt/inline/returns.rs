@@ -1,6 +1,6 @@
 //! The ways in which control leaves a function.
 
-use crate::glsl::ir::{Block, Stmt};
+use crate::ir::{Block, Stmt};
 
 /// Returns whether a statement may return from its function.
 pub(super) fn returns(stmt: &Stmt) -> bool {

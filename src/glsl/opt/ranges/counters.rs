@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::glsl::{
+use crate::{
     ir::{Binary, Block, Function, Op, Stmt, Unary, Value},
     types::{Scalar, TypeId},
 };
@@ -27,7 +27,7 @@ pub(super) enum Step {
 }
 
 pub(super) struct Counters {
-    /// By [`VarId::index`](crate::glsl::ir::VarId::index).
+    /// By [`VarId::index`](crate::ir::VarId::index).
     pub vars: Vec<Written>,
     /// The test of each counter's loop: the comparison that holds for another round, and the value that the counter is
     /// compared with.

@@ -10,7 +10,7 @@
 mod counters;
 
 use self::counters::{Counters, Step, Written};
-use crate::glsl::{
+use crate::{
     builtins::Uniform,
     ir::{
         Binary, Block, GlobalKind, Math, Module, Op, Value,
@@ -64,7 +64,7 @@ struct Ranges {
     counters: Counters,
     /// The bounds of ints and uints, by [`Value::index`].
     values: Vec<Option<Bounds>>,
-    /// The bounds of what was first stored to a variable, by [`VarId::index`](crate::glsl::ir::VarId::index).
+    /// The bounds of what was first stored to a variable, by [`VarId::index`](crate::ir::VarId::index).
     first_stored: Vec<Option<Bounds>>,
     /// The bounds of variables at the code at hand; for a counted float, those of `int(x)`.
     current: Vec<Option<Bounds>>,

@@ -2,7 +2,7 @@
 
 /// A built-in function: names of its parameters, in order, and its text.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::glsl::services) struct Function {
+pub(in crate::services) struct Function {
     pub(super) params: &'static str,
     pub text: &'static str,
 }

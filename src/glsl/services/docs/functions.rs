@@ -1,7 +1,7 @@
 //! Says what the functions of chapter 8 of GLSL ES 3.00 do, all but those that read textures.
 
 use super::built_in::Function;
-use crate::glsl::hir::Builtin;
+use crate::hir::Builtin;
 
 /// Names of the parameters and what the function does.
 #[rustfmt::skip]

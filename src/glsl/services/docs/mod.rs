@@ -10,7 +10,7 @@ mod variables;
 
 use built_in::Function;
 
-use crate::glsl::hir::Builtin;
+use crate::hir::Builtin;
 
 pub(super) fn function(builtin: Builtin) -> Function {
     functions::of(builtin)
@@ -45,7 +45,7 @@ fn find(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::glsl::{check, hir::Uniform};
+    use crate::{check, hir::Uniform};
     use std::collections::BTreeSet;
 
     #[test]
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn the_directives_are_those_the_preprocessor_knows() {
         for name in directives() {
-            assert!(crate::glsl::preprocess::DIRECTIVES.contains(&name), "{name}");
+            assert!(crate::preprocess::DIRECTIVES.contains(&name), "{name}");
         }
     }
 }

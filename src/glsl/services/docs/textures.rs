@@ -1,7 +1,7 @@
 //! Says what the functions of section 8.8 do: reading textures.
 
 use super::built_in::Function;
-use crate::glsl::hir::Builtin;
+use crate::hir::Builtin;
 
 /// Names of the parameters and what the function does.
 #[rustfmt::skip]

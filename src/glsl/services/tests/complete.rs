@@ -1,7 +1,7 @@
 //! Completion: what is proposed where, and in which order.
 
 use super::Marked;
-use crate::glsl::services::{CompletionKind, Completions};
+use crate::services::{CompletionKind, Completions};
 
 fn at(m: &Marked) -> (Completions, String) {
     let found = m.analysis().completions(m.at.0, m.at.1);

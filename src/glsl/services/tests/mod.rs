@@ -6,10 +6,8 @@ mod robust;
 mod signature;
 
 use super::Analysis;
-use crate::{
-    diag::{SourceId, Span},
-    glsl::{ChannelKind, PassKind, PassSource, Text},
-};
+use crate::{ChannelKind, PassKind, PassSource, Text};
+use eddy_diag::{SourceId, Span};
 
 const COMMON: SourceId = SourceId(0);
 const CODE: SourceId = SourceId(1);

@@ -2,12 +2,10 @@
 
 use super::{CODE, COMMON, Marked};
 use crate::{
-    diag::SourceId,
-    glsl::{
-        CustomUniform, CustomUniformKind, PassKind, PassSource, Text,
-        services::{Analysis, Class},
-    },
+    CustomUniform, CustomUniformKind, PassKind, PassSource, Text,
+    services::{Analysis, Class},
 };
+use eddy_diag::SourceId;
 
 /// Kind, first line of the signature and text of what the mark is on.
 fn hover(m: &Marked) -> (&'static str, String, String) {
@@ -101,7 +99,7 @@ fn what_needs_no_explanation_has_none() {
         assert_eq!(m.analysis().hover(m.at.0, m.at.1), None, "{code}");
     }
     let m = Marked::code("f@");
-    assert_eq!(m.analysis().hover(crate::diag::SourceId(7), 0), None);
+    assert_eq!(m.analysis().hover(eddy_diag::SourceId(7), 0), None);
     assert_eq!(m.analysis().hover(CODE, 999), None);
 }
 

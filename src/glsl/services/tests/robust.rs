@@ -1,7 +1,7 @@
 //! Any text, any place: an answer, and no panic.
 
 use super::Marked;
-use crate::glsl::services::Analysis;
+use crate::services::Analysis;
 
 /// Asks everything at every place of both texts.
 fn ask_all(m: &Marked) {

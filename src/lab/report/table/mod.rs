@@ -1,6 +1,6 @@
 //! The points of a study with what follows from all of them together: orders, the frontier, the time to an error.
 
-use crate::lab::{
+use crate::{
     About, Extent, Measured, Method, Number, Point, Race, Results, Study,
     cost::{Cost, Times},
     metrics::{first_reach, order},

@@ -1,5 +1,5 @@
 use super::*;
-use crate::lab::{HardCase, Unit, cost::Clock, metrics::Norms};
+use crate::{HardCase, Unit, cost::Clock, metrics::Norms};
 
 const METHODS: [Method; 3] = [
     Method { name: "own", title: "Own", settings: &[1.0, 2.0], usual: 1.0 },

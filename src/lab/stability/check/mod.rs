@@ -1,6 +1,7 @@
 //! Says what is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
 
-use crate::{engine::Pixels, project::PassId};
+use eddy_engine::Pixels;
+use eddy_project::PassId;
 
 /// The largest size that a number of a quantity may have where nothing better is known, and everywhere where a case is
 /// expected to leave its own range.

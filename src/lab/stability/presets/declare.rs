@@ -1,12 +1,10 @@
 //! The words in which the presets' bounds are declared.
 
 use crate::{
-    lab::{
-        stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
-        stability_record::Kind,
-    },
-    project::PassId,
+    stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    stability_record::Kind,
 };
+use eddy_project::PassId;
 
 /// Says how a project is made to move by so many cells a step.
 #[derive(Clone, Copy, Debug)]

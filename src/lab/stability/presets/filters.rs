@@ -2,7 +2,7 @@
 //! more than its lights.
 
 use super::declare::{always, by, picture, picture_by};
-use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
+use crate::stability::check::{Allowed, Area, Check, Quantity, Situation};
 
 const MEAN: &str = "means of the light, by weights that are positive and sum to 1";
 

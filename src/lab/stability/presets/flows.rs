@@ -1,7 +1,7 @@
 //! Fluids, and what is carried by a flow.
 
 use super::declare::{Courant, Extra, always, by, mouse, picture};
-use crate::lab::{
+use crate::{
     stability::check::{Allowed, Area, Check, Quantity, Situation},
     stability_record::Kind,
 };

@@ -14,7 +14,7 @@ mod others;
 pub use declare::{Courant, Extra};
 
 use super::check::Check;
-use crate::project::{Project, presets};
+use eddy_project::{Project, presets};
 
 /// Holds what a preset declares.
 pub struct Declared {
@@ -95,10 +95,8 @@ pub fn declared_for_copy(project: &Project) -> Option<Declared> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        lab::stability::{Quantity, Subject},
-        project::{PassId, presets as library},
-    };
+    use crate::stability::{Quantity, Subject};
+    use eddy_project::{PassId, presets as library};
 
     #[test]
     fn every_preset_is_declared_with_its_picture_and_those_with_a_state_come_first() {

@@ -1,7 +1,7 @@
 //! Presets whose state is no flow.
 
 use super::declare::{Courant, always, by, mouse, picture};
-use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
+use crate::stability::check::{Allowed, Area, Check, Quantity, Situation};
 
 pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
     let checks = vec![

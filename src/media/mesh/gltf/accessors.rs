@@ -4,7 +4,7 @@ use super::{
     buffers::Buffers,
     document::{Accessor, Dimensions, Index, Root},
 };
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 use Component::{F32, I8, I16, U8, U16, U32};
 use Dimensions::{Mat4, Scalar, Vec2, Vec3, Vec4};
 

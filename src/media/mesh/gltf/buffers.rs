@@ -4,15 +4,13 @@ use super::{
     document::{Index, Root},
     extensions,
 };
-use crate::{
-    media::mesh::trouble::Trouble,
-    project::{
-        confine::FileError,
-        limits::{self, Limit},
-        unescaped,
-    },
-};
+use crate::mesh::trouble::Trouble;
 use data_url::DataUrl;
+use eddy_project::{
+    confine::FileError,
+    limits::{self, Limit},
+    unescaped,
+};
 use std::borrow::Cow;
 
 /// Reads a file that the model names.

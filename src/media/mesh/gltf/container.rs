@@ -1,7 +1,7 @@
 //! The container of a glTF file: plain JSON text, or the chunks of a `.glb` (section 4). What is in the file says which
 //! of the two it is, whatever its name.
 
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 
 /// The JSON text of a file, and the binary chunk of a `.glb`.
 pub(super) struct Chunks<'a> {

@@ -1,7 +1,8 @@
 //! Extensions that a file says it needs, and which of them matter to a shape.
 
 use super::document::Root;
-use crate::{media::mesh::trouble::Trouble, project::listed};
+use crate::mesh::trouble::Trouble;
+use eddy_project::listed;
 
 /// Extensions that change where vertices lie or which are drawn, and that this module reads, or tells of where they
 /// are met: compressed data may have a plain fallback.

@@ -5,7 +5,7 @@ use super::{
     document::{Index, Instancing},
     nodes::{Placed, placement},
 };
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 use glam::{DAffine3, DVec3};
 
 fn of(source: Source<'_>, node: Option<Index>) -> Option<&Instancing> {

@@ -4,7 +4,8 @@ use super::{
     document::{Asset, Attributes, Head, Index, Root},
     extensions,
 };
-use crate::{media::mesh::trouble::Trouble, project::limits};
+use crate::mesh::trouble::Trouble;
+use eddy_project::limits;
 use serde_json::value::RawValue;
 
 /// Reads and checks the text. After this every index that Eddy follows is in range.

@@ -1,7 +1,7 @@
 //! The node hierarchy: a set of strict trees (section 3.5.2), which a file may not keep to.
 
 use super::document::{Index, Node, Root};
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 
 /// A mesh in its place.

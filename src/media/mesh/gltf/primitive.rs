@@ -8,7 +8,7 @@ use super::{
     skins::Bound,
     texture::Transform,
 };
-use crate::media::mesh::{
+use crate::mesh::{
     model::{Raw, Vertex},
     trouble::Trouble,
 };

@@ -5,7 +5,7 @@ use super::{
     document::{Attributes, Index},
     nodes::{Placed, Stage},
 };
-use crate::media::mesh::trouble::{Counts, Trouble};
+use crate::mesh::trouble::{Counts, Trouble};
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 use std::collections::HashMap;
 

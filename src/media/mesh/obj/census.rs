@@ -4,7 +4,7 @@ use super::{
     numbers::whole,
     text::{Statement, statements},
 };
-use crate::media::mesh::{
+use crate::mesh::{
     error::MeshWarning,
     trouble::{Counts, Trouble},
 };

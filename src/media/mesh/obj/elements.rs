@@ -5,7 +5,7 @@ use super::{
     numbers::numbers,
     text::{Statement, quoted, statements},
 };
-use crate::media::mesh::{error::MeshWarning, model::Vertex, trouble::Trouble};
+use crate::mesh::{error::MeshWarning, model::Vertex, trouble::Trouble};
 
 /// The elements that the faces of a file name by number.
 pub(super) struct Elements {

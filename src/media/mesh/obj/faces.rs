@@ -7,7 +7,7 @@ use super::{
     polygon::Cutter,
     text::{Statement, quoted, statements},
 };
-use crate::media::mesh::{
+use crate::mesh::{
     model::Raw,
     trouble::{Counts, Trouble},
 };

@@ -1,7 +1,7 @@
 //! The numbers of an OBJ file as exporters write them.
 
 use super::text::{Statement, quoted};
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 
 /// Reads the numbers of a statement behind its keyword, as many as there is room for, and returns how many it has.
 /// One that is not finite is none in the file either, or more than a float holds.

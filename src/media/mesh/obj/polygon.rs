@@ -3,10 +3,8 @@
 //! Cut by ears and not by a crate: what there is drops corners that lie on a line with their neighbours, which leaves
 //! gaps beside the faces that meet there.
 
-use crate::{
-    media::mesh::trouble::{Trouble, at_most},
-    project::limits,
-};
+use crate::mesh::trouble::{Trouble, at_most};
+use eddy_project::limits;
 use glam::{DVec2, DVec3};
 
 /// Cuts the faces of a file.

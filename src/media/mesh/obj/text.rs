@@ -2,7 +2,7 @@
 //!
 //! OBJ is words of ASCII, and the names between them are of any encoding: what is no number stays bytes.
 
-use crate::media::mesh::trouble::Trouble;
+use crate::mesh::trouble::Trouble;
 use std::borrow::Cow;
 
 /// Returns the text in an encoding of which ASCII is a part, without its byte order mark.

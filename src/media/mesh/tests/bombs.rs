@@ -1,7 +1,7 @@
 //! Models made to do harm: small files that ask for much, and files that a reader stumbles over.
 
 use super::*;
-use crate::project::confine::Reason;
+use eddy_project::confine::Reason;
 use std::fs;
 
 fn error(file: &str, bytes: impl AsRef<[u8]>) -> MeshError {

@@ -2,7 +2,7 @@
 //! containers.
 
 use super::*;
-use crate::project::Normals;
+use eddy_project::Normals;
 use serde_json::{Value, json};
 use std::fs;
 

@@ -4,7 +4,7 @@ mod bombs;
 mod gltf;
 
 use super::{Mesh, MeshError, NAMES, Vertex, load};
-use crate::project::MeshSource;
+use eddy_project::MeshSource;
 use glam::Vec3;
 use std::path::Path;
 

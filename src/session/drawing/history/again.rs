@@ -6,7 +6,7 @@
 //! ([`History::prepare_again`]). That state is kept, for the next time.
 
 use super::{BUDGET, Frame, History, before::Before};
-use crate::engine::{Engine, EngineError, FrameInputs};
+use eddy_engine::{Engine, EngineError, FrameInputs};
 use std::{sync::Arc, time::Duration};
 
 impl History {

@@ -1,6 +1,6 @@
 //! Owns what is kept to draw the frame again that is shown. How that is done is in `again`.
 
-use crate::engine::Snapshot;
+use eddy_engine::Snapshot;
 use std::sync::Arc;
 
 /// Holds what the targets held before a frame, on the canvas that they had then.

@@ -6,12 +6,10 @@ mod again;
 mod before;
 mod thinning;
 
-use crate::{
-    engine::{Engine, EngineError, FrameInputs, Snapshot},
-    project::CustomUniformValues,
-    session::seeking::{Goal, Reach},
-};
+use crate::seeking::{Goal, Reach};
 use before::Again;
+use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
+use eddy_project::CustomUniformValues;
 use std::{
     collections::VecDeque,
     sync::Arc,

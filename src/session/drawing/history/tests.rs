@@ -1,12 +1,10 @@
 //! Goes to frames that were drawn, and counts what is drawn again for it.
 
 use super::*;
-use crate::{
-    engine::{BuildOptions, Program},
-    media,
-    project::{PassId, presets},
-    session::testing,
-};
+use eddy_engine::{BuildOptions, Program};
+use eddy_gpu::testing;
+use eddy_media as media;
+use eddy_project::{PassId, presets};
 
 const SIZE: (u32, u32) = (32, 18);
 

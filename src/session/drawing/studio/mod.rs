@@ -6,17 +6,15 @@ use super::{
     job::{Capture, Changes, Done, DrawnFrame, Job, Reads, TileLimit},
 };
 use crate::{
-    engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
-    gpu::Gpu,
-    project::PassId,
-    session::{
-        buffers::{BufferRead, BuffersRead, BuffersWanted},
-        measuring::{Measured, MeasuresWanted},
-        nonfinite::NonfiniteTexels,
-        probe::{NumbersWanted, ProbeNumbers, Statistics},
-        reduction::Quantity,
-    },
+    buffers::{BufferRead, BuffersRead, BuffersWanted},
+    measuring::{Measured, MeasuresWanted},
+    nonfinite::NonfiniteTexels,
+    probe::{NumbersWanted, ProbeNumbers, Statistics},
+    reduction::Quantity,
 };
+use eddy_engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program};
+use eddy_gpu::Gpu;
+use eddy_project::PassId;
 use std::{
     collections::HashMap,
     time::{Duration, Instant},

@@ -1,14 +1,10 @@
 //! Tests of what an engine does for a job.
 
 use super::*;
-use crate::{
-    media,
-    project::presets,
-    session::{
-        drawing::{gate::Way, job::Coming},
-        testing,
-    },
-};
+use crate::drawing::{gate::Way, job::Coming};
+use eddy_gpu::testing;
+use eddy_media as media;
+use eddy_project::presets;
 
 #[test]
 fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
@@ -74,7 +70,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
             1 => {
                 let capture = Capture {
                     pass: PassId::Image,
-                    format: crate::session::capture::Format::Npy,
+                    format: crate::capture::Format::Npy,
                     folder: "".into(),
                     stem: "".into(),
                 };

@@ -2,7 +2,7 @@
 //! too much is refused before it is given.
 
 use super::*;
-use crate::project::limits;
+use eddy_project::limits;
 use std::path::PathBuf;
 
 /// Names that no file of a project has, in a file, a link, a folder and a submodule.

@@ -1,10 +1,8 @@
 //! Says where moments are in the texts, and which moments a place of a text has.
 
 use super::record::{History, Moment, MomentKind};
-use crate::{
-    diag::{SourceId, Span},
-    glsl::statements::Statement,
-};
+use eddy_diag::{SourceId, Span};
+use eddy_glsl::statements::Statement;
 
 impl History {
     /// The text that control is at.
@@ -35,7 +33,7 @@ impl History {
     }
 
     /// The statement that a line stands for: the first that begins in it or below it, in a text.
-    pub(in crate::session::trace) fn statement_from(&self, source: SourceId, from: u32) -> Option<u32> {
+    pub(in crate::trace) fn statement_from(&self, source: SourceId, from: u32) -> Option<u32> {
         let statements = self.walkable.statements().list.iter().enumerate();
         let begins = statements.filter_map(|(index, statement)| {
             let statement = statement.as_ref()?;
@@ -52,18 +50,18 @@ impl History {
         list.iter().flatten().any(|other| other.parent == Some(index))
     }
 
-    pub(in crate::session::trace) fn statement_head(&self, index: u32) -> Option<Span> {
+    pub(in crate::trace) fn statement_head(&self, index: u32) -> Option<Span> {
         self.walkable.statements().get(index).map(|statement| statement.head)
     }
 
     /// The statement that is about to run.
-    pub(in crate::session::trace) fn statement_of(&self, at: usize) -> Option<u32> {
+    pub(in crate::trace) fn statement_of(&self, at: usize) -> Option<u32> {
         self.moments.get(at).map(|moment| moment.statement)
     }
 
     /// The moments at which it is the turn of a comment at a byte of a text: behind the statement that ends before it
     /// in the same block, or, where none does, before the first one of the block.
-    pub(in crate::session::trace) fn turns_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
+    pub(in crate::trace) fn turns_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
         let statements = self.walkable.statements();
         let holds = |span: &Span| span.source == source && span.start <= byte && byte < span.end;
         let Some(function) = statements.functions.iter().position(holds) else { return Vec::new() };

@@ -1,16 +1,16 @@
 //! Owns what is kept of a walk.
 
 use super::super::number::Number;
-use crate::glsl::{types::TypeId, walkable::Walkable};
+use eddy_glsl::{types::TypeId, walkable::Walkable};
 
 /// Control comes to a part of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Moment {
     pub kind: MomentKind,
     /// The statement: an id of the program's.
-    pub(in crate::session::trace) statement: u32,
+    pub(in crate::trace) statement: u32,
     /// An index into the calls.
-    pub(in crate::session::trace) call: u32,
+    pub(in crate::trace) call: u32,
     /// Writes before it.
     pub(super) writes: u32,
 }
@@ -93,7 +93,7 @@ pub struct Value {
     pub numbers: Vec<Number>,
     /// It is a vector of floats, which can be a colour.
     pub is_vector: bool,
-    pub(in crate::session::trace) words: Vec<u32>,
+    pub(in crate::trace) words: Vec<u32>,
 }
 
 /// The way of a pixel.

@@ -1,7 +1,7 @@
 //! Writes a history down while the walk goes on.
 
 use super::record::{Call, History, Moment, MomentKind, NONE, Variable, Write};
-use crate::glsl::{
+use eddy_glsl::{
     ir::{Block, FuncId, GlobalId, GlobalKind, Op, Stmt, Value},
     types::TypeId,
     walk::{Cell, Observer, Real, View},
@@ -258,7 +258,7 @@ fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u
     match program[function][value] {
         Op::Literal(_, bits) => Some(vec![bits]),
         Op::Const(id) => Some(program[id].words.clone()),
-        Op::Zero(ty) => Some(vec![0; crate::glsl::walk::cells(program, ty)]),
+        Op::Zero(ty) => Some(vec![0; eddy_glsl::walk::cells(program, ty)]),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
 //! The turns of a loop.
 
 use super::record::{History, Moment, MomentKind, Shown, Turn};
-use crate::glsl::statements::When;
+use eddy_glsl::statements::When;
 
 impl History {
     /// The loop that a moment lies in, the innermost.

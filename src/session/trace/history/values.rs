@@ -4,7 +4,7 @@ use super::{
     super::number::Number,
     record::{Call, History, Moment, MomentKind, NONE, Shown, Value, Variable, Write},
 };
-use crate::glsl::{
+use eddy_glsl::{
     statements::When,
     types::{Scalar, Type, TypeId},
     walk::cells,
@@ -31,7 +31,7 @@ impl History {
     }
 
     /// The variables that can be named, with their types; of those of one name the one that is meant.
-    pub(in crate::session::trace) fn names(&self, at: usize) -> Vec<(String, String)> {
+    pub(in crate::trace) fn names(&self, at: usize) -> Vec<(String, String)> {
         let mut names: Vec<(String, String)> = Vec::new();
         let mut add = |name: &str, ty: TypeId| {
             if !name.is_empty() && names.iter().all(|(there, _)| there != name) {
@@ -50,7 +50,7 @@ impl History {
     }
 
     /// The author's variables of the module that code may write, with their types: no `in` variables of a stage.
-    pub(in crate::session::trace) fn global_names(&self) -> impl Iterator<Item = (&str, &str)> {
+    pub(in crate::trace) fn global_names(&self) -> impl Iterator<Item = (&str, &str)> {
         let inputs: Vec<_> = self.walkable.inputs().collect();
         let inputs = self.walkable.globals().filter(|(_, id)| inputs.contains(id)).map(|(name, _)| name);
         let inputs: Vec<&str> = inputs.collect();
@@ -90,7 +90,7 @@ impl History {
     }
 
     /// A variable of the module, whatever else has its name.
-    pub(in crate::session::trace) fn global_words(&self, at: usize, name: &str) -> Option<Vec<u32>> {
+    pub(in crate::trace) fn global_words(&self, at: usize, name: &str) -> Option<Vec<u32>> {
         let (variable, slot) = self.global(name)?;
         Some(self.held(at, variable, slot))
     }

@@ -3,7 +3,7 @@
 //! one.
 
 use super::checked;
-use crate::glsl::{ChannelKind, PassKind};
+use crate::{ChannelKind, PassKind};
 
 const SECTIONS: [(&str, &str); 5] = [
     ("4", include_str!("section_4.glsl")),

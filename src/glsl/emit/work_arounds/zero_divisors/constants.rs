@@ -17,7 +17,7 @@ use super::{
         State::{self, Unknown, Unseen},
     },
 };
-use crate::glsl::{
+use crate::{
     ir::{Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value},
     types::{Scalar, Type},
 };

@@ -3,7 +3,7 @@
 //! Most are set at the beginning of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
 //! sees that the zero that such a variable begins with gets nowhere.
 
-use crate::glsl::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
 
 /// Returns for each variable of the module whether something may read it before it is written as a whole.
 pub(super) fn exposed(program: &Module) -> Vec<bool> {

@@ -1,6 +1,6 @@
 //! Intervals of numbers that are known before a program runs.
 
-use crate::glsl::{
+use crate::{
     ir::{Binary, Math, Unary},
     types::Scalar,
 };

@@ -14,7 +14,7 @@ mod same;
 mod state;
 
 use self::constants::Constants;
-use crate::glsl::{
+use crate::{
     ir::{
         Binary, Function, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},

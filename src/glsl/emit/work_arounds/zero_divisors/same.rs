@@ -1,6 +1,6 @@
 //! Finds differences that are zero because both sides are the same.
 
-use crate::glsl::ir::{Function, Op, Value};
+use crate::ir::{Function, Op, Value};
 
 /// The levels to which two expressions are compared.
 const MOST_LEVELS: u32 = 8;

@@ -19,10 +19,8 @@ pub use keyboard::Keyboard;
 pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
 
-use crate::{
-    diag::Diagnostic,
-    project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project},
-};
+use eddy_diag::Diagnostic;
+use eddy_project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
 use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
     collections::{HashMap, HashSet},
@@ -183,7 +181,7 @@ impl MeshKey {
 /// The key that tells one loaded picture from another.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MediaKey {
-    pub media: crate::project::Media,
+    pub media: eddy_project::Media,
     pub vflip: bool,
 }
 

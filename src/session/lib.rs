@@ -72,8 +72,6 @@ mod state;
 mod still;
 mod structure;
 mod template;
-#[cfg(test)]
-pub(crate) mod testing;
 pub mod trace;
 mod tracing;
 pub mod trial;

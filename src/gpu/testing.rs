@@ -1,6 +1,6 @@
 //! The device that unit tests draw on. Integration tests have the same in `tests/it/support`.
 
-use crate::gpu::{Gpu, GpuOptions};
+use crate::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
 /// Returns a device, or `None` after saying so. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.

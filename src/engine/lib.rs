@@ -1,6 +1,6 @@
 //! The one engine: a project and [`FrameInputs`] in, textures out.
 //!
-//! Owns the way from a [`Project`](crate::project::Project) to a [`Program`] (compile, then plan, then pipelines) and
+//! Owns the way from a [`Project`](eddy_project::Project) to a [`Program`] (compile, then plan, then pipelines) and
 //! the only code that encodes a frame. Reads no clock, no file and no environment variable: same project, same inputs,
 //! same bytes. Knows no window.
 
@@ -39,16 +39,14 @@ mod uploads;
 mod viewer;
 mod watch;
 
-pub use crate::{
-    gpu::{Paint, ValueLook},
-    graph::When,
-};
 pub use build::{BuildOptions, BuildWork, Builder, Built};
 pub use compiled::CompiledPass;
 pub use costs::{CostClock, PassCost, PassRead, PassRole};
+pub use eddy_gpu::{Paint, ValueLook};
+pub use eddy_graph::When;
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
-pub(crate) use inspect::DrawInputs;
+pub use inspect::DrawInputs;
 pub use inspect::{Level, LevelBy, MeshInputs, PassInputs, TextureCopy};
 pub use preamble::KeptPreamble;
 pub use program::Program;

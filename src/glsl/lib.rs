@@ -6,8 +6,8 @@
 //! groups, uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading
 //! this one.
 
-pub(crate) mod ast;
-pub(crate) mod builtins;
+pub mod ast;
+pub mod builtins;
 pub(crate) mod check;
 mod compile;
 mod compiled;
@@ -16,7 +16,7 @@ mod driver;
 pub(crate) mod emit;
 pub(crate) mod hir;
 pub mod interface;
-pub(crate) mod ir;
+pub mod ir;
 mod lex;
 pub(crate) mod lower;
 mod near;
@@ -33,11 +33,11 @@ pub mod services;
 mod source;
 mod stack;
 pub mod stages;
-pub(crate) mod statements;
-pub(crate) mod types;
+pub mod statements;
+pub mod types;
 mod unsequenced;
-pub(crate) mod walk;
-pub(crate) mod walkable;
+pub mod walk;
+pub mod walkable;
 
 pub use check::taken;
 pub use compile::{bulk, check_common, compile, compile_linked, diagnose, dump_ir};

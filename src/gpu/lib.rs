@@ -19,6 +19,8 @@ mod priority;
 mod readback;
 mod samplers;
 mod spirv;
+#[cfg(feature = "testing")]
+pub mod testing;
 mod texture;
 mod timer;
 mod values;
