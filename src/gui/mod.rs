@@ -32,6 +32,7 @@ mod halt;
 mod help;
 mod histogram;
 mod icons;
+mod includes;
 mod keys;
 mod lab;
 mod measures;

@@ -4,6 +4,7 @@ use super::{
     accessible,
     actions::Action,
     editor::EditorAction,
+    includes,
     outbox::{Outbox, Wish},
     theme::{self, Palette},
 };
@@ -32,43 +33,14 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
     let dot = pos2(rect.left() + 13.0, rect.center().y);
     ui.painter().circle_filled(dot, 4.0, color);
     let painter = ui.painter().with_clip_rect(rect);
-    painter.text(
+    let state = painter.text(
         pos2(rect.left() + 25.0, rect.center().y),
         Align2::LEFT_CENTER,
         text,
         FontId::proportional(12.0),
         theme::of(ui).text,
     );
-    let includes: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
-    if !includes.is_empty() {
-        let shown = format!("includes {}", crate::project::listed(&includes));
-        let font = FontId::proportional(12.0);
-        let end = painter.text(
-            pos2(rect.right() - 8.0, rect.center().y),
-            Align2::RIGHT_CENTER,
-            shown,
-            font,
-            theme::of(ui).weak,
-        );
-        out.place("includes", end);
-        let link = ui.interact(end, ui.scope_id().with("includes"), Sense::click());
-        accessible::name(&link, egui::Role::Link, "Open an included file");
-        let files: Vec<Tab> = session.tabs().into_iter().filter(|tab| matches!(tab, Tab::Included(_))).collect();
-        if let ([file], true) = (&files[..], link.clicked()) {
-            out.wishes.push(Wish::GoTo(file.clone(), None));
-        }
-        if files.len() > 1 {
-            egui::Popup::menu(&link).show(|ui| {
-                for file in &files {
-                    let button = ui.button(file.title());
-                    if out.clicked(&format!("includes:{}", file.title()), &button) {
-                        out.wishes.push(Wish::GoTo(file.clone(), None));
-                    }
-                }
-            });
-        }
-        link.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text("Open an included file");
-    }
+    includes::show(ui, session, Rect::from_min_max(pos2(state.right() + 16.0, rect.top()), rect.max), out);
     out.place("compile-state", rect);
     whole(ui, session, caret, out);
     let rows: Vec<Row<'_>> = session.diagnostics().iter().enumerate().flat_map(|(i, d)| rows_of(i, d)).collect();

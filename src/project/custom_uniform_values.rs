@@ -4,12 +4,38 @@ use super::{
     custom_uniforms::{self, CustomUniform, CustomUniformValue, CustomUniforms},
     model::Project,
 };
+use eddy_diag::{SourceId, Span};
 
 impl Project {
     /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
     pub fn custom_uniforms(&self) -> CustomUniforms {
         let sources = self.texts();
         CustomUniforms::read(sources.iter().map(|(id, source)| (id, &*source.text)))
+    }
+
+    /// Returns the names that `#iUniform` lines declare, one for each line, and where they stand. Spans point into
+    /// [`Project::sources`].
+    pub fn custom_uniform_names(&self) -> Vec<(String, Span)> {
+        self.texts().iter().flat_map(|(id, source)| CustomUniforms::names(id, &source.text)).collect()
+    }
+
+    /// Hands values on to the new names of their uniforms, after a text of the project has changed from `before` to
+    /// `after`: a declaration that differs in its name alone is the same one. A name that is still declared elsewhere
+    /// keeps its value. Returns the old and the new names.
+    pub fn follow_renamed_custom_uniforms(&mut self, before: &str, after: &str) -> Vec<(String, String)> {
+        let mut renamed = renamed(before, after);
+        if !renamed.is_empty() {
+            let declared = self.custom_uniforms();
+            renamed.retain(|(from, to)| declared.get(from).is_none() && declared.get(to).is_some());
+        }
+        for (from, to) in &renamed {
+            if !self.custom_uniform_values.contains_key(to)
+                && let Some(value) = self.custom_uniform_values.remove(from)
+            {
+                self.custom_uniform_values.insert(to.clone(), value);
+            }
+        }
+        renamed
     }
 
     /// Sets one custom uniform from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`,
@@ -37,4 +63,24 @@ impl Project {
             self.custom_uniform_values.insert(custom_uniform.name.clone(), value);
         }
     }
+}
+
+/// Returns the old and the new names of declarations that differ in nothing else, in texts that declare as many.
+fn renamed(before: &str, after: &str) -> Vec<(String, String)> {
+    if !before.contains("iUniform") || !after.contains("iUniform") {
+        return Vec::new();
+    }
+    let [old, new] = [before, after].map(|text| CustomUniforms::names(SourceId(0), text));
+    if old.len() != new.len() {
+        return Vec::new();
+    }
+    let is_same_line = |a: Span, b: Span| around(before, a) == around(after, b);
+    let pairs = old.into_iter().zip(new).filter(|(a, b)| a.0 != b.0 && is_same_line(a.1, b.1));
+    pairs.map(|(a, b)| (a.0, b.0)).collect()
+}
+
+/// Returns what stands before and behind a name in its line.
+fn around(text: &str, name: Span) -> (&str, &str) {
+    let (before, behind) = (&text[..name.range().start], &text[name.range().end..]);
+    (before.rsplit('\n').next().unwrap_or_default(), behind.lines().next().unwrap_or_default())
 }

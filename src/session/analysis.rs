@@ -148,8 +148,12 @@ impl Session {
         let declared = of.analysis.definition(source, offset);
         let is_shared = |id: SourceId| id == COMMON || matches!(project.tab_of(id), Some(Tab::Included(_)));
         let mut places: Vec<(SourceId, Range<usize>)> = here.iter().map(|s| (s.source, s.range())).collect();
-        if let Some(shared) = declared.filter(|s| is_shared(s.source)) {
-            let all = rename::everywhere(project, shared.source, shared.start as usize);
+        let is_uniform = of.analysis.custom_uniform_at(source, offset).is_some()
+            || project.custom_uniform_names().iter().any(|(_, s)| s.source == source && s.range().contains(&offset));
+        let uniform = is_uniform.then_some((source, offset));
+        let shared = declared.filter(|s| is_shared(s.source)).map(|s| (s.source, s.start as usize));
+        if let Some((source, at)) = uniform.or(shared) {
+            let all = rename::everywhere(project, source, at);
             let all = all.into_iter().map(|(id, start, end)| (SourceId(id), start as usize..end as usize));
             places.extend(all);
         }

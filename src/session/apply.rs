@@ -213,11 +213,13 @@ impl Session {
         let declares = |text: &str| text.contains("#iChannel");
         let is_asked = self.project().origin.has_channels_in_texts() && (declares(&source.text) || declares(text));
         let before = is_asked.then(|| self.declared_channels(tab));
+        let old = source.text.clone();
         // The worker reads them when it compiles: a keystroke waits for no file.
         if include_names(&source.text) != include_names(text) {
             self.compile.include_edits += 1;
         }
         self.documents.set_text(tab, text);
+        self.follow_renamed_uniforms(&old, text);
         self.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
@@ -236,7 +238,9 @@ impl Session {
     }
 
     fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
-        let Some(custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
+        let Some(mut custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
+        custom_uniform.name = self.newest_name(name);
+        let name = custom_uniform.name.as_str();
         let before = self.project().custom_uniform_values.clone();
         let project = self.documents.current_mut();
         match value {
@@ -256,7 +260,8 @@ impl Session {
     pub(super) fn custom_uniforms_turned(&mut self) {
         let played = self.run.replay.playing.as_ref().and_then(|playing| playing.values());
         self.run.replay.has_values = played.is_some();
-        let values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        self.add_old_names(&mut values);
         self.drawing.wanted.custom_uniforms = Some(values);
     }
 

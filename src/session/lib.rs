@@ -54,6 +54,8 @@ mod still;
 mod structure;
 mod template;
 mod tracing;
+mod uniform_names;
+mod uniforms_of_texts;
 pub mod view;
 mod watch;
 

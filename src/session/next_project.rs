@@ -18,6 +18,7 @@ use super::{
     replay::Replay,
     seek::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
+    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::CompileState,
 };
 use eddy_media::Keyboard;
@@ -52,6 +53,7 @@ impl Session {
         self.halt_for_new_project();
         self.disk_is_known();
         self.compile_soon();
+        self.read_declared_uniforms();
     }
 }
 
@@ -79,6 +81,8 @@ impl Compile {
             fallback: None,
             newest_since: None,
             edited_at: None,
+            renamed_uniforms: RenamedUniforms::new(),
+            declared_uniforms: DeclaredUniforms::default(),
             on_save: self.on_save,
             waits_for_save: false,
         }

@@ -77,8 +77,27 @@ impl PassHistory {
             last.at = at;
             return;
         }
-        let title = name.map_or_else(|| "reset all uniforms".to_owned(), |name| format!("change {name}"));
+        let title = name.map_or_else(|| "reset all uniforms".to_owned(), turning);
         self.add(title, Side::Uniforms(before, name.map(str::to_owned)), None, None, at);
+    }
+
+    /// A uniform has another name from now on, on both sides of every step.
+    pub fn rename_uniform(&mut self, from: &str, to: &str) {
+        for step in self.undo.iter_mut().chain(&mut self.redo) {
+            let values = match &mut step.side {
+                Side::Passes(project) => &mut project.custom_uniform_values,
+                Side::Uniforms(values, turned) => {
+                    if turned.as_deref() == Some(from) {
+                        *turned = Some(to.to_owned());
+                        step.title = turning(to);
+                    }
+                    values
+                }
+            };
+            if let Some(value) = values.remove(from) {
+                values.insert(to.to_owned(), value);
+            }
+        }
     }
 
     fn add(
@@ -95,6 +114,11 @@ impl PassHistory {
             self.undo.remove(0);
         }
     }
+}
+
+/// The title of a step that turned a uniform.
+fn turning(name: &str) -> String {
+    format!("change {name}")
 }
 
 impl Step {

@@ -13,7 +13,7 @@ use eddy_debugger::nonfinite::SearchView;
 use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
 use eddy_gpu::Gpu;
 use eddy_playback::comparing::{Compared, ComparisonView};
-use eddy_project::{CustomUniform, CustomUniformValue, PassId, Project, Tab};
+use eddy_project::{CustomUniform, PassId, Project, Tab};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -106,14 +106,13 @@ impl Session {
         self.compile.waits_for_save
     }
 
-    /// The author's own uniforms, as the running program declares them.
+    /// The author's own uniforms, as the running program declares them. Where it declares none, or there is no program
+    /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
-        self.drawing.custom_uniforms()
-    }
-
-    /// Returns where one of them stands.
-    pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
-        custom_uniform.value(&self.project().custom_uniform_values)
+        match self.drawing.custom_uniforms() {
+            [] => &self.compile.declared_uniforms.list,
+            drawn => drawn,
+        }
     }
 
     /// The tab's text differs from the one on disk.

@@ -7,7 +7,7 @@ use super::{
 use eddy_diag::{SourceId, Span};
 use eddy_engine as engine;
 use eddy_glsl::{self as glsl, services::Analysis};
-use eddy_project::{Project, Stage, Tab};
+use eddy_project::{FillKind, FillValue, Project, Stage, Tab};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The places of a name: text, first byte, the byte behind the last.
@@ -38,6 +38,9 @@ impl Session {
         self.renamable(tab, at)?;
         let (name, places) = self.named_at(tab, at)?;
         let project = self.project();
+        if let Some(place) = used_in_fill(project, &name) {
+            return Err(format!("`{name}` is used in {place} too: write `{to}` there first, then rename it"));
+        }
         let mut edits = Vec::new();
         for &(source, start, end) in &places {
             let range = start as usize..end as usize;
@@ -66,7 +69,9 @@ impl Session {
             })
             .collect();
         let found = renamed.id_of(tab).map(|id| everywhere(&renamed, id, at)).unwrap_or_default();
-        if found != wanted {
+        let is_taken =
+            || renamed.custom_uniforms().get(to).is_some() && programs(&renamed).iter().any(|p| p.declares(to));
+        if found != wanted || is_taken() {
             return Err(format!("`{to}` means something here already: choose another name"));
         }
         Ok(TabFix { title: format!("Rename `{name}` to `{to}`"), edits })
@@ -95,12 +100,9 @@ impl Session {
 
 /// Every place where what is named at a byte of a text is named, in all passes; none for what no text declares.
 pub(super) fn everywhere(project: &Project, source: SourceId, at: usize) -> Places {
-    let texts = engine::Sources::new(project);
-    let mut programs: Vec<Analysis> = Vec::new();
-    for (index, pass) in project.passes.iter().enumerate() {
-        let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
-        programs
-            .extend([Stage::Own].into_iter().chain((0..files).map(Stage::File)).map(|s| texts.analyse_stage(index, s)));
+    let programs = programs(project);
+    if let Some(found) = of_custom_uniform(project, &programs, source, at) {
+        return found;
     }
     let mut found = Places::new();
     let mut queue: Vec<(SourceId, usize)> = vec![(source, at)];
@@ -119,6 +121,45 @@ pub(super) fn everywhere(project: &Project, source: SourceId, at: usize) -> Plac
         }
     }
     found
+}
+
+/// Returns the first expression of `eddy.toml` that uses one of the author's own uniforms: no edit of a tab reaches it.
+fn used_in_fill(project: &Project, name: &str) -> Option<String> {
+    project.custom_uniforms().get(name)?;
+    let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    project.fills().find_map(|(index, kind, fill)| {
+        let FillValue::Expression(text) = &fill.value else { return None };
+        let is_used = text.split(|c| !is_of_name(c)).any(|word| word == name);
+        let what = match kind {
+            FillKind::Initial => "initial state",
+            FillKind::Boundary => "edges",
+        };
+        is_used.then(|| format!("the {what} of {}", project.passes[index].id.title()))
+    })
+}
+
+/// Every stage of every pass.
+fn programs(project: &Project) -> Vec<Analysis> {
+    let texts = engine::Sources::new(project);
+    let mut programs = Vec::new();
+    for (index, pass) in project.passes.iter().enumerate() {
+        let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
+        let stages = [Stage::Own].into_iter().chain((0..files).map(Stage::File));
+        programs.extend(stages.map(|stage| texts.analyse_stage(index, stage)));
+    }
+    programs
+}
+
+/// Every place where one of the author's own uniforms is declared or used, if one is named at a byte of a text. One name
+/// is one uniform in all texts.
+fn of_custom_uniform(project: &Project, programs: &[Analysis], source: SourceId, at: usize) -> Option<Places> {
+    let declared = project.custom_uniform_names();
+    let is_here = |span: &Span| span.source == source && (span.start as usize..=span.end as usize).contains(&at);
+    let here = declared.iter().find(|(_, span)| is_here(span)).map(|(name, _)| name.as_str());
+    let name = here.or_else(|| programs.iter().find_map(|program| program.custom_uniform_at(source, at)))?;
+    let lines = declared.iter().filter(|(other, _)| other == name).map(|(_, span)| *span);
+    let uses = programs.iter().flat_map(|program| program.uses_of_custom_uniform(name));
+    Some(lines.chain(uses).map(|Span { source, start, end }| (source.0, start, end)).collect())
 }
 
 /// Returns where a byte of a text is once every place has a name of another length.

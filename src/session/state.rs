@@ -27,6 +27,7 @@ use super::{
     runs::Runs,
     seek::Seeking,
     tracing::Tracing,
+    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::{About, CompileState, Level, Notice, TabDiagnostic},
     watch::Watch,
 };
@@ -150,6 +151,9 @@ pub(super) struct Compile {
     /// Since when the worker compiles the newest text, if it does.
     pub newest_since: Option<Instant>,
     pub edited_at: Option<Instant>,
+    /// Uniforms that have another name in the texts than in the program that draws.
+    pub renamed_uniforms: RenamedUniforms,
+    pub declared_uniforms: DeclaredUniforms,
 }
 
 /// The project's files.
@@ -273,6 +277,8 @@ impl Session {
                 fallback: None,
                 newest_since: None,
                 edited_at: None,
+                renamed_uniforms: RenamedUniforms::new(),
+                declared_uniforms: DeclaredUniforms::default(),
             },
             disk: Disk {
                 watch: None,

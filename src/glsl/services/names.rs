@@ -29,10 +29,38 @@ impl Analysis {
     pub fn uses(&self, source: SourceId, offset: usize) -> Vec<Span> {
         let Some((source, token)) = self.word_at(source, offset) else { return Vec::new() };
         let Some(target) = self.target_of(source, token) else { return Vec::new() };
+        self.uses_of(target, self.sources[source].tokens[token].value)
+    }
+
+    /// Returns the name of the author's own uniform that the name at `offset` stands for. The `#iUniform` lines that
+    /// declare it are not GLSL: nothing is named there.
+    pub fn custom_uniform_at(&self, source: SourceId, offset: usize) -> Option<&str> {
+        let (source, token) = self.word_at(source, offset)?;
+        match self.target_of(source, token)? {
+            Target::Decl(DeclRef::CustomUniform(i)) => Some(&self.custom_uniforms.get(usize::from(i))?.0),
+            _ => None,
+        }
+    }
+
+    /// Returns every place in the GLSL where one of the author's own uniforms is named.
+    pub fn uses_of_custom_uniform(&self, name: &str) -> Vec<Span> {
+        let index = self.custom_uniforms.iter().position(|known| known.0 == name);
+        let (Some(index), Some(symbol)) = (index, self.names.find(name)) else { return Vec::new() };
+        self.uses_of(Target::Decl(DeclRef::CustomUniform(index as u16)), symbol.0)
+    }
+
+    /// Returns whether the texts declare a name outside of functions, as a macro among others.
+    pub fn declares(&self, name: &str) -> bool {
+        let Some(symbol) = self.names.find(name) else { return false };
+        let found = self.look_up(symbol, (self.sources.len(), 0), true);
+        found.is_some_and(|target| self.declaration(target).is_some())
+    }
+
+    /// Returns every place where a target is named, whose name is a symbol of this number.
+    fn uses_of(&self, target: Target, symbol: u32) -> Vec<Span> {
         let known = self.symbols.all().iter().filter(|o| o.target == target);
         let mut found: Vec<(usize, u32, u32)> = known.map(|o| (o.source as usize, o.start, o.end)).collect();
         // Of what the checker did not get to, each place where the word stands.
-        let symbol = self.sources[source].tokens[token].value;
         for (source, text) in self.sources.iter().enumerate() {
             for (i, other) in text.tokens.iter().enumerate() {
                 if other.value == symbol

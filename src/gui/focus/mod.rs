@@ -166,6 +166,13 @@ impl Focus {
         let left = if is_held { None } else { self.pressed_from.take() };
         let field = left.as_ref().or(self.settling.as_ref()).and_then(|left| self.field_beside(ui, left));
         self.settling = left;
+        // What was pressed has taken the field away. It has the keyboard to the end of this frame, which is too late to
+        // look beside it.
+        if let (Some(field), Some(gone)) = (field, self.had.filter(|id| layer_of(ui, *id).is_none()))
+            && field != gone
+        {
+            return self.give(ui, field);
+        }
         match (is_popup_open, self.popup_of) {
             (true, None) => self.popup_of = Some(field.or(had)),
             (false, Some(opener)) => {

@@ -3,7 +3,7 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
     gui::dock::Panel,
-    project::{PassId, Tab},
+    project::{CustomUniformValue, FillValue, PassEdit, PassId, Tab},
     session::Command,
 };
 use egui::{Event, Key, Modifiers, PointerButton};
@@ -167,6 +167,117 @@ fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
     (0..8).for_each(|_| key(&mut stage, Key::ArrowRight));
     key(&mut stage, Key::F2);
     assert!(stage.state().shell.place("field:rename").is_none());
+}
+
+#[test]
+fn the_name_of_an_included_file_leads_to_its_tab() {
+    let Some(mut stage) = with_shared() else { return };
+    let folder = stage.state().folder.path().to_owned();
+    std::fs::write(folder.join("lib/dim.glsl"), "float dim(float x) { return 0.1 * x; }\n").unwrap();
+    write(&mut stage, &format!("#include \"lib/dim.glsl\"\n{USES}"));
+    let dim = Tab::Included("lib/dim.glsl".into());
+    until(&mut stage, "included", |stage| stage.state().session.tabs().contains(&dim));
+    stage.run_steps(3);
+    for tab in [shared(), dim] {
+        click(&mut stage, &format!("includes:{}", tab.title()));
+        assert_eq!(stage.state().shell.caret().0, tab);
+        assert!(stage.state().shell.has_keys(&stage.ctx), "one writes on in it");
+        click(&mut stage, "tab:Image");
+    }
+}
+
+const SPEED: &str = "#iUniform float speed = 1.0 in { 0.0, 2.0 } // speed of all\n";
+const USES_SPEED: &str = "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(speed);\n}\n";
+
+/// The value of a uniform's slider, by its name; `None`: it has the default.
+fn turned(stage: &Stage, name: &str) -> Option<CustomUniformValue> {
+    stage.state().session.project().custom_uniform_values.get(name).cloned()
+}
+
+#[test]
+fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
+    let Some(mut stage) = open(false) else { return };
+    let folder = stage.state().folder.path().to_owned();
+    std::fs::write(folder.join("common.glsl"), SPEED).unwrap();
+    for file in ["image.glsl", "buffer_a.glsl"] {
+        std::fs::write(folder.join(file), USES_SPEED).unwrap();
+    }
+    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
+    stage.state_mut().session.apply(Command::Pause);
+    settle(&mut stage);
+    // No edit of a text reaches `eddy.toml`.
+    let fill = |text: &str| {
+        let value = FillValue::Expression(format!("vec4({text})").into());
+        Command::EditPasses(PassEdit::Initial(PassId::Buffer("A".into()), Some(value)))
+    };
+    stage.state_mut().session.apply(fill("0.1 * speed"));
+    let why = stage.state().session.rename(&Tab::Common, SPEED.find("speed").unwrap(), "pace").unwrap_err();
+    assert_eq!(why, "`speed` is used in the initial state of Buffer A too: write `pace` there first, then rename it");
+    stage.state_mut().session.apply(fill("0.1"));
+    let value = CustomUniformValue::Float(1.5);
+    let turn = Command::SetCustomUniform { name: "speed".into(), value: Some(value.clone()) };
+    stage.state_mut().session.apply(turn);
+    focus_code(&mut stage);
+    press(&mut stage, CTRL, Key::Home);
+    key(&mut stage, Key::ArrowDown);
+    (0..14).for_each(|_| key(&mut stage, Key::ArrowRight));
+    key(&mut stage, Key::F2);
+    type_text(&mut stage, "o");
+    key(&mut stage, Key::Enter);
+    assert!(stage.state().shell.place("rename:wrong").is_some(), "a local has that name");
+    press(&mut stage, CTRL, Key::A);
+    type_text(&mut stage, "pace");
+    key(&mut stage, Key::Enter);
+    assert_eq!(text(&stage, &Tab::Common), SPEED.replacen("speed", "pace", 1));
+    for tab in [IMAGE, buffer()] {
+        assert_eq!(text(&stage, &tab), USES_SPEED.replace("speed", "pace"), "{tab:?}");
+    }
+    assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (None, Some(value.clone())));
+    // The program that draws has the old name until the new one is there.
+    let shown = |stage: &Stage| {
+        let session = &stage.state().session;
+        let uniform = session.custom_uniforms()[0].clone();
+        (uniform.name.clone(), session.custom_uniform_value(&uniform))
+    };
+    assert_eq!(shown(&stage).1, value);
+    settle(&mut stage);
+    assert_eq!(shown(&stage), ("pace".to_owned(), value.clone()));
+    assert!(stage.state().session.diagnostics().is_empty(), "{:?}", stage.state().session.diagnostics());
+    press(&mut stage, CTRL, Key::S);
+    until(&mut stage, "saved", |stage| !stage.state().session.is_dirty());
+    let manifest = std::fs::read_to_string(folder.join("eddy.toml")).unwrap();
+    assert!(manifest.contains("pace = 1.5") && !manifest.contains("speed"), "{manifest}");
+    // The value follows the line when that is taken back, and the passes' undo goes by the new name.
+    stage.state_mut().session.apply(Command::EditText { tab: Tab::Common, text: SPEED.into() });
+    assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (Some(value), None));
+    stage.state_mut().session.apply(Command::UndoPassEdit);
+    assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (None, None));
+    stage.state_mut().session.apply(Command::RedoPassEdit);
+    assert!(turned(&stage, "speed").is_some());
+}
+
+#[test]
+fn the_sliders_of_a_text_are_there_before_its_first_program() {
+    let Some(mut stage) = open(false) else { return };
+    let folder = stage.state().folder.path().join("broken");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::write(folder.join("image.glsl"), format!("{SPEED}void mainImage(out vec4 o, in vec2 p) {{ o = ; }}"))
+        .unwrap();
+    let hint = |stage: &Stage| texts(stage).iter().any(|text| text.starts_with("Add a line like this"));
+    stage.state_mut().shell.set_open(Panel::Uniforms, true);
+    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
+    stage.step();
+    assert!(!hint(&stage));
+    assert!(stage.state().shell.place("uniform:speed").is_some(), "{:?}", texts(&stage));
+    settle(&mut stage);
+    assert!(!stage.state().session.diagnostics().is_empty(), "it has no program");
+    assert!(stage.state().shell.place("uniform:speed").is_some());
+    write(&mut stage, USES_SPEED);
+    assert!(hint(&stage));
+    // As is one that the newest text declares, where the program that draws has none.
+    write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
+    write(&mut stage, &format!("{SPEED}void mainImage(out vec4 o, in vec2 p) {{ o = ; }}"));
+    assert!(stage.state().shell.place("uniform:speed").is_some());
 }
 
 #[test]

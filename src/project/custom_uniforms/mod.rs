@@ -16,7 +16,7 @@ mod types;
 
 use super::{lines::hash_lines, nearest};
 pub(super) use declared::words_of_uniforms;
-use eddy_diag::{Diagnostic, SourceId};
+use eddy_diag::{Diagnostic, SourceId, Span};
 use line::Line;
 pub(super) use line::{is_declaration, value};
 pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
@@ -73,6 +73,13 @@ impl CustomUniforms {
             None if known.declared_in.contains(&source) => {}
             None => known.declared_in.push(source),
         }
+    }
+
+    /// Returns the names that lines of a text declare, contradictory ones too, and where each name stands.
+    pub(super) fn names(source: SourceId, text: &str) -> Vec<(String, Span)> {
+        let lines = hash_lines(text);
+        let declared = lines.iter().filter(|line| is_declaration(line));
+        declared.filter_map(|line| line::parse(line, source, "").ok()).map(|line| (line.name, line.span)).collect()
     }
 
     pub fn get(&self, name: &str) -> Option<&CustomUniform> {

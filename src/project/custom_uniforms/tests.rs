@@ -222,3 +222,41 @@ fn the_sites_json_has_constants_with_the_values() {
          #ifdef X\n// #iUniform bool on = true\n#endif\nint i;"
     );
 }
+
+#[test]
+fn a_value_follows_a_line_that_differs_in_its_name_alone() {
+    let line = |name: &str| format!("#iUniform float {name} = 1.0 in {{ 0.0, 5.0 }} // {name}\n#iUniform bool on\n");
+    let bare = |name: &str| format!("int i; #no\n  #iUniform float {name} = 1.0\n");
+    let twice = format!("{}#iUniform float speed = 1.0", bare("pace"));
+    let pairs = [("speed".to_owned(), "pace".to_owned())];
+    for (before, after, wanted) in [
+        (bare("speed"), bare("pace"), Some("pace")),
+        (bare("speed"), format!("float x;\n{}", bare("pace")), Some("pace")),
+        // The comment differs too.
+        (line("speed"), line("pace"), None),
+        (bare("speed"), bare("pace").replace("1.0", "2.0"), None),
+        (bare("speed"), "int i;".to_owned(), None),
+        (bare("speed"), twice, None),
+    ] {
+        let mut p = project(None, &before);
+        p.set_custom_uniform("speed=0.25").unwrap();
+        p.passes[0].source.text = after.as_str().into();
+        let renamed = p.follow_renamed_custom_uniforms(&before, &after);
+        assert_eq!(renamed, if wanted.is_some() { &pairs[..] } else { &[] }, "{after}");
+        let names: Vec<&str> = p.custom_uniform_values.keys().map(String::as_str).collect();
+        assert_eq!(names, [wanted.unwrap_or("speed")], "{after}");
+    }
+    // Another text still declares it.
+    let mut p = project(Some(&bare("speed")), &bare("pace"));
+    p.set_custom_uniform("speed=0.25").unwrap();
+    assert_eq!(p.follow_renamed_custom_uniforms(&bare("speed"), &bare("pace")), []);
+    assert!(p.custom_uniform_values.contains_key("speed"));
+}
+
+#[test]
+fn every_line_that_names_a_uniform_is_found() {
+    let p = project(Some("#iUniform float speed\n"), "int i;\n#iUniform int speed // another type\n#iUniform\n");
+    let found = p.custom_uniform_names();
+    let places: Vec<(&str, u16, u32)> = found.iter().map(|(n, s)| (n.as_str(), s.source.0, s.start)).collect();
+    assert_eq!(places, [("speed", 0, 16), ("speed", 1, 21)]);
+}

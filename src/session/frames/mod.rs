@@ -28,6 +28,7 @@ impl Session {
         self.take_found_work();
         self.take_recording();
         self.check_disk();
+        self.read_declared_uniforms();
         let mut frame_drawn = self.take_drawn(false);
         self.watch_drawing();
         self.start_compile();
@@ -234,6 +235,7 @@ impl Session {
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
             self.compile.state.last = Some(self.compiled(millis));
         }
+        self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.
         self.custom_uniforms_turned();

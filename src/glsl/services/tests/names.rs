@@ -1,7 +1,11 @@
 //! Hover, definition, uses, classes.
 
 use super::{CODE, COMMON, Marked};
-use crate::services::Class;
+use crate::{
+    CustomUniform, CustomUniformKind, PassKind, PassSource, Text,
+    services::{Analysis, Class},
+};
+use eddy_diag::SourceId;
 
 /// Kind, first line of the signature and text of what the mark is on.
 fn hover(m: &Marked) -> (&'static str, String, String) {
@@ -235,5 +239,32 @@ fn words_have_the_colour_of_what_they_are() {
     }
     for pair in classes.windows(2) {
         assert!(pair[0].range.end <= pair[1].range.start, "{pair:?}");
+    }
+}
+
+#[test]
+fn an_authors_uniform_is_known_wherever_it_is_used() {
+    let common = "float twice() { return 2.0 * speed; }\n#define HALF (0.5 * speed)\n#define NEVER 1\n";
+    let code = "float f(float speed) { return speed; }\nfloat g() { return HALF + speed + nothing(speed);";
+    let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
+    let analysis = Analysis::new(&PassSource {
+        common: Some(Text { id: COMMON, text: common }),
+        custom_uniforms: &custom_uniforms,
+        ..PassSource::new(PassKind::Image, Text { id: CODE, text: code })
+    });
+    let places = |source: SourceId, text: &str| -> Vec<usize> {
+        let all = analysis.uses_of_custom_uniform("speed").into_iter().filter(|span| span.source == source);
+        all.inspect(|span| assert_eq!(&text[span.range()], "speed")).map(|span| span.start as usize).collect()
+    };
+    let of = |text: &str| -> Vec<usize> { text.match_indices("speed").map(|(at, _)| at).collect() };
+    assert_eq!(places(COMMON, common), of(common));
+    // The parameter of that name is another.
+    assert_eq!(places(CODE, code), of(code)[2..]);
+    let named = |at: usize| analysis.custom_uniform_at(CODE, at);
+    assert_eq!((named(of(code)[0]), named(of(code)[1])), (None, None));
+    assert_eq!((named(of(code)[2]), named(of(code)[3])), (Some("speed"), Some("speed")));
+    assert_eq!(analysis.uses_of_custom_uniform("pace"), []);
+    for (name, is_declared) in [("f", true), ("g", true), ("NEVER", true), ("speed", false), ("other", false)] {
+        assert_eq!(analysis.declares(name), is_declared, "{name}");
     }
 }
