@@ -4,11 +4,12 @@
 //! an event, the session or egui asks for one.
 
 use super::{
-    GuiError, Options, fonts,
+    GuiError, Options,
+    device_recovery::{self, Losses},
+    fonts,
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
-    rescue::{self, Losses},
     settings::{Place, Remembered, SettingsFile, UsualSizes, WindowFile},
     shell::Shell,
     surface::{Presented, Surface},
@@ -151,7 +152,7 @@ impl ApplicationHandler<Outside> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
-        match rescue::caught(running, |running| running.on_event(event), |running| &running.session) {
+        match device_recovery::caught(running, |running| running.on_event(event), |running| &running.session) {
             Ok(Next::Go) => {}
             Ok(Next::Exit) => event_loop.exit(),
             Err(e) => {

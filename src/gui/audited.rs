@@ -2,8 +2,8 @@
 
 use super::{
     icons::{self, Icon},
-    outbox::{Outbox, Wish},
     theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::session::{AuditMap, Command, Session, WorstPixel};
 use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
@@ -28,7 +28,7 @@ pub fn paint(ui: &Ui, session: &Session, picture: Rect) {
 }
 
 /// Lists the worst pixels over the picture's lower edge.
-pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
+pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
     let shown = Area::new(Id::unique("audit"))
         .order(Order::Middle)
@@ -51,7 +51,7 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
     out.place("audit", shown.response.rect);
 }
 
-fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
+fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.horizontal(|ui| {
         ui.label(
@@ -81,13 +81,13 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
         let row = ui.selectable_label(false, words.color(color)).on_hover_text(tip);
         if out.clicked(&format!("audit:worst:{index}"), &row) {
             let part = |at: u32, of: u32| (at as f32 + 0.5) / of.max(1) as f32;
-            out.wishes.push(Wish::Trace([part(*x, map.size.0), part(*y, map.size.1)]));
+            out.wishes.push(ShellCommand::Trace([part(*x, map.size.0), part(*y, map.size.1)]));
         }
     }
 }
 
 /// Shows what the colours stand for.
-fn scale(ui: &mut Ui, out: &mut Outbox) {
+fn scale(ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
     let row = ui.horizontal(|ui| {
         ui.colored_label(p.weak, "1e-8");

@@ -1,6 +1,6 @@
 //! The table under the picture: what each pass of the open project costs. Nothing is gathered while it is closed.
 
-use super::{outbox::Outbox, theme};
+use super::{theme, ui_output::UiOutput};
 use crate::{
     engine::{CostClock, PassRole},
     session::{PassCosts, Session, TimedPass},
@@ -39,7 +39,7 @@ impl Columns {
     }
 }
 
-pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("costs", ui);
     let costs = session.pass_costs();
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 }
 
 /// Says at the right end of the panel's row how the times were found.
-pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
             "GPU timestamps",
@@ -118,7 +118,7 @@ fn texts_in(ui: &Ui, columns: &Columns, rect: Rect, texts: [&str; 6], name: Colo
     number(columns.moved, moved);
 }
 
-fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Outbox) {
+fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut UiOutput) {
     let cost = &pass.cost;
     let mut title = cost.pass.title();
     if cost.steps > 1 {
@@ -175,7 +175,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     });
 }
 
-fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
+fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut UiOutput) {
     let is_at_work = |p: &&TimedPass| p.cost.role == PassRole::Drawn { is_cached: false };
     let at_work: Vec<&TimedPass> = costs.passes.iter().filter(is_at_work).collect();
     let left: usize = costs.passes.len() - at_work.len();

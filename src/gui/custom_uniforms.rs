@@ -1,6 +1,6 @@
 //! The author's own uniforms: sliders, numbers, colours, switches.
 
-use super::{dock::COLLAPSED, outbox::Outbox, theme, uniform_row};
+use super::{dock::COLLAPSED, theme, ui_output::UiOutput, uniform_row};
 use crate::{
     project::CustomUniform,
     session::{Command, Session},
@@ -36,7 +36,7 @@ fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)>
 }
 
 /// Shows at the right end of the panel's row what concerns them all.
-pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
@@ -46,7 +46,7 @@ pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
 }
 
-pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("uniforms", ui);
     let custom_uniforms = session.custom_uniforms();
     ui.spacing_mut().item_spacing.y = 3.0;

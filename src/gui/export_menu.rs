@@ -2,7 +2,7 @@
 //!
 //! A kind of export is a row of [`ROWS`]; what it does is its action's.
 
-use super::{actions::Action, outbox::Outbox};
+use super::{actions::Action, ui_output::UiOutput};
 use crate::session::Session;
 use egui::{Button, Ui};
 
@@ -28,7 +28,7 @@ const ROWS: &[Option<(&str, Action, &str)>] = &[
 ];
 
 /// Shows the button and its menu. `has_lab_results`: there is something to report.
-pub fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &mut UiOutput) {
     let menu = ui.menu_button("Export", |ui| {
         ui.set_min_width(230.0);
         for row in ROWS {

@@ -6,8 +6,8 @@
 use super::{
     accessible,
     dialogs::{self, Dialog, Kind, Outcome},
-    outbox::{Outbox, Pick},
     theme,
+    ui_output::{Pick, UiOutput},
 };
 use crate::project::{PICTURES, RECORDING};
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
@@ -109,7 +109,7 @@ impl Files {
     }
 
     /// Shows what is to be shown; a dialog's end.
-    pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Picked> {
+    pub fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> Option<Picked> {
         if let Some(id) = self.gets_keyboard.take() {
             ui.memory_mut(|m| m.request_focus(id));
         }
@@ -128,7 +128,7 @@ impl Files {
         self.path_field(ui, out)
     }
 
-    fn path_field(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Picked> {
+    fn path_field(&mut self, ui: &Ui, out: &mut UiOutput) -> Option<Picked> {
         let typing = self.typing.as_mut()?;
         let (mut done, mut cancelled) = (false, false);
         let (title, action) = match &typing.pick {
@@ -196,7 +196,7 @@ impl Files {
 
 impl Asked {
     /// While a dialog of the desktop's is open: one that hides, or hangs, can be done without.
-    fn wants_to_type(&self, ui: &Ui, out: &mut Outbox) -> bool {
+    fn wants_to_type(&self, ui: &Ui, out: &mut UiOutput) -> bool {
         if let Some(wait) = PATIENCE.checked_sub(self.since.elapsed()) {
             ui.ctx().request_repaint_after(wait);
             return false;
@@ -268,7 +268,7 @@ mod tests {
         let give_up = Instant::now() + Duration::from_secs(10);
         loop {
             std::thread::sleep(between_frames);
-            let mut out = Outbox::default();
+            let mut out = UiOutput::default();
             let mut picked = None;
             let mut output = ctx.run_ui(egui::RawInput::default(), |ui| picked = files.show(ui, &mut out));
             output.textures_delta.clear();

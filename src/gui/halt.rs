@@ -1,6 +1,6 @@
 //! The message over a picture that stands still though nobody has paused it, and the ways on.
 
-use super::{outbox::Outbox, theme};
+use super::{theme, ui_output::UiOutput};
 use crate::session::{Command, Halt, Session};
 use egui::{Align, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 use std::time::Duration;
@@ -11,7 +11,7 @@ const SMALLER: &str = "halt:smaller";
 const LAST_GOOD: &str = "halt:last-good";
 
 /// Shows the message in the middle of the picture's area. It takes no keyboard: one can go on typing.
-pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
+pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(halt) = session.halt() else { return };
     let (title, text, go_on) = words(halt);
     let width = (area.width() - 24.0).clamp(150.0, 420.0);

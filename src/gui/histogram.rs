@@ -1,6 +1,6 @@
 //! Bars of how often each number of a picture of values is there.
 
-use super::{accessible, outbox::Outbox, theme};
+use super::{accessible, theme, ui_output::UiOutput};
 use crate::session::probe::{BINS, Statistics};
 use egui::{Color32, Sense, Stroke, Ui, pos2, vec2};
 
@@ -26,7 +26,7 @@ pub fn ink(ui: &Ui, component: usize) -> Color32 {
 }
 
 /// Shows it, so high. The ground is dark in either theme.
-pub fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: &str, height: f32, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: &str, height: f32, out: &mut UiOutput) {
     let (rect, response) = ui.allocate_exact_size(vec2(2.0 * BINS as f32, height), Sense::hover());
     let (low, high) = statistics.range;
     accessible::name(&response, egui::Role::Canvas, format!("Histogram from {low} to {high}"));

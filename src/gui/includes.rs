@@ -1,9 +1,8 @@
 //! The files that the texts include, at the end of the line under the editor: each name leads to the file's tab.
 
 use super::{
-    accessible,
-    outbox::{Outbox, Wish},
-    theme,
+    accessible, theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{project::Tab, session::Session};
 use egui::{Color32, CursorIcon, FontId, Popup, Rect, Response, Sense, Stroke, Ui, pos2};
@@ -17,7 +16,7 @@ struct Part {
 }
 
 /// Shows them at the right end of a place: all names, or how many there are where there is no room for the names.
-pub fn show(ui: &mut Ui, session: &Session, place: Rect, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, place: Rect, out: &mut UiOutput) {
     let names: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
     if names.is_empty() {
         return;
@@ -60,7 +59,7 @@ fn width(ui: &Ui, text: &str) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font(), Color32::PLACEHOLDER).size().x
 }
 
-fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut Outbox) {
+fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut UiOutput) {
     let file = tabs(session).into_iter().find(|tab| part.is_name && tab.title() == part.text);
     let Some(file) = file else {
         paint(ui, rect, &part.text, theme::of(ui).weak);
@@ -69,14 +68,14 @@ fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut Outbox) {
     let link = ui.interact(rect, ui.scope_id().with(("include", &part.text)), Sense::click());
     paint_link(ui, &link, &part.text);
     if out.clicked(&format!("includes:{}", part.text), &link) {
-        out.wishes.push(Wish::GoTo(file, None));
+        out.wishes.push(ShellCommand::GoTo(file, None));
     }
     accessible::name(&link, egui::Role::Link, format!("Open {}", part.text));
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open this file");
 }
 
 /// One link for all, which lists them.
-fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut Outbox) {
+fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut UiOutput) {
     let text = if count == 1 { "includes 1 file".to_owned() } else { format!("includes {count} files") };
     let start = place.right() - MARGIN - width(ui, &text);
     let rect = Rect::from_x_y_ranges(start..=place.right() - MARGIN, place.y_range());
@@ -88,7 +87,7 @@ fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut Outb
         for file in tabs(session) {
             let button = ui.button(file.title());
             if out.clicked(&format!("includes:{}", file.title()), &button) {
-                out.wishes.push(Wish::GoTo(file, None));
+                out.wishes.push(ShellCommand::GoTo(file, None));
             }
         }
     });

@@ -17,6 +17,7 @@ mod compare;
 mod costs;
 mod custom_uniforms;
 mod damage;
+mod device_recovery;
 mod dialogs;
 mod dock;
 mod editor;
@@ -37,7 +38,6 @@ mod keys;
 mod lab;
 mod measures;
 mod menus;
-mod outbox;
 mod palette;
 mod passes;
 mod probe;
@@ -46,7 +46,6 @@ mod questions;
 mod recent;
 mod replay;
 mod report;
-mod rescue;
 mod resolution;
 mod settings;
 mod settings_page;
@@ -62,6 +61,7 @@ mod toasts;
 mod top_bar;
 mod trace;
 mod transport;
+mod ui_output;
 mod uniform_row;
 mod uses;
 mod viewport;
@@ -98,12 +98,12 @@ pub struct Options {
 pub enum GuiError {
     #[error("no display found: {0}. To draw without a display, use `eddy render`")]
     NoDisplay(String),
-    /// The device is gone, and with it every picture; `rescue` says what became of unsaved work.
-    #[error("{reason}{rescue}")]
-    Lost { reason: GpuError, rescue: String },
-    /// The window stumbled over itself; `rescue` as above.
-    #[error("this is a bug in Eddy: {reason}{rescue}")]
-    Panicked { reason: String, rescue: String },
+    /// The device is gone, and with it every picture; `unsaved_work` says what became of unsaved work.
+    #[error("{reason}{unsaved_work}")]
+    Lost { reason: GpuError, unsaved_work: String },
+    /// The window stumbled over itself; `unsaved_work` as above.
+    #[error("this is a bug in Eddy: {reason}{unsaved_work}")]
+    Panicked { reason: String, unsaved_work: String },
     #[error("cannot draw to the window: {0}")]
     Surface(String),
     #[error(transparent)]

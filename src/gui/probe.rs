@@ -3,8 +3,8 @@
 use super::{
     histogram,
     icons::{self, Icon},
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use crate::{
     debugger::trace::Number,
@@ -18,7 +18,7 @@ use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Ui, vec2};
 
 const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 /// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
-pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut Outbox) {
+pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let Some(view) = session.probe() else { return };
     let shown = Area::new(Id::unique("probe"))
         .order(Order::Middle)
@@ -37,7 +37,7 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out
     out.place("probe", shown.response.rect);
 }
 
-fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Outbox) {
+fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.horizontal_wrapped(|ui| {
         match view.value {
@@ -73,7 +73,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Out
     });
 }
 
-fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut Outbox) {
+fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut UiOutput) {
     let mut visit = place.visit;
     let field = DragValue::new(&mut visit).prefix("visit ").range(0..=100_000);
     let response = ui.add(field).on_hover_text("Which evaluation to show: 0 is the first");
@@ -84,7 +84,7 @@ fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut Outbox) {
 }
 
 /// Offers how it is shown: colours, one component or all, and the range.
-fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut Outbox) {
+fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutput) {
     let mut look = view.look;
     ui.horizontal_wrapped(|ui| {
         let paints = [(Paint::Range, "Range"), (Paint::Sign, "Sign"), (Paint::FalseColour, "False colour")];
@@ -110,7 +110,7 @@ fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut Outbox
     }
 }
 
-fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut Outbox) {
+fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut UiOutput) {
     let whole = view.numbers.map_or((0.0, 1.0), |numbers| numbers.statistics.extent(look.channel));
     let (mut low, mut high) = look.range.unwrap_or(whole);
     let speed = f64::from((high - low).abs()).max(1e-6) / 200.0;
@@ -131,7 +131,7 @@ fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut Outb
 }
 
 /// The least and the largest numbers, and what is amiss.
-fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut Outbox) {
+fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut UiOutput) {
     let p = theme::of(ui);
     let words = statistics.extremes.iter().enumerate().filter_map(|(i, extreme)| {
         let (low, high) = (*extreme)?;

@@ -5,8 +5,8 @@ use super::{
     actions::Action,
     editor::EditorAction,
     includes,
-    outbox::{Outbox, Wish},
     theme::{self, Palette},
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     diag::Severity,
@@ -25,7 +25,7 @@ const HINT_ROOM: f32 = 60.0;
 
 /// `caret`: the tab in front and its caret's line from 0, whose problem is told in whole. `limit`: how high the list
 /// may be.
-pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut UiOutput) {
     out.stop("problems", ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit:
 
 /// The whole message of the problem in the caret's line: beside the code and in the list there may be room for its
 /// beginning only.
-fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut Outbox) {
+fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut UiOutput) {
     let Some((tab, line)) = caret else { return };
     let is_here = |p: &TextLocation| p.tab.as_ref() == Some(tab) && p.line == line + 1;
     let here = session.diagnostics().iter().filter(|d| d.place.as_ref().is_some_and(is_here));
@@ -85,7 +85,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
                 let tip = out.keys.tip("Fix it", Action::Code(EditorAction::QuickFix));
                 let button = ui.small_button(&fix.title).on_hover_text(tip);
                 if out.clicked(&format!("problem-at-caret:fix:{n}"), &button) {
-                    out.wishes.push(Wish::Fix(fix.clone()));
+                    out.wishes.push(ShellCommand::Fix(fix.clone()));
                 }
             }
         });
@@ -144,7 +144,7 @@ impl Row<'_> {
         format!("{kind}: {place}{}", self.message)
     }
 
-    fn show(&self, ui: &mut Ui, out: &mut Outbox) {
+    fn show(&self, ui: &mut Ui, out: &mut UiOutput) {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
         accessible::name(&response, egui::Role::Button, self.name_of());
         if response.hovered() {
@@ -172,7 +172,7 @@ impl Row<'_> {
             let name = format!("{}:fix", self.name);
             let button = ui.place(place, egui::Button::new(RichText::new("Fix").size(12.0)).small());
             if out.clicked(&name, &button.on_hover_text(&fix.title)) {
-                out.wishes.push(Wish::Fix(fix.clone()));
+                out.wishes.push(ShellCommand::Fix(fix.clone()));
             }
         }
         let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
@@ -212,8 +212,8 @@ impl Row<'_> {
 }
 
 /// Returns the way to a place; `None` for one that is in no tab.
-fn wish_of(place: &TextLocation) -> Option<Wish> {
-    Some(Wish::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
+fn wish_of(place: &TextLocation) -> Option<ShellCommand> {
+    Some(ShellCommand::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
 }
 
 /// Returns the numbers of errors and of warnings.

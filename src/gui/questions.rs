@@ -1,8 +1,8 @@
 //! Questions of the session, which stand in front of everything until they are answered.
 
 use super::{
-    outbox::{Outbox, Wish},
     theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     project::{Origin, Tab},
@@ -12,7 +12,7 @@ use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense,
 use std::path::{Path, PathBuf};
 
 /// Shows the first question there is.
-pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
+pub fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
     let Some(question) = session.question() else { return };
     let window = ui.ctx().content_rect();
     let wide = matches!(question, Question::Conflict { .. } | Question::Recover(_));
@@ -35,13 +35,13 @@ pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
 }
 
 /// A row of buttons: the first has the colour and Enter, the last is the safe way out and has Escape.
-fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
+fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut UiOutput) {
     answers_with_usual(ui, list, 0, out);
 }
 
 /// The same, with the colour and Enter at the one of this index: what destroys something is never pressed by a key that
 /// was meant for something else.
-fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut Outbox) {
+fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut UiOutput) {
     let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
@@ -100,7 +100,7 @@ fn name_of(answer: &Answer) -> &'static str {
     }
 }
 
-fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], out: &mut Outbox) {
+fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], out: &mut UiOutput) {
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
         PendingAction::Open(_) | PendingAction::OpenProject { .. } => "by opening another project",
@@ -120,7 +120,7 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], o
     answers(ui, &answers_, out);
 }
 
-fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
+fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut UiOutput) {
     let count = files.len();
     ui.heading(if count == 1 { "Replace a file?".into() } else { format!("Replace {count} files?") });
     ui.label(format!("{} already holds a project. These files would be replaced:", folder.display()));
@@ -139,7 +139,7 @@ fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
     answers_with_usual(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
 }
 
-fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, out: &mut Outbox) {
+fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, out: &mut UiOutput) {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     ui.heading(if exists { format!("Replace {name}?") } else { format!("Export to {name}?") });
     ui.colored_label(theme::of(ui).weak, file.display().to_string());
@@ -170,7 +170,7 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
     }
 }
 
-fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {
+fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut UiOutput) {
     let name = tab.map_or_else(|| "The project's settings".into(), Tab::title);
     ui.heading(format!("{name} also changed on disk"));
     ui.label(
@@ -185,7 +185,7 @@ fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room
     answers(ui, &[("Keep mine", Answer::KeepMine), ("Use version on disk", Answer::TakeDisk)], out);
 }
 
-fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
+fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
     let Recovered { file, name, origin, written, tabs, is_structure_changed, trouble } = recovered;
     ui.heading(format!("Recover unsaved changes to {name}?"));
     ui.label(format!("Eddy closed before they were saved. Last change: {written}."));
@@ -228,7 +228,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
     let list = [("Recover", Answer::Recover), ("Discard", Answer::Discard), ("Ask again later", Answer::Cancel)];
     answers(ui, &list, out);
     if out.commands.contains(&Command::Answer(Answer::Recover)) {
-        out.wishes.push(Wish::ShowRecovered);
+        out.wishes.push(ShellCommand::ShowRecovered);
     }
 }
 

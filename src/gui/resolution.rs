@@ -4,8 +4,8 @@ use super::{
     accessible,
     actions::{Action, PictureAction, SCALES, SIZES},
     geometry::Shape,
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use crate::session::{Command, Session};
 use egui::{
@@ -52,7 +52,7 @@ pub fn open(ctx: &egui::Context) {
 }
 
 /// Shows the menu that [`open`] opens, at a widget. It is shown in each frame, whatever the widget is.
-pub fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut Outbox) {
+pub fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut UiOutput) {
     let menu = Popup::from_response(anchor).id(popup()).open_memory(None).style(egui::containers::menu::menu_style);
     menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| list(ui, session, shape, out));
@@ -60,7 +60,7 @@ pub fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut Outb
 }
 
 /// The resolution on a button that opens the list.
-pub fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+pub fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let response = ComboBox::from_id_salt("size")
         .width(96.0)
@@ -76,7 +76,7 @@ pub fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
 }
 
 /// An entry of a menu that opens the list beside it.
-pub fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+pub fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let config = egui::containers::menu::MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let title = format!("Resolution: {width}×{height}");
@@ -87,7 +87,7 @@ pub fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
 }
 
 /// The resolutions to choose from.
-fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     ui.set_min_width(WIDTH);
     let transport = session.transport();
     let mut chosen = None;
@@ -124,7 +124,7 @@ fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
 }
 
 /// A field for any size, and below it what can be typed or why it cannot be drawn.
-fn size_field(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn size_field(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let limit = session.gpu().device.limits().max_texture_dimension_2d;
     let pass = ui.ctx().cumulative_pass_nr();
     let kept: Option<Typed> = ui.data(|data| data.get_temp(typed()));

@@ -4,9 +4,9 @@ use super::{
     accessible,
     actions::Action,
     fonts,
-    outbox::{Outbox, Pick, Wish},
     settings::{Change, Control, KEYS, Key, Number, SettingsFile, Theme},
     theme,
+    ui_output::{Pick, ShellCommand, UiOutput},
 };
 use egui::{
     Align, Button, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui, vec2,
@@ -63,7 +63,7 @@ impl SettingsPage {
     }
 
     /// Shows it; false when it is closed. `keeps_frame_limit`: the command line gave one.
-    pub fn show(&mut self, ui: &Ui, file: &SettingsFile, keeps_frame_limit: bool, out: &mut Outbox) -> bool {
+    pub fn show(&mut self, ui: &Ui, file: &SettingsFile, keeps_frame_limit: bool, out: &mut UiOutput) -> bool {
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let modal = Modal::new(Id::unique("settings")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
@@ -98,7 +98,7 @@ impl SettingsPage {
     }
 
     /// A setting: its title and what it does, and its widget at the right.
-    fn row(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, note: Option<&str>, out: &mut Outbox) {
+    fn row(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, note: Option<&str>, out: &mut UiOutput) {
         let p = theme::of(ui);
         ui.add_space(6.0);
         let wide = ui.available_width() > CONTROL + 200.0;
@@ -128,7 +128,7 @@ impl SettingsPage {
         ui.add_space(4.0);
     }
 
-    fn control(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, out: &mut Outbox) {
+    fn control(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, out: &mut UiOutput) {
         let settings = file.settings();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
@@ -147,7 +147,7 @@ impl SettingsPage {
                             choice.request_focus();
                         }
                         if out.clicked(&format!("setting:theme:{}", theme.name()), &choice) {
-                            out.wishes.push(Wish::Set(Change::Theme(theme)));
+                            out.wishes.push(ShellCommand::Set(Change::Theme(theme)));
                         }
                     }
                 }
@@ -157,7 +157,7 @@ impl SettingsPage {
                     let switch = ui.checkbox(&mut is_on, title);
                     accessible::choice(&switch, Role::CheckBox, is_on, key.title);
                     if out.clicked(&format!("setting:{}", key.name), &switch) {
-                        out.wishes.push(Wish::Set(change(is_on)));
+                        out.wishes.push(ShellCommand::Set(change(is_on)));
                     }
                 }
                 Control::Number(number) => self.number(ui, key, number, (number.get)(settings), out),
@@ -168,7 +168,7 @@ impl SettingsPage {
                 accessible::name(&reset, Role::Button, format!("Reset {}", key.title.to_lowercase()));
                 if out.clicked(&format!("setting:{}:reset", key.name), &reset) {
                     (self.typed, self.font_trouble) = (None, None);
-                    out.wishes.push(Wish::Set(key.usual_change()));
+                    out.wishes.push(ShellCommand::Set(key.usual_change()));
                 }
             }
         });
@@ -179,9 +179,9 @@ impl SettingsPage {
     }
 
     /// A number between two buttons. While it is dragged nothing is changed: the window would move under the hand.
-    fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut Outbox) {
+    fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut UiOutput) {
         let mut set = |value: f64| {
-            out.wishes.push(Wish::Set((number.change)(value.clamp(number.least, number.most))));
+            out.wishes.push(ShellCommand::Set((number.change)(value.clamp(number.least, number.most))));
         };
         let mut wanted = None;
         let mut step = |ui: &mut Ui, sign: &str, name: &str, to: f64| {
@@ -216,7 +216,7 @@ impl SettingsPage {
         out.place(format!("setting:{}:more", key.name), more);
     }
 
-    fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut Outbox) {
+    fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut UiOutput) {
         let mut text = self.typed.clone().unwrap_or_else(|| now.to_owned());
         let field = TextEdit::singleline(&mut text)
             .hint_text("Built-in")
@@ -236,17 +236,17 @@ impl SettingsPage {
                 "" => Some(Change::CodeFont(None)),
                 path => self.choose_font(path),
             };
-            out.wishes.extend(change.map(Wish::Set));
+            out.wishes.extend(change.map(ShellCommand::Set));
         }
         let choose = ui.button("Choose…").on_hover_text("Choose a font file");
         if out.clicked("setting:code-font:choose", &choose) {
-            out.wishes.push(Wish::Pick(Pick::CodeFont));
+            out.wishes.push(ShellCommand::Pick(Pick::CodeFont));
         }
     }
 }
 
 /// Says what is wrong in the file, and what becomes of changes.
-fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
+fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     if file.mistakes().is_empty() {
         return;
     }
@@ -271,7 +271,7 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
 }
 
 /// The files themselves.
-fn files(ui: &mut Ui, file: &SettingsFile, out: &mut Outbox) {
+fn files(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         for (name, action) in [("settings:file", Action::SettingsFile), ("settings:keys", Action::KeyFile)] {
             if out.clicked(name, &ui.button(action.title())) {

@@ -5,9 +5,8 @@ use super::{
     actions::Action,
     dock::Panel,
     icons::{self, Icon},
-    menus,
-    outbox::{Outbox, Wish},
-    passes, theme,
+    menus, passes, theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     diag::Severity,
@@ -47,7 +46,7 @@ pub fn shown(session: &Session, files: &[OpenFile]) -> Vec<Tab> {
 
 /// Shows the tabs; `current` has the accent. `files`: the included files that are open. True: a hand drags what is
 /// beside them.
-pub fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut Outbox) -> bool {
+pub fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut UiOutput) -> bool {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     // Below the tabs, which come after it. That it takes clicks too keeps a click from moving anything.
     let handle = ui.interact(rect, ui.scope_id().with("tab row"), Sense::CLICK | Sense::DRAG);
@@ -86,7 +85,7 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
 }
 
 /// Brings the current tab in sight when it comes to the front, moves or grows; else people scroll where they like.
-fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
+fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
     // A panel that opens may give the row another place among the others, where it is not scrolled yet.
     let id = ui.scope_id().with("current tab");
@@ -99,7 +98,7 @@ fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &Outbox) {
     }
 }
 
-fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, is_current: bool, out: &mut Outbox) {
+fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, is_current: bool, out: &mut UiOutput) {
     let here = session.diagnostics().iter().filter(|d| d.tab() == Some(tab));
     let (mut errors, mut warnings) = (0, 0);
     for d in here {
@@ -172,9 +171,9 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
     };
     let is_middle = response.clicked_by(egui::PointerButton::Middle) && can_close;
     if closes || is_middle {
-        out.wishes.push(Wish::CloseFile(tab.clone()));
+        out.wishes.push(ShellCommand::CloseFile(tab.clone()));
     } else if out.clicked(&format!("tab:{}", tab.title()), &response) {
-        out.wishes.push(Wish::GoTo(tab.clone(), None));
+        out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
     }
     menus::context(&response, |ui| {
         if let Tab::Pass(id) = tab
@@ -185,13 +184,13 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         if let Some(id) = tab.pass()
             && ui.button("Name, size, format, steps…").clicked()
         {
-            out.wishes.push(Wish::ChoosePass(Tab::Pass(id.clone())));
+            out.wishes.push(ShellCommand::ChoosePass(Tab::Pass(id.clone())));
         }
         let can_go = *tab != Tab::Pass(PassId::Image);
         if is_included {
             let close = ui.add_enabled(can_close, egui::Button::new("Close tab"));
             if close.on_disabled_hover_text("Save it first").clicked() {
-                out.wishes.push(Wish::CloseFile(tab.clone()));
+                out.wishes.push(ShellCommand::CloseFile(tab.clone()));
             }
         } else if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
@@ -199,7 +198,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         ui.separator();
         let close = ui.button("Close code");
         if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
-            out.wishes.push(Wish::ClosePanel(Panel::Code));
+            out.wishes.push(ShellCommand::ClosePanel(Panel::Code));
         }
     });
     // Paused, no frame takes any time.
@@ -227,7 +226,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
     });
 }
 
-fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn add_menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let menu = passes::adding(ui, "+", |ui| {
         passes::add_menu(ui, session, false, out);
         ui.separator();

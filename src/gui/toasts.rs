@@ -3,8 +3,8 @@
 
 use super::{
     icons::{self, Icon},
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use crate::session::{Command, Level, Notice, Session};
 use egui::{
@@ -51,13 +51,13 @@ impl Told<'_> {
         }
     }
 
-    fn dismiss(&self, out: &mut Outbox) {
+    fn dismiss(&self, out: &mut UiOutput) {
         self.ids.iter().for_each(|id| out.ask(Command::DismissNotice(*id)));
     }
 }
 
 /// Closes those that have been there long enough. What is said again stays with the newest of its kind.
-pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut Outbox) {
+pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput) {
     for told in told(session.notices()).iter().filter(|told| told.newest.level == Level::Info) {
         let age = now.saturating_duration_since(told.newest.at);
         if age >= STAYS {
@@ -70,7 +70,7 @@ pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut Outbox) 
 
 /// Shows them at the bottom of `ui`, which has so much less room: the newest on top, where the eye is, and the oldest
 /// below, where they are scrolled to.
-pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let told = told(session.notices());
     if told.is_empty() {
         return;
@@ -111,7 +111,7 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 
 /// Shows the newest over all else where nothing has called [`panel`]. Good news goes by itself, and so does trouble
 /// here: it is still there when the code is.
-pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut Outbox) {
+pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
     let is_fresh = |n: &&Notice| now.saturating_duration_since(n.at) < STAYS;
     let told = told(session.notices());
     let Some(told) = told.first().filter(|told| is_fresh(&told.newest)) else { return };
@@ -167,7 +167,7 @@ const BUTTON: f32 = 20.0;
 const ROW: f32 = BUTTON + 2.0 * PADDING;
 
 /// Shows one, as high as its text and its buttons need.
-fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut Outbox) {
+fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut UiOutput) {
     let notice = told.newest;
     let newest = session.pass_undo().map(|step| step.serial);
     let undoes = notice.undoes.is_some() && notice.undoes == newest;
@@ -237,7 +237,7 @@ mod tests {
         let said: Vec<_> = told.iter().map(|one| (one.text(), one.ids.clone())).collect();
         let wanted: [(&str, &[u64]); 4] = [("c", &[5]), ("a", &[4]), ("a (×2)", &[1, 3]), ("b", &[2])];
         assert_eq!(said, wanted.map(|(text, ids)| (text.to_owned(), ids.to_vec())));
-        let mut out = Outbox::default();
+        let mut out = UiOutput::default();
         told[2].dismiss(&mut out);
         assert_eq!(out.commands.len(), 2, "closing one closes all that say the same");
     }

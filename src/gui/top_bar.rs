@@ -6,9 +6,9 @@ use super::{
     export_menu,
     icons::{self, Icon},
     menus,
-    outbox::{Outbox, Pick, Wish},
     settings::{Change, Settings, Theme},
     theme,
+    ui_output::{Pick, ShellCommand, UiOutput},
 };
 use crate::{project::Origin, session::Session};
 use egui::{
@@ -31,13 +31,13 @@ const ROOMY: f32 = 700.0;
 /// And less than this the menu of exports, whose rows are in the palette.
 const COMPACT: f32 = 440.0;
 
-pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutput) {
     out.stop("top", ui);
     ui.spacing_mut().item_spacing.x = 4.0;
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         let item =
-            |ui: &mut Ui, name: &str, label: &str, tip: &str, action: Action, selected: bool, out: &mut Outbox| {
+            |ui: &mut Ui, name: &str, label: &str, tip: &str, action: Action, selected: bool, out: &mut UiOutput| {
                 let response = ui.add(Button::new(label).selected(selected));
                 let response = response.on_hover_text(out.keys.tip(tip, action));
                 if out.clicked(name, &response) {
@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
         item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
             if ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files").clicked() {
-                out.wishes.push(Wish::Pick(Pick::OpenFolder));
+                out.wishes.push(ShellCommand::Pick(Pick::OpenFolder));
                 ui.close();
             }
             let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
@@ -110,7 +110,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
 }
 
 /// Offers what of the window is shown, and how.
-fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
+fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
     // Several things are changed one after the other.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let (button, _) = MenuButton::new("View").config(config).ui(ui, |ui| {
@@ -155,7 +155,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
                     Theme::Light => "Use the light theme",
                 });
                 if out.clicked(&format!("theme:{}", theme.name()), &choice) {
-                    out.wishes.push(Wish::Set(Change::Theme(theme)));
+                    out.wishes.push(ShellCommand::Set(Change::Theme(theme)));
                 }
             }
         });

@@ -6,9 +6,8 @@ use super::{
     dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
-    menus,
-    outbox::{Outbox, Wish},
-    replay, resolution, theme, timeline,
+    menus, replay, resolution, theme, timeline,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     project::{PassId, Tab},
@@ -26,7 +25,7 @@ const SIZE: f32 = 108.0;
 const RECORDING: f32 = 64.0;
 
 /// Fills the space there is. True: a hand drags what is free of it.
-pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> bool {
+pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) -> bool {
     out.stop("transport", ui);
     let transport = session.transport();
     // That it takes clicks too keeps a click from moving anything.
@@ -106,7 +105,7 @@ fn figure(value: f64, digits: usize, letters: usize) -> String {
 
 /// While input is recorded: how many frames, on a button that ends it. There is always room for it, so that nobody
 /// forgets it.
-fn recording(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let Some(frames) = session.recorded_frames() else { return };
     let text = RichText::new(format!("● {frames}")).monospace().size(12.0).color(theme::of(ui).error);
     let tip = format!("{frames} frames of input recorded; click to stop and save");
@@ -127,7 +126,7 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
 }
 
 /// Milliseconds a frame; on hover, where they go.
-fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let transport = session.transport();
     let (text, of) = match (transport.gpu_millis, transport.cpu_micros) {
         (Some(millis), _) => (format!("{} ms", figure(millis, 2, 5)), "GPU"),
@@ -172,7 +171,7 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     });
 }
 
-fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let shown = session.shown_pass();
     let response = ComboBox::from_id_salt("shown pass")
         .width(76.0)
@@ -196,7 +195,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 }
 
 /// The menu at the right. `shape`: the resolution has no place in the bar, so it is here.
-fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbox) {
+fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOutput) {
     let more = icons::button(ui, Icon::More, "More");
     out.place("button:options", more.rect);
     Popup::menu(&more).show(|ui| {
@@ -230,7 +229,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut Outbo
         ui.separator();
         let close = menus::entry(ui, "Close picture", String::new());
         if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
-            out.wishes.push(Wish::ClosePanel(Panel::Picture));
+            out.wishes.push(ShellCommand::ClosePanel(Panel::Picture));
         }
     });
     if let Some(shape) = shape {

@@ -3,8 +3,8 @@
 use super::{
     accessible,
     icons::{self, Icon},
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use crate::{project::Tab, session::Session};
 use egui::{Align2, FontId, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
@@ -57,7 +57,7 @@ impl Uses {
     }
 
     /// `limit`: how high the list may be.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) -> Shown {
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> Shown {
         out.stop("uses", ui);
         let mut shown = Shown::default();
         let top = ui.max_rect().top() + 0.5;
@@ -96,7 +96,7 @@ impl Uses {
         shown
     }
 
-    fn row(&self, ui: &mut Ui, index: usize, several: bool, out: &mut Outbox) -> bool {
+    fn row(&self, ui: &mut Ui, index: usize, several: bool, out: &mut UiOutput) -> bool {
         let place = &self.places[index];
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
         let name = format!("{} line {}: {}", place.tab.title(), place.line, place.text);

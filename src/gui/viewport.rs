@@ -3,9 +3,8 @@
 use super::{
     accessible, audited,
     geometry::{Area, Letterbox, Shape},
-    halt,
-    outbox::{Outbox, Wish},
-    probe, theme,
+    halt, probe, theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     project::Input,
@@ -131,7 +130,7 @@ impl Viewport {
     }
 
     /// Fills the space there is.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, around: Around, out: &mut Outbox) {
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, around: Around, out: &mut UiOutput) {
         let alone = around == Around::Nothing;
         let rect = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
@@ -196,7 +195,7 @@ impl Viewport {
     }
 
     /// Mouse events in their order: a press and a release between two frames are both told of.
-    fn mouse(&mut self, ui: &Ui, response: &egui::Response, letterbox: &Letterbox, out: &mut Outbox) {
+    fn mouse(&mut self, ui: &Ui, response: &egui::Response, letterbox: &Letterbox, out: &mut UiOutput) {
         let scale = ui.pixels_per_point();
         // Points are pixels divided by the scale; what the way back loses must not lead into the pixel beside it.
         let pixels = |p: Pos2| ((p.x * scale * 256.0).round() / 256.0, (p.y * scale * 256.0).round() / 256.0);
@@ -210,7 +209,7 @@ impl Viewport {
                     if is_pick && response.rect.contains(pos) && on_top(pos) {
                         if letterbox.contains(x, y) {
                             self.picks = false;
-                            out.wishes.push(Wish::Trace(fraction(letterbox, pos2(x, y))));
+                            out.wishes.push(ShellCommand::Trace(fraction(letterbox, pos2(x, y))));
                         }
                         continue;
                     }

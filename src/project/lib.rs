@@ -4,7 +4,6 @@
 //! Knows nothing of wgpu or naga; reads files only where a caller names them.
 
 mod advice;
-mod arrivals;
 mod atomic;
 pub mod confine;
 mod custom_uniform_values;
@@ -20,6 +19,7 @@ mod fills;
 mod folder;
 mod format;
 mod geometry;
+mod imports;
 mod includes;
 mod inspect_comments;
 pub mod json;
@@ -44,10 +44,6 @@ mod text_location;
 mod writes;
 
 pub use advice::{advice, missing_pass};
-pub use arrivals::{
-    ArrivalError, FileKind, Fit, MODELS, PICTURES, RECORDING, TextArrival, arrival_of_text, folder_of_parts,
-    kind_of_file, new_for,
-};
 pub use atomic::write_with;
 pub use confine::FileError;
 pub use custom_uniforms::{
@@ -61,6 +57,10 @@ pub use folder::declare_channels;
 pub use format::PassFormat;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
+};
+pub use imports::{
+    FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, TextImport, folder_of_parts, import_of_text, kind_of_file,
+    new_for,
 };
 pub use includes::{IncludeLines, include_names};
 pub use inspect_comments::{InspectComment, inspect_comments};

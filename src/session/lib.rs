@@ -7,7 +7,6 @@
 
 mod analysis;
 mod apply;
-mod arrivals;
 mod auditing;
 pub mod buffers;
 pub mod clock;
@@ -23,6 +22,7 @@ mod files;
 mod fps;
 mod frames;
 mod halt;
+mod imports;
 mod kept_files;
 mod last_pictures;
 mod marker;

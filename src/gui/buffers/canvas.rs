@@ -6,7 +6,7 @@ use super::{
     zoom::{Placed, Zoom},
 };
 use crate::{
-    gui::{accessible, flash, outbox::Outbox, theme},
+    gui::{accessible, flash, theme, ui_output::UiOutput},
     session::Session,
 };
 use egui::{
@@ -30,7 +30,7 @@ pub fn show(
     ui: &mut Ui,
     session: &Session,
     (area, under_picture): (Rect, Option<[f32; 2]>),
-    out: &mut Outbox,
+    out: &mut UiOutput,
 ) {
     let p = theme::of(ui);
     let id = Id::unique("buffer");

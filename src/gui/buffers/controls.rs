@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     engine::Paint,
-    gui::{accessible, outbox::Outbox},
+    gui::{accessible, ui_output::UiOutput},
 };
 use egui::{DragValue, RichText, Ui};
 
@@ -15,7 +15,7 @@ const STOPS: f32 = 24.0;
 /// So wide all of it is in one row.
 const ONE_ROW: f32 = 900.0;
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let whole = ui.available_width();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -70,7 +70,7 @@ fn separator(ui: &mut Ui) {
     ui.add_space(3.0);
 }
 
-fn channels(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn channels(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let components = state.seen.as_ref().map_or(4, |seen| seen.read.components);
     let all = ui.selectable_label(state.look.channel.is_none(), "RGB").on_hover_text("Show all components as a colour");
     if out.clicked("buffers:channel:all", &all) {
@@ -86,7 +86,7 @@ fn channels(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn range(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn range(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let whole = state.seen.as_ref().map_or((0.0, 1.0), |seen| {
         let plain = seen.read.statistics.extremes.iter().take(3).flatten();
         let joined = plain.copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
@@ -112,7 +112,7 @@ fn range(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn exposure(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn exposure(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let field = DragValue::new(&mut state.look.exposure).speed(0.05).range(-STOPS..=STOPS).max_decimals(2);
     let response = ui.add(field.prefix("EV "));
     accessible::name(&response, egui::Role::SpinButton, format!("Exposure: {}", state.look.exposure));
@@ -120,7 +120,7 @@ fn exposure(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
     response.on_hover_text("Exposure in stops: +1 doubles the brightness");
 }
 
-fn size(state: &mut Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn size(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let fit = ui.selectable_label(state.zoom.fits(), "Fit").on_hover_text("Fit the whole texture (Home)");
     if out.clicked("buffers:fit", &fit) {
         state.zoom.fit();

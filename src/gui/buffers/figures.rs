@@ -4,7 +4,7 @@ use super::{
     numbers::{COMPONENTS, fitted},
     state::Buffers,
 };
-use crate::gui::{accessible, histogram, outbox::Outbox, theme};
+use crate::gui::{accessible, histogram, theme, ui_output::UiOutput};
 use egui::{Align2, Color32, FontId, Role, Sense, Ui, pos2, vec2};
 
 /// Points that the foot is high.
@@ -14,7 +14,7 @@ const ROW: f32 = 14.0;
 const FIRST: f32 = 18.0;
 const COLUMN: f32 = 74.0;
 
-pub fn show(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
+pub fn show(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     ui.spacing_mut().item_spacing = vec2(12.0, 2.0);
     ui.add_space(3.0);
@@ -26,7 +26,7 @@ pub fn show(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
     });
 }
 
-fn table(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn table(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     let (p, statistics) = (theme::of(ui), &seen.read.statistics);
     let (rect, response) = ui.allocate_exact_size(vec2(FIRST + 3.0 * COLUMN, 5.0 * ROW), Sense::hover());
@@ -56,7 +56,7 @@ fn table(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
 }
 
 /// The size, what is looked at, and how large it is shown.
-fn about(state: &Buffers, ui: &mut Ui, out: &mut Outbox) {
+fn about(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     let p = theme::of(ui);
     let pixels = &seen.read.pixels;

@@ -3,7 +3,7 @@
 use super::state::{Buffers, title, words};
 use crate::{
     engine::Miniature,
-    gui::{accessible, channels::Live, flash, outbox::Outbox, theme},
+    gui::{accessible, channels::Live, flash, theme, ui_output::UiOutput},
     session::{Session, buffers::Target},
 };
 use egui::{Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -14,7 +14,7 @@ const NUMBERS: f32 = 10.5;
 /// The least size of what flashes on a small picture.
 const FLASHED: f32 = 3.0;
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut Outbox) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut UiOutput) {
     let shown = state.target(session.project());
     ui.spacing_mut().item_spacing.y = 2.0;
     ScrollArea::vertical().id_salt("targets").auto_shrink(false).show(ui, |ui| {
@@ -27,7 +27,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live
     });
 }
 
-fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chosen: bool, out: &mut Outbox) -> bool {
+fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chosen: bool, out: &mut UiOutput) -> bool {
     let p = theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let name = title(session.project(), target);

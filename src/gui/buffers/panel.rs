@@ -5,7 +5,7 @@ use super::{
     state::{Buffers, Page},
 };
 use crate::{
-    gui::{channels::Live, outbox::Outbox, theme},
+    gui::{channels::Live, theme, ui_output::UiOutput},
     session::{Session, buffers::reason},
 };
 use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
@@ -18,7 +18,7 @@ pub struct Around<'a> {
     pub under_picture: Option<[f32; 2]>,
 }
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<'_>, out: &mut Outbox) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<'_>, out: &mut UiOutput) {
     out.stop("buffers", ui);
     state.begin();
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);

@@ -4,14 +4,14 @@ use super::state::Buffers;
 use crate::{
     debugger::nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, Search, SearchEnd},
     gui::{
-        outbox::{Outbox, Wish},
         theme,
+        ui_output::{ShellCommand, UiOutput},
     },
     session::{Command, Session},
 };
 use egui::{Label, RichText, Ui};
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let bad = state.seen.as_ref().and_then(|seen| seen.read.nonfinite);
     let search = session.search();
     if bad.is_none() && search.is_none() {
@@ -62,7 +62,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
     });
 }
 
-fn find(ui: &mut Ui, name: &str, out: &mut Outbox) {
+fn find(ui: &mut Ui, name: &str, out: &mut UiOutput) {
     let tip = "Replays the kept frames in the background and reports the first NaN: pass, frame, texel and line";
     let response = ui.button(name).on_hover_text(tip);
     if out.clicked("buffers:find", &response) {
@@ -70,7 +70,7 @@ fn find(ui: &mut Ui, name: &str, out: &mut Outbox) {
     }
 }
 
-fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Outbox) {
+fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut UiOutput) {
     let p = theme::of(ui);
     let (pass, (x, y)) = (found.pass.title(), found.texel);
     let head = match found.is_older {
@@ -92,7 +92,7 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Out
             && let Some(tab) = &place.tab
             && out.clicked("buffers:go-to", &ui.button("Go to line"))
         {
-            out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+            out.wishes.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
         }
     } else if !found.is_older {
         let words = "No operation produces it: it is too large for the pass's format, or was read from a texture.";

@@ -6,9 +6,8 @@ use super::{
 };
 use crate::{
     gui::{
-        accessible,
-        outbox::{Outbox, Pick, Wish},
-        theme,
+        accessible, theme,
+        ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
     project::{Channel, Filter, Input, Media, PassId, Sampler, Wrap},
@@ -23,10 +22,10 @@ pub fn choose(
     index: usize,
     channel: Option<&Channel>,
     swatches: &mut Swatches<'_>,
-    out: &mut Outbox,
+    out: &mut UiOutput,
 ) {
     let session = swatches.session;
-    let set = |out: &mut Outbox, channel: Option<Channel>| {
+    let set = |out: &mut UiOutput, channel: Option<Channel>| {
         out.ask(Command::SetChannel { pass: pass.clone(), index, channel });
     };
     let now = channel.map(|c| &c.input);
@@ -55,7 +54,7 @@ pub fn choose(
             set(out, Some(Channel { input: Input::Keyboard, sampler }));
         }
         if out.clicked("choose:file", &ui.button("Image file…")) {
-            out.wishes.push(Wish::Pick(Pick::Picture { channel: index }));
+            out.wishes.push(ShellCommand::Pick(Pick::Picture { channel: index }));
         }
     });
     if let Some(channel) = channel {
@@ -96,7 +95,7 @@ fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatc
 }
 
 /// Filter, wrap and flip, as far as the input has them.
-fn sampler(ui: &mut Ui, channel: &Channel, out: &mut Outbox, set: impl Fn(&mut Outbox, Option<Channel>)) {
+fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut UiOutput, Option<Channel>)) {
     if matches!(channel.input, Input::Keyboard | Input::Music(_) | Input::Microphone) {
         return;
     }

@@ -7,7 +7,7 @@ mod swatch;
 
 pub use live::Live;
 
-use super::{outbox::Outbox, theme, thumbnails::Thumbnails};
+use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
 use crate::{
     project::{self, Channel, Pass, Tab},
     session::Session,
@@ -41,7 +41,14 @@ fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     }
 }
 
-pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnails, live: &mut Live, out: &mut Outbox) {
+pub fn show(
+    ui: &mut Ui,
+    session: &Session,
+    tab: &Tab,
+    thumbnails: &mut Thumbnails,
+    live: &mut Live,
+    out: &mut UiOutput,
+) {
     out.stop("channels", ui);
     let rect = ui.available_rect_before_wrap();
     let mut swatches = Swatches { session, thumbnails, live };

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     gui::{
         editor::Ask,
-        outbox::{Outbox, Wish},
+        ui_output::{ShellCommand, UiOutput},
         uses::Uses,
     },
     project::Tab,
@@ -18,7 +18,7 @@ use egui::Ui;
 
 impl CodePanel {
     /// Does what the editor asks of those who know the other texts.
-    pub(super) fn answer(&mut self, session: &Session, ask: Ask, out: &mut Outbox) {
+    pub(super) fn answer(&mut self, session: &Session, ask: Ask, out: &mut UiOutput) {
         let tab = self.current.clone();
         let of_tab = session.analysis().filter(|a| a.front == tab).and_then(|a| Some((a, a.source_of(&tab)?)));
         match (ask, of_tab) {
@@ -48,7 +48,7 @@ impl CodePanel {
                 }
                 Err(text) => out.ask(Command::Notify { level: Level::Info, text, path: None }),
             },
-            (Ask::Paste, _) => out.wishes.push(Wish::PasteCode),
+            (Ask::Paste, _) => out.wishes.push(ShellCommand::PasteCode),
             (Ask::GoTo(_) | Ask::ListUses(_), None) => {}
         }
     }
@@ -59,11 +59,11 @@ impl CodePanel {
         Some((self.current.clone(), buffer.selection().head, buffer.revision()))
     }
 
-    pub(super) fn choose_fix(&mut self, chosen: Chosen, out: &mut Outbox) {
+    pub(super) fn choose_fix(&mut self, chosen: Chosen, out: &mut UiOutput) {
         match chosen {
             Chosen::Nothing => return,
             Chosen::Closed => {}
-            Chosen::Fix(fix) => out.wishes.push(Wish::Fix(fix)),
+            Chosen::Fix(fix) => out.wishes.push(ShellCommand::Fix(fix)),
         }
         self.fixes = None;
     }

@@ -4,14 +4,14 @@ use super::{CodePanel, find_bar::Asked, places, rename_bar::Renamed};
 use crate::{
     gui::{
         accessible,
-        outbox::{Outbox, Wish},
+        ui_output::{ShellCommand, UiOutput},
     },
     session::Session,
 };
 use egui::{Key, TextEdit, Ui};
 
 impl CodePanel {
-    pub(super) fn find_bar(&mut self, ui: &mut Ui, out: &mut Outbox) {
+    pub(super) fn find_bar(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         let Some(editor) = self.editors.get(&self.current) else { return };
         let asked = self.find.show(ui, &self.current, editor, self.everywhere.count(), out);
         // While one types, Escape first goes back to one caret.
@@ -34,17 +34,17 @@ impl CodePanel {
         }
     }
 
-    pub(super) fn rename_bar(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    pub(super) fn rename_bar(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         let Some(bar) = &mut self.rename else { return };
         match bar.show(ui, session, out) {
             Renamed::Nothing => return,
             Renamed::Closed => self.focus(),
-            Renamed::To(fix) => out.wishes.push(Wish::Fix(fix)),
+            Renamed::To(fix) => out.wishes.push(ShellCommand::Fix(fix)),
         }
         self.rename = None;
     }
 
-    pub(super) fn go_to_bar(&mut self, ui: &mut Ui, out: &mut Outbox) {
+    pub(super) fn go_to_bar(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         let take_focus = std::mem::take(&mut self.bar_takes_focus);
         let Some(text) = &mut self.go_to_line else { return };
         let mut done = false;

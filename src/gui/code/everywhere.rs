@@ -2,7 +2,7 @@
 
 use super::{CodePanel, matches::Everywhere};
 use crate::{
-    gui::{outbox::Outbox, uses::Uses},
+    gui::{ui_output::UiOutput, uses::Uses},
     project::Tab,
     session::{Command, Level, Session},
 };
@@ -65,7 +65,7 @@ impl CodePanel {
     }
 
     /// Replaces every match in every text: each takes its own back by one step of undo.
-    pub(super) fn replace_everywhere(&mut self, out: &mut Outbox) {
+    pub(super) fn replace_everywhere(&mut self, out: &mut UiOutput) {
         let Ok(finder) = self.find.query().finder() else { return };
         let (mut count, mut texts) = (0, 0);
         for tab in &self.order {

@@ -5,8 +5,8 @@ use crate::{
         actions::Action,
         editor::{CodeEditor, Finder, Query},
         icons::{self, Icon},
-        outbox::Outbox,
         theme,
+        ui_output::UiOutput,
     },
     project::Tab,
 };
@@ -134,7 +134,14 @@ impl FindBar {
     }
 
     /// Shows it. `everywhere`: the matches in all texts.
-    pub fn show(&mut self, ui: &mut Ui, tab: &Tab, editor: &CodeEditor, everywhere: usize, out: &mut Outbox) -> Asked {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        tab: &Tab,
+        editor: &CodeEditor,
+        everywhere: usize,
+        out: &mut UiOutput,
+    ) -> Asked {
         self.refresh(tab, editor);
         let mut asked = Asked::Nothing;
         ui.horizontal_wrapped(|ui| {
@@ -202,7 +209,7 @@ impl FindBar {
         asked
     }
 
-    fn replacing(&mut self, ui: &mut Ui, count: usize, asked: &mut Asked, out: &mut Outbox) {
+    fn replacing(&mut self, ui: &mut Ui, count: usize, asked: &mut Asked, out: &mut UiOutput) {
         let field = ui.add(TextEdit::singleline(&mut self.with).hint_text("Replace with").desired_width(150.0));
         out.place("field:replace", field.rect);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));

@@ -1,7 +1,7 @@
 //! The list of quick fixes at the caret.
 
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, theme, ui_output::UiOutput},
     project::Tab,
     session::{Session, TabFix},
 };
@@ -59,7 +59,7 @@ impl Fixes {
     }
 
     /// Shows the list below the caret. `now`: where that is, as [`Fixes::new`] takes it.
-    pub fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut Outbox) -> Chosen {
+    pub fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> Chosen {
         if *now != self.at {
             return Chosen::Closed;
         }

@@ -5,14 +5,14 @@ use crate::{
         actions::{Action, TraceAction},
         editor::EditorAction as Code,
         menus,
-        outbox::Outbox,
+        ui_output::UiOutput,
     },
     session::Session,
 };
 use egui::{Button, Response, Ui};
 
 /// Shows it where it is open. `has_selection`: there is something to cut; `has_fix`: a problem at the caret can be fixed.
-pub(super) fn show(response: &Response, session: &Session, has_fix: bool, out: &mut Outbox) {
+pub(super) fn show(response: &Response, session: &Session, has_fix: bool, out: &mut UiOutput) {
     menus::context(response, |ui| {
         let mut item = |ui: &mut Ui, name: &str, title: &str, action: Action, keys: &str, is_on: bool| {
             let keys = if keys.is_empty() { out.keys.hint(action) } else { keys.to_owned() };

@@ -14,10 +14,10 @@ mod several;
 use super::{
     actions::{Action, Keymap, Listening},
     editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
-    outbox::{Outbox, Wish},
     problems,
     tabs::{self, OpenFile},
     theme, toasts,
+    ui_output::{ShellCommand, UiOutput},
     uses::Uses,
 };
 use crate::{
@@ -236,7 +236,7 @@ impl CodePanel {
         self.find.switch(switch);
     }
 
-    pub fn replace_all(&mut self, out: &mut Outbox) {
+    pub fn replace_all(&mut self, out: &mut UiOutput) {
         if self.find.is_everywhere() {
             return self.replace_everywhere(out);
         }
@@ -247,7 +247,7 @@ impl CodePanel {
     }
 
     /// Does what a key or the palette asks of the text in front.
-    pub fn act(&mut self, action: EditorAction, out: &mut Outbox) {
+    pub fn act(&mut self, action: EditorAction, out: &mut UiOutput) {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             editor.act(action);
             editor.focus();
@@ -328,7 +328,7 @@ impl CodePanel {
     }
 
     /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) -> bool {
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> bool {
         ui.spacing_mut().item_spacing.y = 0.0;
         let is_dragged = tabs::show(ui, session, &self.current, &self.files, out);
         let bar = Frame::NONE.fill(theme::of(ui).raised).inner_margin(Margin::symmetric(8, 5));
@@ -371,7 +371,7 @@ impl CodePanel {
         is_dragged
     }
 
-    fn editor(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    fn editor(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         let marks = places::marks(session, &self.current);
         let shared = if self.current == Tab::Common { "" } else { session.text(&Tab::Common) };
         let Some(editor) = self.editors.get_mut(&self.current) else { return };
@@ -405,7 +405,7 @@ impl CodePanel {
         }
         self.tell_changed(out);
         if let Some(line) = shown.clicked_line {
-            out.wishes.push(Wish::Breakpoint(self.current.clone(), line));
+            out.wishes.push(ShellCommand::Breakpoint(self.current.clone(), line));
         }
         self.point(shown.pointed, out);
         for (name, rect) in shown.placed {
@@ -427,7 +427,7 @@ impl CodePanel {
     }
 
     /// Probes what the pointer is over, and no more once it is over nothing.
-    fn point(&mut self, at: Option<usize>, out: &mut Outbox) {
+    fn point(&mut self, at: Option<usize>, out: &mut UiOutput) {
         let word = at.and_then(|at| Some(self.buffer()?.word_at(at).start));
         if word != self.pointed {
             self.pointed = word;
@@ -444,7 +444,7 @@ impl CodePanel {
         }
     }
 
-    fn show_uses(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    fn show_uses(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         let Some(uses) = &mut self.uses else { return };
         let frame = Frame::NONE.fill(theme::of(ui).panel);
         let limit = (ui.available_height() * 0.35).min(160.0);

@@ -4,8 +4,8 @@ use crate::{
     gui::{
         accessible,
         icons::{self, Icon},
-        outbox::Outbox,
         theme,
+        ui_output::UiOutput,
     },
     project::Tab,
     session::{Session, TabFix},
@@ -37,7 +37,7 @@ impl RenameBar {
         Ok(Self { tab, at, text: name.clone(), name, takes_focus: true, wrong: None })
     }
 
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) -> Renamed {
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> Renamed {
         let mut renamed = Renamed::Nothing;
         ui.horizontal_wrapped(|ui| {
             ui.label(format!("Rename {} to", self.name));

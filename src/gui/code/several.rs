@@ -3,7 +3,7 @@
 
 use super::CodePanel;
 use crate::{
-    gui::{editor::CodeEditor, outbox::Outbox},
+    gui::{editor::CodeEditor, ui_output::UiOutput},
     project::Tab,
     session::{Command, TabEdit, TabFix},
 };
@@ -11,7 +11,7 @@ use std::{collections::BTreeMap, ops::Range};
 
 impl CodePanel {
     /// Makes all edits of a fix. Fails where one of the texts is another by now, and then changes none.
-    pub fn apply_fix(&mut self, fix: &TabFix, out: &mut Outbox) -> Result<(), &'static str> {
+    pub fn apply_fix(&mut self, fix: &TabFix, out: &mut UiOutput) -> Result<(), &'static str> {
         let mut parts: BTreeMap<Tab, Vec<(Range<usize>, String)>> = BTreeMap::new();
         for TabEdit { tab, range, replaced, text } in &fix.edits {
             let there = self.editors.get(tab).and_then(|editor| editor.buffer().text().get(range.clone()));
@@ -42,7 +42,7 @@ impl CodePanel {
     }
 
     /// Tells the session of the texts that have changed.
-    pub(super) fn tell_changed(&mut self, out: &mut Outbox) {
+    pub(super) fn tell_changed(&mut self, out: &mut UiOutput) {
         for (tab, editor) in &mut self.editors {
             if let Some(text) = CodeEditor::take_changed(editor) {
                 out.ask(Command::EditText { tab: tab.clone(), text: text.to_owned() });

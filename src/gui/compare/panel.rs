@@ -6,9 +6,8 @@ use super::{
 };
 use crate::{
     gui::{
-        accessible,
-        outbox::{Outbox, Pick, Wish},
-        theme,
+        accessible, theme,
+        ui_output::{Pick, ShellCommand, UiOutput},
     },
     lab::difference::{PictureDifference, Times},
     playback::comparing::{Compared, Comparison},
@@ -21,7 +20,7 @@ const FOOT: f32 = 62.0;
 /// A difference is shown so many times as large.
 const GAINS: [u32; 4] = [1, 4, 16, 64];
 
-pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("compare", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
     state.update(ui.ctx(), session);
@@ -52,7 +51,7 @@ pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbo
 }
 
 /// Offers what the project is held against.
-fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
+fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     ui.label("Against");
     let choices = [
         (Choice::LastSave, "Last save", "compare:last-save", "The project as last saved or opened"),
@@ -79,13 +78,13 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
         if out.clicked("compare:browse", &browse) {
-            out.wishes.push(Wish::Pick(Pick::Reference));
+            out.wishes.push(ShellCommand::Pick(Pick::Reference));
         }
     }
 }
 
 /// The button that begins or ends, and how far it is.
-fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Compared::UnderWay { done, of }) = session.comparison() {
         if out.clicked("compare:stop", &ui.button("Stop")) {
             out.ask(Command::Compare(None));
@@ -119,7 +118,7 @@ fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) 
     }
 }
 
-fn views(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
+fn views(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     let views = [
         (View::Side, "Side by side", "compare:side", "This project on the left"),
         (View::Wipe, "Wipe", "compare:wipe", "One over the other: drag the line or use the arrow keys"),
@@ -144,7 +143,7 @@ fn views(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     let p = theme::of(ui);
     let comparison = &seen.figures.comparison;

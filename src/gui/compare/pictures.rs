@@ -1,7 +1,7 @@
 //! The two pictures: side by side, one over the other, or their difference.
 
 use super::state::{Compare, Under, View};
-use crate::gui::{accessible, outbox::Outbox, theme};
+use crate::gui::{accessible, theme, ui_output::UiOutput};
 use egui::{
     Align2, Color32, CursorIcon, EventFilter, FontId, Id, Key, Painter, Rect, Response, Sense, StrokeKind, TextureId,
     Ui, Vec2, pos2, vec2,
@@ -12,7 +12,7 @@ const GAP: f32 = 4.0;
 /// The part of the width that an arrow key moves the line by.
 const STEP: f32 = 0.02;
 
-pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut Outbox) {
+pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.painter().rect_filled(area, 0.0, p.surround);
     let response = ui.interact(area, Id::unique("comparison"), Sense::click_and_drag());

@@ -1,13 +1,13 @@
 //! Says who has the keyboard: the way from panel to panel and within one by keys, the frame round what has it, and who
 //! gets it back.
 //!
-//! Owns no widget. A part of the window says by [`Outbox::stop`] that F6 stops there, and everything inside it is found
+//! Owns no widget. A part of the window says by [`UiOutput::stop`] that F6 stops there, and everything inside it is found
 //! by egui's own record of which widget lies in which. Two widgets are home: the picture and the code. They take every
 //! key, Tab too, and whichever had the keyboard last gets it back when nothing else has it.
 
 use super::{
-    outbox::{Outbox, Stop},
     theme,
+    ui_output::{FocusStop, UiOutput},
 };
 use egui::{
     Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Pos2, Rect, Ui, WidgetRect, WidgetRects,
@@ -28,7 +28,7 @@ struct Left {
 #[derive(Default)]
 pub struct Focus {
     /// Those of the frame before, in reading order.
-    stops: Vec<Stop>,
+    stops: Vec<FocusStop>,
     /// Holds what had the keyboard last in each of them.
     visited: HashMap<&'static str, Id>,
     /// The home that had the keyboard last.
@@ -109,7 +109,7 @@ impl Focus {
             // A dialog: egui goes round in it. Nothing has the keyboard: to what is most of the window.
             (None, None) if focused.is_some() || ui.memory(|m| m.top_modal_layer().is_some()) => return None,
             (None, None) => {
-                let area = |p: &&Stop| p.rect.area();
+                let area = |p: &&FocusStop| p.rect.area();
                 let largest = self.stops.iter().max_by(|a, b| area(a).total_cmp(&area(b)))?;
                 return self.entry(widgets, largest);
             }
@@ -126,7 +126,7 @@ impl Focus {
     }
 
     /// Gives the keyboard to the next panel, or to the one before, round the ends.
-    pub fn step(&mut self, ui: &Ui, out: &Outbox, forward: bool) {
+    pub fn step(&mut self, ui: &Ui, out: &UiOutput, forward: bool) {
         self.stops = ordered(&out.stops);
         let found = ui.ctx().viewport(|v| {
             let widgets = &v.this_pass.widgets;
@@ -148,7 +148,7 @@ impl Focus {
     }
 
     /// Returns where the keyboard goes in a panel: to its home, to what had it there last, or to the first that can.
-    fn entry(&self, widgets: &WidgetRects, stop: &Stop) -> Option<Id> {
+    fn entry(&self, widgets: &WidgetRects, stop: &FocusStop) -> Option<Id> {
         let inside = self.inside(widgets, stop);
         let visited = self.visited.get(stop.name).filter(|id| inside.contains(id));
         stop.home.filter(|id| widgets.contains(*id)).or_else(|| visited.or(inside.first()).copied())
@@ -157,7 +157,7 @@ impl Focus {
     /// Looks who has the keyboard when everything has been shown, and gives it back where nobody has it.
     ///
     /// `is_covered`: something is in front that has the keyboard to itself, or nothing is there that wants it.
-    pub fn settle(&mut self, ui: &Ui, out: &Outbox, is_covered: bool) {
+    pub fn settle(&mut self, ui: &Ui, out: &UiOutput, is_covered: bool) {
         self.stops = ordered(&out.stops);
         let is_popup_open = Popup::is_any_open(ui.ctx());
         self.place = None;
@@ -266,7 +266,7 @@ impl Focus {
     }
 
     /// The innermost panel that a widget lies in.
-    fn stop_of(&self, widgets: &WidgetRects, id: Id) -> Option<&Stop> {
+    fn stop_of(&self, widgets: &WidgetRects, id: Id) -> Option<&FocusStop> {
         let mut at = widgets.get(id)?;
         loop {
             if let Some(stop) = self.stops.iter().find(|p| p.ui == at.id || p.ui == at.parent_id) {
@@ -277,7 +277,7 @@ impl Focus {
     }
 
     /// Returns what can have the keyboard in a panel, in the order in which it was shown.
-    fn inside(&self, widgets: &WidgetRects, stop: &Stop) -> Vec<Id> {
+    fn inside(&self, widgets: &WidgetRects, stop: &FocusStop) -> Vec<Id> {
         let Some(layer) = widgets.get(stop.ui).map(|w| w.layer_id) else { return Vec::new() };
         let is_inside = |w: &&WidgetRect| self.stop_of(widgets, w.id).is_some_and(|p| p.ui == stop.ui);
         focusable(widgets, layer).filter(is_inside).map(|w| w.id).collect()
@@ -285,7 +285,7 @@ impl Focus {
 }
 
 /// Lines of panels from the top, each from the left.
-fn ordered(stops: &[Stop]) -> Vec<Stop> {
+fn ordered(stops: &[FocusStop]) -> Vec<FocusStop> {
     let mut list = stops.to_vec();
     list.sort_by(|a, b| (a.rect.top(), a.rect.left()).partial_cmp(&(b.rect.top(), b.rect.left())).unwrap());
     list

@@ -36,7 +36,7 @@ impl Stage {
         let mut names: Vec<(Id, String)> = vec![(Self::text(), "text".into()), (Self::second(), "second".into())];
         let Stage { ctx, focus, asks, has_second } = self;
         let mut output = ctx.run_ui(input, |ui| {
-            let mut out = Outbox::default();
+            let mut out = UiOutput::default();
             focus.take_keys(ui);
             let mut button = |ui: &mut Ui, name: &str| names.push((ui.button(name).id, name.to_owned()));
             Side::top("top").show(ui, |ui| {

@@ -2,10 +2,9 @@
 
 use crate::{
     gui::{
-        accessible,
-        outbox::Outbox,
-        theme,
+        accessible, theme,
         thumbnails::{Subject, Thumbnail, Thumbnails},
+        ui_output::UiOutput,
     },
     project::presets,
     session::Command,
@@ -66,7 +65,14 @@ impl Card {
     }
 
     /// True while the pointer is on it.
-    pub fn show(&self, ui: &Ui, rect: Rect, text: Arc<Galley>, thumbnails: &mut Thumbnails, out: &mut Outbox) -> bool {
+    pub fn show(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        text: Arc<Galley>,
+        thumbnails: &mut Thumbnails,
+        out: &mut UiOutput,
+    ) -> bool {
         let response = ui.interact(rect, egui::Id::unique(("preset", self.name)), Sense::click());
         accessible::name(&response, egui::Role::Button, format!("{}: {}", self.title, self.about));
         if response.gained_focus() {

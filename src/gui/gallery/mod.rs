@@ -7,10 +7,9 @@ mod grid;
 mod start;
 
 use super::{
-    accessible,
-    outbox::{Outbox, Wish},
-    theme,
+    accessible, theme,
     thumbnails::Thumbnails,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{project::presets, session::Session};
 use card::Card;
@@ -40,7 +39,7 @@ impl Gallery {
         session: &Session,
         thumbnails: &mut Thumbnails,
         can_close: bool,
-        out: &mut Outbox,
+        out: &mut UiOutput,
     ) {
         out.stop("gallery", ui);
         let p = theme::of(ui);
@@ -55,7 +54,7 @@ impl Gallery {
                 if can_close {
                     let back = ui.button(format!("Back to {}", short(session)));
                     if out.clicked("button:close-gallery", &back) {
-                        out.wishes.push(Wish::CloseGallery);
+                        out.wishes.push(ShellCommand::CloseGallery);
                     }
                     ui.add_space(4.0);
                 }
@@ -84,7 +83,7 @@ impl Gallery {
         thumbnails.animate(rested.map(|(name, _)| name));
     }
 
-    fn filter(&mut self, ui: &mut Ui, out: &mut Outbox) {
+    fn filter(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         let p = theme::of(ui);
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new("Presets").size(17.0).color(p.strong));
@@ -111,7 +110,7 @@ impl Gallery {
     }
 
     /// Shows the cards. Returns the one that the pointer is on.
-    fn presets(&self, ui: &mut Ui, thumbnails: &mut Thumbnails, out: &mut Outbox) -> Option<&'static str> {
+    fn presets(&self, ui: &mut Ui, thumbnails: &mut Thumbnails, out: &mut UiOutput) -> Option<&'static str> {
         let words: Vec<String> = self.search.split_whitespace().map(str::to_lowercase).collect();
         let mut hovered = None;
         let mut is_empty = true;
@@ -141,7 +140,7 @@ impl Gallery {
 }
 
 /// Shows cards in rows, each as high as its longest text asks.
-fn grid(ui: &mut Ui, cards: &[&'static Card], thumbnails: &mut Thumbnails, out: &mut Outbox) -> Option<&'static str> {
+fn grid(ui: &mut Ui, cards: &[&'static Card], thumbnails: &mut Thumbnails, out: &mut UiOutput) -> Option<&'static str> {
     let room = ui.available_width();
     let (columns, width) = columns(room);
     let mut hovered = None;

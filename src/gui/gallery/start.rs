@@ -8,9 +8,9 @@ use crate::{
     gui::{
         accessible,
         actions::Action,
-        outbox::{Outbox, Pick, Wish},
         recent, theme,
         thumbnails::{Subject, Thumbnail, Thumbnails},
+        ui_output::{Pick, ShellCommand, UiOutput},
     },
     session::{Command, RecentProject, Session},
 };
@@ -24,7 +24,7 @@ const HEIGHT: f32 = 54.0;
 const RECENT: usize = 24;
 
 /// `shows_all`: more than one row of recent projects.
-pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut UiOutput) {
     ui.label(RichText::new("Start").size(17.0).color(theme::of(ui).strong));
     ui.add_space(4.0);
     let new = out.keys.hint(Action::New);
@@ -46,14 +46,14 @@ pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_a
     match clicked {
         Some("gallery:new") => out.act(Action::New),
         Some("gallery:paste") => out.act(Action::Paste),
-        Some("gallery:open-file") => out.wishes.push(Wish::Pick(Pick::OpenFile)),
-        Some(_) => out.wishes.push(Wish::Pick(Pick::OpenFolder)),
+        Some("gallery:open-file") => out.wishes.push(ShellCommand::Pick(Pick::OpenFile)),
+        Some(_) => out.wishes.push(ShellCommand::Pick(Pick::OpenFolder)),
         None => {}
     }
     recent_rows(ui, session, thumbnails, shows_all, out);
 }
 
-fn recent_rows(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut Outbox) {
+fn recent_rows(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut UiOutput) {
     let list = session.recent();
     if list.is_empty() {
         return;
@@ -94,7 +94,7 @@ fn recent_card(
     text: Arc<Galley>,
     session: &Session,
     thumbnails: &mut Thumbnails,
-    out: &mut Outbox,
+    out: &mut UiOutput,
 ) {
     let path = project.path.display().to_string();
     let title = recent::title(&project.path);

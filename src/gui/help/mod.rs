@@ -4,8 +4,8 @@ mod text;
 
 use super::{
     actions::{ACTIONS, Action, Entry, Group},
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use egui::{
     Align, FocusDirection, FontId, Grid, Id, Key, Layout, Margin, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui,
@@ -31,7 +31,7 @@ impl Help {
     }
 
     /// Shows it; false when it is closed.
-    pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> bool {
+    pub fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> bool {
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let height = (window.height() - 150.0).max(80.0);
@@ -53,7 +53,7 @@ impl Help {
         is_open && !modal.should_close()
     }
 
-    fn header(&mut self, ui: &mut Ui, is_open: &mut bool, out: &mut Outbox) {
+    fn header(&mut self, ui: &mut Ui, is_open: &mut bool, out: &mut UiOutput) {
         ui.horizontal(|ui| {
             ui.heading("Help");
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -72,7 +72,7 @@ impl Help {
         ui.separator();
     }
 
-    fn contents(&self, ui: &mut Ui, out: &mut Outbox) {
+    fn contents(&self, ui: &mut Ui, out: &mut UiOutput) {
         let wanted = Wanted::new(&self.search);
         let mut is_empty = true;
         for section in SECTIONS {

@@ -7,8 +7,8 @@ use super::{
 use crate::{
     gui::{
         icons::{self, Icon},
-        outbox::{Outbox, Pick},
         theme,
+        ui_output::{Pick, UiOutput},
     },
     lab::Extent,
 };
@@ -16,7 +16,7 @@ use egui::{Align, Button, ComboBox, Layout, Popup, ProgressBar, RichText, Ui, ve
 
 const HEIGHT: f32 = 28.0;
 
-pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), |ui| {
         study(ui, lab, out);
         extent(ui, lab, out);
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     });
 }
 
-fn study(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+fn study(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     let mut chosen = lab.study;
     let response = ComboBox::from_id_salt("lab study")
         .width(170.0)
@@ -54,7 +54,7 @@ fn study(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     lab.choose(chosen, lab.extent);
 }
 
-fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     ui.spacing_mut().item_spacing.x = 2.0;
     let mut chosen = lab.extent;
     for (extent, name, tip) in [
@@ -70,7 +70,7 @@ fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
     ui.spacing_mut().item_spacing.x = 6.0;
 }
 
-fn start(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+fn start(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     if let Some(run) = &lab.run {
         let is_stopping = run.background.is_stopping();
         let button = ui.add_enabled(!is_stopping, Button::new(if is_stopping { "Stopping…" } else { "Stop" }));
@@ -113,7 +113,7 @@ fn progress(ui: &mut Ui, lab: &Lab) {
     ui.add(bar.text(text).corner_radius(4)).on_hover_text(format!("{words}\n{tip}"));
 }
 
-fn more(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+fn more(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     let button = icons::button(ui, Icon::More, "More");
     out.place("lab:more", button.rect);
     Popup::menu(&button).show(|ui| {

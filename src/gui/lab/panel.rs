@@ -1,14 +1,14 @@
 //! The panel as it is drawn: the row over it, the plot, the list of methods.
 
 use super::{header, legend, plot, state::Lab};
-use crate::gui::{outbox::Outbox, theme};
+use crate::gui::{theme, ui_output::UiOutput};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 /// Says how wide the panel has to be to have a list of methods.
 const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {
-    pub fn show(&mut self, ui: &mut Ui, out: &mut Outbox) {
+    pub fn show(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         out.stop("lab", ui);
         ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
         header::show(ui, self, out);

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::{
     gui::{
-        outbox::Outbox,
         theme::{self, Palette},
+        ui_output::UiOutput,
     },
     lab::{
         Extent, Point,
@@ -39,7 +39,7 @@ pub fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fi
 }
 
 /// The row whose point was clicked.
-pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Option<usize> {
+pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
     let (table, ink) = (&shown.table, Ink::of(ui));
     let tick = |mark: egui_plot::GridMark, range: &std::ops::RangeInclusive<f64>| {
         axis::label(mark, range.end() - range.start())

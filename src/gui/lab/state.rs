@@ -3,7 +3,7 @@
 use super::model::{Known, Shown};
 use crate::{
     gpu::{Gpu, GpuOptions},
-    gui::outbox::{Outbox, Pick, Wish},
+    gui::ui_output::{Pick, ShellCommand, UiOutput},
     lab::{
         self, Extent, LabError, Point, Results, Shard, Study,
         background::{Background, Event, Progress},
@@ -251,7 +251,7 @@ impl Lab {
     }
 
     /// A click on a point: its project takes the place of the open one.
-    pub(super) fn open(&mut self, point: Point, out: &mut Outbox) {
+    pub(super) fn open(&mut self, point: Point, out: &mut UiOutput) {
         match lab::open::project(self.study(), &point) {
             Ok(Opened { project, size, pass }) => {
                 self.code = Some((project.name.clone(), Tab::Pass(pass)));
@@ -276,8 +276,8 @@ impl Lab {
     }
 
     /// Asks for a folder: to keep results in, or for a report.
-    pub(super) fn pick(out: &mut Outbox, pick: Pick) {
-        out.wishes.push(Wish::Pick(pick));
+    pub(super) fn pick(out: &mut UiOutput, pick: Pick) {
+        out.wishes.push(ShellCommand::Pick(pick));
     }
 }
 

@@ -3,8 +3,8 @@
 use super::{number::words, plot, state::Axis};
 use crate::{
     gui::{
-        outbox::{Outbox, Wish},
         theme,
+        ui_output::{ShellCommand, UiOutput},
     },
     playback::reduction::Unmeasured,
     session::measuring::{Measure, Record},
@@ -24,7 +24,7 @@ pub struct View {
 }
 
 /// Returns the place of the card. `trouble`: why nothing is measured.
-pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: &View, out: &mut Outbox) -> Rect {
+pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: &View, out: &mut UiOutput) -> Rect {
     let p = theme::of(ui);
     let frame = Frame::NONE.fill(p.raised).corner_radius(5).inner_margin(Margin::symmetric(8, 5));
     let shown = frame.show(ui, |ui| {
@@ -52,7 +52,7 @@ pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: 
 }
 
 /// The comment, its place, and the newest value.
-fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &mut Outbox) {
+fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.horizontal(|ui| {
         let text = RichText::new(shortened(&measure.text)).monospace().color(p.strong);
@@ -62,7 +62,7 @@ fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &m
         if out.clicked(&format!("measures:go:{index}"), &link.on_hover_text("Go to comment"))
             && let Some(tab) = &place.tab
         {
-            out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+            out.wishes.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
         }
         if !is_measured {
             return;

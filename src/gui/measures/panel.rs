@@ -5,12 +5,12 @@ use super::{
     state::{Axis, Measurements},
 };
 use crate::{
-    gui::{outbox::Outbox, theme},
+    gui::{theme, ui_output::UiOutput},
     session::{Command, Session, measuring::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
-pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("measurements", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
     let measures = session.measures();
@@ -35,7 +35,7 @@ pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut 
     });
 }
 
-fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &mut Outbox) {
+fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         for (axis, place, tip) in [
             (Axis::Frame, "measures:axis:frame", "Plot over the frame number"),

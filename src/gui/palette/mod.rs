@@ -5,8 +5,8 @@ mod fuzzy;
 use super::{
     accessible,
     actions::{ACTIONS, Action},
-    outbox::Outbox,
     theme,
+    ui_output::UiOutput,
 };
 use crate::session::Command;
 use egui::{
@@ -102,7 +102,7 @@ impl Palette {
 
     /// Shows it while it is open, with `offers` behind the actions. The action that was chosen comes back, or what was
     /// offered is asked for, and the palette closes.
-    pub fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut Outbox) -> Option<Action> {
+    pub fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut UiOutput) -> Option<Action> {
         let open = self.open.as_mut()?;
         let fits = fits(&open.typed, &self.recent, offers);
         let window = ui.ctx().content_rect();

@@ -3,9 +3,8 @@
 use super::fills::{self, Filling};
 use crate::{
     gui::{
-        accessible,
-        outbox::{Outbox, Wish},
-        theme,
+        accessible, theme,
+        ui_output::{ShellCommand, UiOutput},
     },
     project::{FillKind, Filter, Pass, PassEdit, PassFormat, PassId, PassSize, Project, Region, Tab, Wrap},
     session::{Command, Session},
@@ -27,7 +26,7 @@ pub struct Typed {
     boundary: Filling,
 }
 
-pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &mut UiOutput) {
     let naming = &mut typed.naming;
     let project = session.project();
     if naming.of.as_ref() != Some(tab) {
@@ -105,11 +104,11 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
 }
 
 /// The ways from here to the text and to the picture.
-fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut Outbox) {
+fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if out.clicked("passes:text", &ui.button("Edit code")) {
-            out.wishes.push(Wish::GoTo(tab.clone(), None));
+            out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
         }
         if let Some(pass) = pass.filter(|id| !matches!(id, PassId::Sound | PassId::Cubemap))
             && out.clicked("passes:show", &ui.button("Show this pass"))
@@ -126,7 +125,7 @@ fn name_of(tab: &Tab) -> String {
     }
 }
 
-fn name(ui: &mut Ui, project: &Project, id: &PassId, naming: &mut Naming, out: &mut Outbox) {
+fn name(ui: &mut Ui, project: &Project, id: &PassId, naming: &mut Naming, out: &mut UiOutput) {
     let is_wrong = checked(project, id, &naming.text).1.is_some();
     let field = TextEdit::singleline(&mut naming.text).desired_width(150.0);
     let field = field.text_color_opt(is_wrong.then_some(theme::of(ui).error));
@@ -163,22 +162,22 @@ fn checked(project: &Project, id: &PassId, name: &str) -> (Option<PassId>, Optio
     (wanted, why)
 }
 
-fn edit(out: &mut Outbox, edit: PassEdit) {
+fn edit(out: &mut UiOutput, edit: PassEdit) {
     out.ask(Command::EditPasses(edit));
 }
 
 /// Notes where a number is, and says what it is.
-fn number(response: &Response, name: &str, out: &mut Outbox) {
+fn number(response: &Response, name: &str, out: &mut UiOutput) {
     accessible::name(response, Role::SpinButton, name.replace(':', " "));
     out.place(format!("passes:{name}"), response.rect);
 }
 
-fn combo_box(response: &Response, name: &str, out: &mut Outbox) {
+fn combo_box(response: &Response, name: &str, out: &mut UiOutput) {
     accessible::name(response, Role::ComboBox, name);
     out.place(format!("passes:{name}"), response.rect);
 }
 
-fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
+fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut UiOutput) {
     let canvas = session.transport().resolution;
     let now = pass.settings.size;
     ui.horizontal(|ui| {
@@ -232,7 +231,7 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
     });
 }
 
-fn format(ui: &mut Ui, pass: &Pass, out: &mut Outbox) {
+fn format(ui: &mut Ui, pass: &Pass, out: &mut UiOutput) {
     let now = pass.settings.format;
     ui.horizontal(|ui| {
         let combo = ComboBox::from_id_salt("format").width(104.0).selected_text(now.name()).show_ui(ui, |ui| {
@@ -272,7 +271,7 @@ fn meaning(format: PassFormat) -> &'static str {
     }
 }
 
-fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
+fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut UiOutput) {
     let now = pass.settings.region;
     ui.vertical(|ui| {
         let mut is_part = now.is_some();
@@ -301,7 +300,7 @@ fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
     });
 }
 
-fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut Outbox) {
+fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
     let group = project.groups.iter().find(|g| g.passes.contains(&pass.id));
     let now = group.map_or(1, |g| g.steps);
     let buffers: Vec<&PassId> = project.passes.iter().map(|p| &p.id).take_while(|id| **id != pass.id).collect();
@@ -327,7 +326,7 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut Outbox) {
 }
 
 /// The filter and the wrap of all channels that read a buffer.
-fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut Outbox) {
+fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut UiOutput) {
     let PassId::Buffer(name) = id else { return };
     let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
     let readers: Vec<_> = channels.filter(|c| c.input.buffer().is_some_and(|(b, _)| b == name)).collect();

@@ -1,7 +1,7 @@
 //! Owns what a pass holds before its first frame, and what its outermost texels are.
 
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, theme, ui_output::UiOutput},
     project::{FillKind, FillValue, Pass, PassEdit, PassId},
     session::Command,
 };
@@ -40,14 +40,14 @@ impl Form {
 }
 
 /// Shows one of both, in a cell of the grid.
-pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out: &mut UiOutput) {
     let now = pass.fill(kind).map(|fill| fill.value.clone());
     let width = pass.settings.boundary.as_ref().map_or(1, |boundary| boundary.width);
     let of = Some((pass.id.clone(), now.clone()));
     if filling.of != of {
         *filling = Filling { of, text: now.as_ref().map(text).unwrap_or_default(), wants_file: false };
     }
-    let edit = |out: &mut Outbox, value: Option<FillValue>, width: u32| {
+    let edit = |out: &mut UiOutput, value: Option<FillValue>, width: u32| {
         let pass = pass.id.clone();
         out.ask(Command::EditPasses(match kind {
             FillKind::Initial => PassEdit::Initial(pass, value),
@@ -111,7 +111,7 @@ pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out
 }
 
 /// The text of a value. Returns what is to be put in its place when it has been typed.
-fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut Outbox) -> Option<FillValue> {
+fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut UiOutput) -> Option<FillValue> {
     let hint = if form == Form::File { "state.npy or an image file" } else { FIRST };
     let hint = RichText::new(hint).color(theme::of(ui).weak);
     let field = TextEdit::singleline(&mut filling.text).hint_text(hint).font(egui::TextStyle::Monospace);

@@ -4,8 +4,8 @@ use crate::{
     gui::{
         accessible,
         icons::{self, Icon},
-        outbox::Outbox,
         theme,
+        ui_output::UiOutput,
     },
     project::{Group, Pass, PassEdit, PassId, PassSize, Project, Tab},
     session::{Command, Session},
@@ -15,7 +15,7 @@ use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, Stroke
 const ROW: f32 = 30.0;
 
 /// Shows the list. Returns what was chosen in it.
-pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut Outbox) -> Option<Tab> {
+pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) -> Option<Tab> {
     let project = session.project();
     let mut clicked = None;
     let height = (ui.available_height() - 34.0).max(2.0 * ROW);
@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut Outbox) -> O
 }
 
 /// Shows where a buffer that is being dragged would go, and lets it go there.
-fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassId, response: &Response, out: &mut Outbox) {
+fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassId, response: &Response, out: &mut UiOutput) {
     let Some(pointer) = response.interact_pointer_pos() else { return };
     // How many rows' middles it is below; its own counts for where it comes from.
     let below = places.iter().filter(|r| pointer.y > r.center().y).count();
@@ -68,7 +68,7 @@ fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassId, response: &Respon
     ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
 }
 
-fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &Tab, out: &mut Outbox) -> Response {
+fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &Tab, out: &mut UiOutput) -> Response {
     let id = Id::unique(("pass row", tab.title()));
     let is_buffer = matches!(tab, Tab::Pass(PassId::Buffer(_)));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
@@ -147,7 +147,7 @@ fn note(pass: &Pass) -> String {
 }
 
 /// Up, down, away.
-fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut Outbox) {
+fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
     let buffers: Vec<&PassId> =
         project.passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
     let at = buffers.iter().position(|id| chosen.pass() == Some(*id));

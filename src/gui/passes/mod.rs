@@ -9,9 +9,8 @@ mod list;
 use super::{
     accessible,
     actions::Action,
-    menus,
-    outbox::{Outbox, Wish},
-    theme,
+    menus, theme,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
     project::{PassId, Tab},
@@ -43,7 +42,7 @@ impl Passes {
     }
 
     /// `current`: the tab in front, which is chosen first.
-    pub fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut Outbox) {
+    pub fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut UiOutput) {
         if !self.open {
             return;
         }
@@ -92,7 +91,7 @@ impl Passes {
         }
     }
 
-    fn contents(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    fn contents(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         tools(ui, session, out);
         ui.add_space(2.0);
         let room = ui.available_rect_before_wrap();
@@ -114,13 +113,13 @@ impl Passes {
         }
     }
 
-    fn list(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut Outbox) {
+    fn list(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut UiOutput) {
         if let Some(tab) = list::show(ui, session, tab, out) {
             self.chosen = Some(tab);
         }
     }
 
-    fn detail(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut Outbox) {
+    fn detail(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut UiOutput) {
         egui::ScrollArea::vertical().id_salt("pass detail").auto_shrink(false).show(ui, |ui| {
             detail::show(ui, session, tab, &mut self.typed, out);
         });
@@ -128,7 +127,7 @@ impl Passes {
 }
 
 /// Adding, and the way back.
-fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.horizontal(|ui| {
         let add = adding(ui, "Add", |ui| add_menu(ui, session, true, out));
         out.place("passes:add", add.rect);
@@ -158,14 +157,14 @@ pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Respo
 
 /// The passes that can be added: what the site has, and a buffer of any name. `chooses`: what is added is chosen in the
 /// window of passes, which is open; elsewhere nothing opens over the picture.
-pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut Outbox) {
+pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutput) {
     let id = Id::unique("name of a new buffer");
     ui.set_min_width(190.0);
-    let add = |ui: &mut Ui, tab: Tab, out: &mut Outbox| {
+    let add = |ui: &mut Ui, tab: Tab, out: &mut UiOutput| {
         out.ask(Command::AddTab(tab.clone()));
-        out.wishes.push(Wish::GoTo(tab.clone(), None));
+        out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
         if chooses {
-            out.wishes.push(Wish::ChoosePass(tab));
+            out.wishes.push(ShellCommand::ChoosePass(tab));
         }
         ui.data_mut(|d| d.remove_temp::<String>(id));
         ui.close();

@@ -6,12 +6,12 @@ use crate::{
         actions::{Action, LayoutAction, PictureAction},
         dock::Panel,
         help::Help,
-        outbox::{Outbox, Pick, Wish},
         palette::Offer,
         passes, recent, resolution,
         settings::{Change, Settings},
         settings_page::SettingsPage,
         timeline,
+        ui_output::{Pick, ShellCommand, UiOutput},
     },
     playback::capture::file_stem,
     project::{PassId, Tab},
@@ -24,7 +24,7 @@ use std::path::Path;
 const RECENT: usize = 30;
 
 impl Shell {
-    pub(super) fn act(&mut self, ui: &Ui, session: &Session, action: Action, out: &mut Outbox) {
+    pub(super) fn act(&mut self, ui: &Ui, session: &Session, action: Action, out: &mut UiOutput) {
         match action {
             Action::Compile => out.ask(Command::CompileNow),
             Action::Save => out.ask(Command::Save),
@@ -162,7 +162,7 @@ impl Shell {
         ui.ctx().request_repaint();
     }
 
-    fn act_on_picture(&mut self, ui: &Ui, session: &Session, action: PictureAction, out: &mut Outbox) {
+    fn act_on_picture(&mut self, ui: &Ui, session: &Session, action: PictureAction, out: &mut UiOutput) {
         let is_halted = session.halt().is_some();
         match action {
             PictureAction::Shape(shape) => {
@@ -205,10 +205,10 @@ impl Shell {
         }
     }
 
-    fn add_pass(&mut self, tab: Tab, out: &mut Outbox) {
+    fn add_pass(&mut self, tab: Tab, out: &mut UiOutput) {
         out.ask(Command::AddTab(tab.clone()));
         // It is there in the next frame.
-        self.wishes.push(Wish::GoTo(tab, None));
+        self.wishes.push(ShellCommand::GoTo(tab, None));
         self.uncover(out);
     }
 
@@ -232,7 +232,7 @@ impl Shell {
     }
 
     /// Draws the value of the expression at the caret, or the picture again where that is what is drawn.
-    fn probe(&mut self, session: &Session, out: &mut Outbox) {
+    fn probe(&mut self, session: &Session, out: &mut UiOutput) {
         let Some((tab, at, _)) = self.code.caret_place() else { return };
         let is_drawn = session.probe().is_some_and(|view| view.place.tab == tab && view.place.at == at);
         let place = (!is_drawn).then_some(ProbePlace { tab, at, visit: 0 });
@@ -240,7 +240,7 @@ impl Shell {
     }
 
     /// Opens a panel, or closes it. One that is behind another comes to the front.
-    fn toggle(&mut self, panel: Panel, out: &mut Outbox) {
+    fn toggle(&mut self, panel: Panel, out: &mut UiOutput) {
         let is_hidden = self.gallery || self.presents || (self.fullscreen && panel != Panel::Picture);
         self.dock.set_open(panel, is_hidden || !self.dock.is_seen(panel));
         self.presents = false;
@@ -249,13 +249,13 @@ impl Shell {
         }
     }
 
-    fn zoom(&mut self, by: Option<f32>, out: &mut Outbox) {
+    fn zoom(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().zoom;
         let zoom = by.map_or(usual, |by| ((self.settings.settings().zoom + by) * 10.0).round() / 10.0);
         self.change(Change::Zoom(zoom), out);
     }
 
-    fn scale_code(&mut self, by: Option<f32>, out: &mut Outbox) {
+    fn scale_code(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().code_size;
         self.change(Change::CodeSize(by.map_or(usual, |by| self.settings.settings().code_size + by)), out);
     }

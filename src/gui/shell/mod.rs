@@ -1,7 +1,7 @@
 //! The window's contents: which panels there are, where, and what becomes of what they want.
 
 mod act;
-mod arrivals;
+mod imports;
 mod keys;
 mod of_project;
 mod panels;
@@ -19,13 +19,13 @@ use super::{
     gallery::Gallery,
     help::Help,
     lab::Lab,
-    outbox::{Outbox, Pick, Wish},
     palette::Palette,
     questions,
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
     settings_page::SettingsPage,
     thumbnails::Thumbnails,
     toasts,
+    ui_output::{Pick, ShellCommand, UiOutput},
     viewport::{Around, Viewport},
 };
 use crate::{
@@ -84,8 +84,8 @@ pub struct Shell {
     was_focused: bool,
     pressed: keys::Keys,
     /// Wanted by the frame before: done when the session has done what went with it.
-    wishes: Vec<Wish>,
-    places: Outbox,
+    wishes: Vec<ShellCommand>,
+    places: UiOutput,
     /// Notices and texts told of in the report.
     reported_notice: Option<u64>,
     reported_generation: Option<u64>,
@@ -131,7 +131,7 @@ impl Shell {
             was_focused: false,
             pressed: keys::Keys::default(),
             wishes: Vec::new(),
-            places: Outbox::default(),
+            places: UiOutput::default(),
             reported_notice: None,
             reported_generation: None,
         }
@@ -203,7 +203,7 @@ impl Shell {
         let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
         let is_read = self.is_back(ui) | looks;
         let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
-        let mut out = Outbox::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
+        let mut out = UiOutput::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
             // What is mended is no news any more, and what is said anew is said once.
             let is_over = |text: &str| self.keys.is_mended(text) || self.settings.is_mended(text);
@@ -225,7 +225,7 @@ impl Shell {
             self.keys(ui, &mut out);
             self.end_probe(ui, session, &mut out);
             self.palette.take_keys(ui);
-            self.take_arrivals(ui, session, &mut out);
+            self.take_imports(ui, session, &mut out);
         }
         if self.presents && !self.gallery {
             self.present(ui, session, &mut out);
@@ -257,7 +257,7 @@ impl Shell {
             out.act(action);
         }
         match self.files.show(ui, &mut out) {
-            Some(Picked::Path(pick, path)) => out.wishes.push(Wish::Picked(pick, path)),
+            Some(Picked::Path(pick, path)) => out.wishes.push(ShellCommand::Picked(pick, path)),
             Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(Command::SaveAsCancelled),
             Some(Picked::Cancelled(_)) | None => {}
         }
@@ -314,7 +314,7 @@ impl Shell {
     }
 
     /// Changes a setting, and keeps it.
-    fn change(&mut self, change: Change, out: &mut Outbox) {
+    fn change(&mut self, change: Change, out: &mut UiOutput) {
         if let Err(text) = self.settings.change(change) {
             out.ask(Command::Notify { level: Level::Warning, text, path: None });
         }
@@ -331,18 +331,18 @@ impl Shell {
 
     /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
     /// what is typed.
-    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
+    fn keys(&mut self, ui: &Ui, out: &mut UiOutput) {
         let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
         let keymap = self.keys.keymap().clone();
         let actions = ui.input_mut(|i| self.pressed.take(&mut i.events, &keymap, keyboard));
-        out.wishes.extend(actions.into_iter().map(Wish::Act));
+        out.wishes.extend(actions.into_iter().map(ShellCommand::Act));
         if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
     }
 
     /// Escape ends what is shown instead of the picture, unless something else is open that it ends first.
-    fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut Outbox) {
+    fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
         let is_over = self.palette.is_open() || self.help.is_some() || self.page_of_settings.is_some();
         let is_other = is_over || self.code.is_finding() || self.fullscreen;
         if is_other || !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
@@ -380,7 +380,7 @@ impl Shell {
 
     #[cfg(test)]
     pub fn ask_fix(&mut self, fix: crate::session::TabFix) {
-        self.wishes.push(Wish::Fix(fix));
+        self.wishes.push(ShellCommand::Fix(fix));
     }
 
     #[cfg(test)]
@@ -412,66 +412,66 @@ impl Shell {
         self.code.caret()
     }
 
-    fn grant(&mut self, ui: &Ui, session: &Session, wish: Wish, out: &mut Outbox) {
+    fn grant(&mut self, ui: &Ui, session: &Session, wish: ShellCommand, out: &mut UiOutput) {
         match wish {
-            Wish::Act(action) => self.act(ui, session, action, out),
-            Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
-            Wish::PasteCode => self.wants_code_paste = true,
-            Wish::Fix(fix) => {
+            ShellCommand::Act(action) => self.act(ui, session, action, out),
+            ShellCommand::ClosePanel(panel) => self.dock.set_open(panel, false),
+            ShellCommand::PasteCode => self.wants_code_paste = true,
+            ShellCommand::Fix(fix) => {
                 if let Err(why) = self.code.apply_fix(&fix, out) {
                     out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
                 }
             }
-            Wish::CloseFile(tab) => self.code.close_file(&tab),
-            Wish::Set(change) => self.change(change, out),
-            Wish::Breakpoint(tab, line) => {
+            ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
+            ShellCommand::Set(change) => self.change(change, out),
+            ShellCommand::Breakpoint(tab, line) => {
                 if let Err(why) = self.kept.debugger.toggle(session, &tab, line) {
                     out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
                 }
             }
-            Wish::Trace(at) => {
+            ShellCommand::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
                 out.ask(Command::Trace(Some(at)));
             }
-            Wish::Pick(pick) => self.files.ask(pick, start_folder(session)),
-            Wish::Picked(pick, path) => self.picked(pick, path, out),
-            Wish::CloseGallery => self.close_gallery(out),
-            Wish::ChoosePass(tab) => self.kept.passes.toggle(Some(tab)),
-            Wish::ShowRecovered => {
+            ShellCommand::Pick(pick) => self.files.ask(pick, start_folder(session)),
+            ShellCommand::Picked(pick, path) => self.picked(pick, path, out),
+            ShellCommand::CloseGallery => self.close_gallery(out),
+            ShellCommand::ChoosePass(tab) => self.kept.passes.toggle(Some(tab)),
+            ShellCommand::ShowRecovered => {
                 self.uncover(out);
                 self.code.focus();
             }
-            Wish::GoTo(tab, place) => {
+            ShellCommand::GoTo(tab, place) => {
                 if session.tabs().contains(&tab) {
                     let clicked = place.is_none();
                     self.code.go_to(tab, place);
                     if clicked {
                         self.code.focus();
                     }
-                } else if !self.wishes.contains(&Wish::GoTo(tab.clone(), place))
+                } else if !self.wishes.contains(&ShellCommand::GoTo(tab.clone(), place))
                     && out.commands.contains(&Command::AddTab(tab.clone()))
                 {
                     // The tab is being made; it is there in the next frame.
-                    self.wishes.push(Wish::GoTo(tab, place));
+                    self.wishes.push(ShellCommand::GoTo(tab, place));
                 }
                 ui.ctx().request_repaint();
             }
         }
     }
 
-    fn close_gallery(&mut self, out: &mut Outbox) {
+    fn close_gallery(&mut self, out: &mut UiOutput) {
         self.uncover(out);
         self.viewport.focus();
     }
 
     /// Closes the gallery and leaves the keyboard where it is.
-    fn uncover(&mut self, out: &mut Outbox) {
+    fn uncover(&mut self, out: &mut UiOutput) {
         if std::mem::take(&mut self.gallery) {
             out.ask(Command::Cover(false));
         }
     }
 
-    fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut Outbox) {
+    fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut UiOutput) {
         match pick {
             Pick::OpenFolder | Pick::OpenFile => {
                 out.ask(Command::Open(path.display().to_string()));

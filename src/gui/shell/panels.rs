@@ -12,12 +12,12 @@ use crate::{
         dock::{Contents, Heights, Panel},
         lab::Lab,
         measures::{self, Measurements},
-        outbox::{Outbox, Wish},
         theme,
         thumbnails::Thumbnails,
         toasts, top_bar,
         trace::{self, Debugger},
         transport,
+        ui_output::{ShellCommand, UiOutput},
         viewport::{Around, Viewport},
     },
     project::Origin,
@@ -26,7 +26,7 @@ use crate::{
 use egui::{CentralPanel, Frame, Id, Margin, Order, Rect, Ui, vec2};
 
 impl Shell {
-    pub(super) fn panels(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    pub(super) fn panels(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         let p = theme::of(ui);
         let state = top_bar::State {
             is_gallery: self.gallery,
@@ -49,7 +49,7 @@ impl Shell {
             return;
         }
         if let Some(tab) = self.lab.take_tab(session) {
-            out.wishes.push(Wish::GoTo(tab, Some((0, 0))));
+            out.wishes.push(ShellCommand::GoTo(tab, Some((0, 0))));
         }
         if !self.dock.is_seen(Panel::Code) {
             toasts::panel(ui, session, out);
@@ -72,14 +72,14 @@ impl Shell {
     }
 
     /// Gathers only what is looked at.
-    fn watch_costs(&mut self, is_seen: bool, out: &mut Outbox) {
+    fn watch_costs(&mut self, is_seen: bool, out: &mut UiOutput) {
         if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
             out.ask(Command::WatchCosts(is_seen));
         }
     }
 
     /// The code over a picture that fills the window.
-    pub(super) fn present(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    pub(super) fn present(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
             let whole = ui.max_rect();
             self.viewport.show(ui, session, Around::Nothing, out);
@@ -103,7 +103,7 @@ impl Shell {
 }
 
 /// A button at the picture's corner by which a hand leaves code over picture; seen while the pointer moves there.
-fn way_out(ui: &Ui, whole: Rect, out: &mut Outbox) {
+fn way_out(ui: &Ui, whole: Rect, out: &mut UiOutput) {
     let corner = Rect::from_min_max(whole.right_top() + vec2(-260.0, 0.0), whole.right_top() + vec2(0.0, 120.0));
     if !ui.ctx().pointer_latest_pos().is_some_and(|at| corner.contains(at)) {
         return;
@@ -143,7 +143,7 @@ struct Shown<'a> {
     thumbnails: &'a mut Thumbnails,
     live: &'a mut Live,
     session: &'a Session,
-    out: &'a mut Outbox,
+    out: &'a mut UiOutput,
 }
 
 impl Contents for Shown<'_> {

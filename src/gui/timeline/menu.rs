@@ -3,7 +3,7 @@
 
 use super::seconds;
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, theme, ui_output::UiOutput},
     session::{Command, Session, TimeRange},
 };
 use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit, Ui, vec2};
@@ -39,7 +39,7 @@ fn field() -> Id {
 }
 
 /// The time as a number on a button, which opens the menu.
-pub fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut Outbox) {
+pub fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut UiOutput) {
     let font = egui::FontId::monospace(12.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::click());
     accessible::name(&response, Role::Button, format!("Time {text}: go to, speed, loop"));
@@ -57,7 +57,7 @@ pub fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut 
         .show(|ui| menu(ui, session, out));
 }
 
-fn menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.set_width(268.0);
     ui.spacing_mut().item_spacing.y = 8.0;
     egui::Grid::new("time").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
@@ -83,7 +83,7 @@ fn menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
 }
 
-fn go_to(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn go_to(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let mut text: String = ui.data(|data| data.get_temp(typed())).unwrap_or_default();
     let (is_empty, found) = (text.trim().is_empty(), seconds::read(&text));
     let ink = if is_empty || found.is_some() { theme::of(ui).text } else { theme::of(ui).error };
@@ -108,7 +108,7 @@ fn go_to(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
 }
 
-fn speed(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn speed(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let now = session.transport().speed;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
@@ -122,7 +122,7 @@ fn speed(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     });
 }
 
-fn fixed_rate(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn fixed_rate(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let rate = session.transport().fixed_rate;
     let mut is_fixed = rate.is_some();
     let switch = ui
@@ -138,7 +138,7 @@ fn fixed_rate(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
 }
 
-fn range(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+fn range(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let range = session.time_range();
     let time = session.transport().time_secs;
     let mut is_on = range.is_some();

@@ -6,7 +6,7 @@ mod seconds;
 
 pub use menu::button;
 
-use super::{accessible, actions::TimeAction, outbox::Outbox, theme};
+use super::{accessible, actions::TimeAction, theme, ui_output::UiOutput};
 use crate::session::{Command, Session, TimeRange};
 use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
@@ -17,7 +17,7 @@ pub const HEIGHT: f32 = 12.0;
 const STRIDE: f64 = 1.0;
 
 /// Fills the width there is. A hand goes to a time, with Shift it marks the part that is played again and again.
-pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let p = theme::of(ui);
     let (transport, reach, range) = (session.transport(), session.reach(), session.time_range());
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::CLICK | Sense::DRAG);
@@ -84,7 +84,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 }
 
 /// Does what a key or the palette asks of time.
-pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut Outbox) {
+pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut UiOutput) {
     let (transport, range) = (session.transport(), session.time_range());
     let time = transport.time_secs;
     let fastest = menu::SPEEDS.last().map_or(1.0, |(speed, _)| *speed);
@@ -109,7 +109,7 @@ pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut
 }
 
 /// Arrows go by a frame, page keys by a second, Home to the beginning.
-fn keys(ui: &Ui, session: &Session, response: &egui::Response, out: &mut Outbox) {
+fn keys(ui: &Ui, session: &Session, response: &egui::Response, out: &mut UiOutput) {
     if !response.has_focus() {
         return;
     }

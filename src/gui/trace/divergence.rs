@@ -8,8 +8,8 @@ use crate::{
         trace::{Number, Traced},
     },
     gui::{
-        outbox::{Outbox, Wish},
         theme,
+        ui_output::{ShellCommand, UiOutput},
     },
     session::{Command, Session},
 };
@@ -28,7 +28,7 @@ pub fn height(ui: &Ui) -> f32 {
 }
 
 /// Shows both values, how far they are apart, and what a search for the first difference found.
-pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
+pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     let before = height(ui);
     let shown = ui.vertical(|ui| {
         foot(traced, session, ui, out);
@@ -41,7 +41,7 @@ pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
+fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
     let ulps = traced.ulps();
     let is_apart = ulps.iter().flatten().any(|ulps| *ulps > 0);
@@ -80,7 +80,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut Outbox) {
+fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
     let of = format!("{} of {} assignments compared", parted.compared, parted.of);
     let Some(first) = &parted.first else {
@@ -103,7 +103,7 @@ fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut Outbo
             let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
             let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));
             if out.clicked("trace:parted", &link.on_hover_text(of)) {
-                out.wishes.push(Wish::GoTo(tab, Some((line, 0))));
+                out.wishes.push(ShellCommand::GoTo(tab, Some((line, 0))));
             }
         }
     });

@@ -14,8 +14,8 @@ use crate::{
         accessible,
         actions::{Action, TraceAction},
         icons::{self, Icon},
-        outbox::{Outbox, Wish},
         theme,
+        ui_output::{ShellCommand, UiOutput},
     },
     session::{Command, Session},
 };
@@ -28,7 +28,7 @@ const WIDE: f32 = 560.0;
 /// The least height for what is above the foot.
 const LEAST: f32 = 110.0;
 
-pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("trace", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
     ui.horizontal_wrapped(|ui| {
@@ -96,7 +96,7 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
 }
 
 /// The pixel, the line, and how far along one is.
-fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut Outbox) {
+fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
     let (at, said) = (debugger.at, debugger.said);
     let p = theme::of(ui);
     let (x, y) = traced.pixel;
@@ -139,7 +139,7 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
     }
 }
 
-fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     parts::title(ui, "Watches");
     let mut removed = None;
     let mut is_edited = false;
@@ -188,7 +188,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = debugger.look() else { return };
     if let Some(result) = &seen.result {
         parts::title(ui, "Return value");
@@ -201,7 +201,7 @@ fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let plotted = debugger.plotted.clone();
     let Some(seen) = debugger.look().filter(|seen| !seen.rows.rows.is_empty()) else { return };
     match rows::show(ui, &seen.rows, plotted.as_deref(), out) {
@@ -211,7 +211,7 @@ fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let Some(examiner) = &mut debugger.examiner else { return };
     let printed = debugger.printed.get_or_insert_with(|| examiner.printed());
     if printed.is_empty() {
@@ -247,7 +247,7 @@ fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     }
 }
 
-fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     parts::title(ui, "Breakpoints");
     if debugger.breakpoints.is_empty() {
         let key = out.keys.hint(Action::Trace(TraceAction::Breakpoint));
@@ -273,7 +273,7 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
             is_edited |= switch.changed();
             let link = ui.link(name);
             if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
-                out.wishes.push(Wish::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
+                out.wishes.push(ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
             }
             let field = TextEdit::singleline(&mut breakpoint.condition)
                 .id_salt(("condition", index))

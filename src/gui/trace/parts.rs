@@ -3,7 +3,7 @@
 use super::moment::words;
 use crate::{
     debugger::trace::Value,
-    gui::{outbox::Outbox, theme},
+    gui::{theme, ui_output::UiOutput},
 };
 use egui::{Color32, Label, Rect, Response, RichText, Sense, StrokeKind, Ui, vec2};
 
@@ -40,7 +40,7 @@ pub fn swatch(ui: &mut Ui, value: &Value) {
 }
 
 /// A small button with a text.
-pub fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut Outbox) -> bool {
+pub fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut UiOutput) -> bool {
     let response: Response = ui.small_button(text).on_hover_text(tip);
     out.clicked(place, &response)
 }

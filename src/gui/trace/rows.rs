@@ -4,7 +4,7 @@ use super::{
     moment::{Rows, words},
     parts,
 };
-use crate::gui::{accessible, outbox::Outbox, theme};
+use crate::gui::{accessible, theme, ui_output::UiOutput};
 use egui::{Align2, ComboBox, FontId, Rect, ScrollArea, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 18.0;
@@ -20,7 +20,7 @@ pub enum Asked {
     Plot(String),
 }
 
-pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -> Option<Asked> {
+pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<Asked> {
     let mut asked = None;
     let more = if rows.is_cut { ", the first" } else { "" };
     ui.horizontal(|ui| {
@@ -90,7 +90,7 @@ fn chosen(rows: &Rows, plotted: Option<&str>) -> Option<usize> {
     rows.names.iter().position(is_asked).or(first).or((!rows.names.is_empty()).then_some(0))
 }
 
-fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -> Option<Asked> {
+fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<Asked> {
     let current = chosen(rows, plotted)?;
     let mut asked = None;
     let combo = ComboBox::from_id_salt("plotted").width(90.0).selected_text(&rows.names[current]).show_ui(ui, |ui| {
@@ -106,7 +106,7 @@ fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) -> 
 }
 
 /// A variable's first number over the turns.
-fn plot(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Outbox) {
+fn plot(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) {
     let Some(column) = chosen(rows, plotted) else { return };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), PLOT), Sense::hover());
     accessible::name(&response, egui::Role::Canvas, format!("{} over the iterations", rows.names[column]));

@@ -4,8 +4,8 @@ use crate::{
     debugger::trace::travel::{Direction, Stride},
     gui::{
         actions::{Action, TraceAction},
-        outbox::Outbox,
         theme,
+        ui_output::UiOutput,
     },
 };
 use egui::{Color32, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -27,7 +27,7 @@ const BACK: [TraceAction; 5] = [
 ];
 
 /// Shows those that go back, then those that go on.
-pub fn show(ui: &mut Ui, is_on: bool, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, is_on: bool, out: &mut UiOutput) {
     ui.spacing_mut().item_spacing.x = 2.0;
     for (index, action) in BACK.into_iter().chain(FORWARD).enumerate() {
         if index == BACK.len() {
@@ -37,7 +37,7 @@ pub fn show(ui: &mut Ui, is_on: bool, out: &mut Outbox) {
     }
 }
 
-fn button(ui: &mut Ui, action: TraceAction, is_on: bool, out: &mut Outbox) {
+fn button(ui: &mut Ui, action: TraceAction, is_on: bool, out: &mut UiOutput) {
     let title = Action::Trace(action).title();
     let response = ui.add_enabled_ui(is_on, |ui| {
         let (rect, response) = ui.allocate_exact_size(vec2(26.0, 22.0), Sense::click());

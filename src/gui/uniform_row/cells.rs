@@ -3,7 +3,7 @@
 
 use super::parts::{HEIGHT, components};
 use crate::{
-    gui::{outbox::Outbox, theme},
+    gui::{theme, ui_output::UiOutput},
     project::{CustomUniform, CustomUniformType},
 };
 use egui::{Align, Color32, DragValue, FontId, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
@@ -13,7 +13,7 @@ const GAP: f32 = 4.0;
 const PADDING: f32 = 6.0;
 
 /// All components side by side, in equal parts of the room there is.
-pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) {
+pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) {
     let whole = ui.max_rect();
     let names = components(custom_uniform.ty);
     let width = (whole.width() - GAP * (names.len() - 1) as f32) / names.len() as f32;
@@ -119,7 +119,7 @@ mod tests {
         let mut output = Context::default().run_ui(RawInput::default(), |ui| {
             let place = Rect::from_min_size(pos2(10.0, 10.0), vec2(width, HEIGHT));
             let mut ui = ui.new_child(UiBuilder::new().max_rect(place));
-            show(&mut ui, &uniform, &mut [1.0, 0.8, 0.6], &mut Outbox::default());
+            show(&mut ui, &uniform, &mut [1.0, 0.8, 0.6], &mut UiOutput::default());
         });
         output.textures_delta.clear();
         let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {

@@ -6,7 +6,7 @@ use super::{
     picker,
 };
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, theme, ui_output::UiOutput},
     project::CustomUniform,
 };
 use egui::{Color32, Popup, PopupCloseBehavior, Rect, Role, Sense, Stroke, StrokeKind, TextEdit, Ui, vec2};
@@ -17,7 +17,7 @@ const HEX: f32 = 70.0;
 const CELLS: f32 = 150.0;
 
 /// Shows it; true for a double click on the field with the colour.
-pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) -> bool {
+pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let whole = ui.max_rect();
     let place = Rect::from_min_size(whole.left_top() + vec2(0.0, 2.0), vec2(SWATCH, whole.height() - 4.0));
     let response = ui.interact(place, ui.scope_id().with("colour"), Sense::click());
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         picker::show(ui, all);
         ui.add_space(4.0);
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
-        cells::show(&mut child(ui, rect), custom_uniform, all, &mut Outbox::default());
+        cells::show(&mut child(ui, rect), custom_uniform, all, &mut UiOutput::default());
         ui.add_space(2.0);
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
         field(ui, rect, custom_uniform, all);

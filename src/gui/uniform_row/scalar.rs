@@ -2,7 +2,7 @@
 
 use super::{cells, parts::cut_right};
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, theme, ui_output::UiOutput},
     project::{CustomUniform, CustomUniformType},
 };
 use egui::{Align2, FontId, Role, Sense, Slider, Ui, vec2};
@@ -13,7 +13,7 @@ const NUMBER: f32 = 66.0;
 const LEAST_RAIL: f32 = 40.0;
 
 /// Shows the number; true for a double click on the rail.
-pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) -> bool {
+pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let is_whole = custom_uniform.ty == CustomUniformType::Int;
     let (value, rail) = cut_right(ui.max_rect(), NUMBER);
     let rail = rail.shrink2(vec2(2.0, 0.0));
@@ -39,7 +39,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
 }
 
 /// Shows the switch; true for a double click on its word.
-pub(super) fn switch(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) -> bool {
+pub(super) fn switch(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let (word, place) = cut_right(ui.max_rect(), NUMBER);
     let place = place.with_max_x((place.left() + 38.0).min(place.right()));
     let mut is_on = all[0] >= 0.5;

@@ -7,8 +7,8 @@ use crate::{
         accessible,
         buffers::{state::Buffers, zoom::Placed},
         costs::{bytes, millis_text},
-        outbox::Outbox,
         theme::{self, Palette},
+        ui_output::UiOutput,
     },
     project::PassId,
     session::{Session, TimedPass, buffers::reason},
@@ -28,7 +28,7 @@ struct Arrow<'a> {
     read: &'a PassRead,
 }
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let passes = session.pass_costs().passes;
     let place = |pass: &PassId| passes.iter().position(|p| p.cost.pass == *pass);
     let mut arrows: Vec<Arrow<'_>> = Vec::new();
@@ -98,7 +98,7 @@ fn placed(
     ui: &Ui,
     area: Rect,
     (layout, middle): (&Layout, Option<Pos2>),
-    out: &mut Outbox,
+    out: &mut UiOutput,
 ) -> Sheet {
     let size = (layout.size.x.ceil().max(1.0) as u32, layout.size.y.ceil().max(1.0) as u32);
     let response = ui.interact(area, ui.scope_id().with("sheet"), Sense::drag());
@@ -305,7 +305,7 @@ fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
 }
 
 /// Explains the arrows, and says that times are old while nothing plays.
-fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut Outbox) {
+fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut UiOutput) {
     let p = theme::of(ui);
     let painter = ui.painter().with_clip_rect(place.intersect(ui.clip_rect()));
     let mut x = place.left() + 4.0;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// A text that is something.
 #[derive(Debug)]
-pub enum TextArrival {
+pub enum TextImport {
     /// The text is a project; it lies nowhere else.
     Project(Box<Loaded>),
     /// The text names one, as [`crate::load`] takes it, or a file of another kind.
@@ -15,7 +15,7 @@ pub enum TextArrival {
 
 /// A text that nothing can be made of.
 #[derive(Debug, thiserror::Error)]
-pub enum ArrivalError {
+pub enum ImportError {
     #[error("the clipboard is empty; copy the JSON of a shader, GLSL code or the path of a file first")]
     Empty,
     /// An address of the site, with the shader's id where it has one.
@@ -41,10 +41,10 @@ pub enum ArrivalError {
 }
 
 /// Says what a pasted text is.
-pub fn arrival_of_text(text: &str) -> Result<TextArrival, ArrivalError> {
+pub fn import_of_text(text: &str) -> Result<TextImport, ImportError> {
     let trimmed = text.trim_start_matches('\u{feff}').trim();
     if trimmed.is_empty() {
-        return Err(ArrivalError::Empty);
+        return Err(ImportError::Empty);
     }
     if trimmed.starts_with(['{', '[']) {
         return of_json(trimmed).map_err(|e| Box::new(e).into());
@@ -57,40 +57,40 @@ pub fn arrival_of_text(text: &str) -> Result<TextArrival, ArrivalError> {
         return of_glsl(text).map_err(|e| Box::new(e).into());
     }
     let beginning: String = trimmed.chars().take(40).collect();
-    Err(ArrivalError::Unknown(beginning.escape_debug().to_string()))
+    Err(ImportError::Unknown(beginning.escape_debug().to_string()))
 }
 
-fn of_json(text: &str) -> Result<TextArrival, ProjectError> {
+fn of_json(text: &str) -> Result<TextImport, ProjectError> {
     let (mut project, warnings) = json::import(text, "pasted.json")?;
     if matches!(project.name.trim(), "" | "pasted") {
         project.name = "Pasted shader".into();
     }
     project.read_includes();
-    Ok(TextArrival::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
+    Ok(TextImport::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
 }
 
 /// One line: an address, or the name of a file or a preset. `None`: neither.
-fn of_line(line: &str) -> Option<Result<TextArrival, ArrivalError>> {
+fn of_line(line: &str) -> Option<Result<TextImport, ImportError>> {
     let lower = line.to_lowercase();
     if let Some(rest) = lower.starts_with("file://").then(|| &line["file://".len()..]) {
         let path = unescaped(rest.strip_prefix("localhost").unwrap_or(rest));
         let is_there = Path::new(&path).exists();
-        return Some(if is_there { Ok(TextArrival::Place(path)) } else { Err(ArrivalError::NoFile(path)) });
+        return Some(if is_there { Ok(TextImport::Place(path)) } else { Err(ImportError::NoFile(path)) });
     }
     let bare = lower.trim_start_matches("https://").trim_start_matches("http://").trim_start_matches("www.");
     let is_address = lower.starts_with("http://") || lower.starts_with("https://");
     if bare.starts_with("shadertoy.com") {
-        return Some(Err(ArrivalError::Site { address: shown(line) }));
+        return Some(Err(ImportError::Site { address: shown(line) }));
     }
     if is_address {
-        return Some(Err(ArrivalError::Address { address: shown(line) }));
+        return Some(Err(ImportError::Address { address: shown(line) }));
     }
     let is_place = presets::names().contains(&line) || (line.len() < 4096 && Path::new(line).exists());
     if is_place {
-        return Some(Ok(TextArrival::Place(line.to_owned())));
+        return Some(Ok(TextImport::Place(line.to_owned())));
     }
     let looks_like_path = line.starts_with(['/', '~']) && !line.starts_with("//") && !line.starts_with("/*");
-    (looks_like_path && !has_main(line)).then(|| Err(ArrivalError::NoFile(shown(line))))
+    (looks_like_path && !has_main(line)).then(|| Err(ImportError::NoFile(shown(line))))
 }
 
 fn shown(line: &str) -> String {
@@ -103,7 +103,7 @@ fn has_main(text: &str) -> bool {
 }
 
 /// A project whose Image pass is the text; its `#iChannel` lines say what it reads.
-fn of_glsl(text: &str) -> Result<TextArrival, ProjectError> {
+fn of_glsl(text: &str) -> Result<TextImport, ProjectError> {
     let too_large = |diagnostics: Vec<Diagnostic>, sources| {
         Err(ProjectError::Invalid { what: "the pasted text".into(), diagnostics, sources })
     };
@@ -116,5 +116,5 @@ fn of_glsl(text: &str) -> Result<TextArrival, ProjectError> {
     // What is wrong in such a line shows when it is compiled.
     let warnings = folder::declare_channels(&mut project).into_iter().filter(|d| !d.is_error()).collect();
     project.read_includes();
-    Ok(TextArrival::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
+    Ok(TextImport::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
 }

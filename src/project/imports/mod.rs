@@ -6,7 +6,7 @@
 mod text;
 mod wire;
 
-pub use text::{ArrivalError, TextArrival, arrival_of_text};
+pub use text::{ImportError, TextImport, import_of_text};
 pub use wire::{Fit, new_for};
 
 use super::{file_names, files::MANIFEST};

@@ -9,7 +9,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_media::mesh;
-use eddy_project::{self as project, FileKind, Fit, MeshSource, PassId, Project, TextArrival, listed};
+use eddy_project::{self as project, FileKind, Fit, MeshSource, PassId, Project, TextImport, listed};
 use std::path::{Path, PathBuf};
 
 /// A model of more bytes is not measured before it is drawn: the window would wait for it.
@@ -19,12 +19,12 @@ impl Session {
     /// Takes a text that was pasted.
     pub(super) fn paste(&mut self, text: &str) {
         self.settled(About::Opening);
-        match project::arrival_of_text(text) {
-            Ok(TextArrival::Project(loaded)) => {
+        match project::import_of_text(text) {
+            Ok(TextImport::Project(loaded)) => {
                 self.tell_diagnostics(&loaded.warnings, &loaded.sources);
                 self.unless_unsaved(PendingAction::Keep(Box::new(loaded.project)));
             }
-            Ok(TextArrival::Place(place)) => {
+            Ok(TextImport::Place(place)) => {
                 let path = Path::new(&place);
                 if path.exists() && project::kind_of_file(path) != FileKind::Project {
                     self.bring(vec![path.to_owned()], None);

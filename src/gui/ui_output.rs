@@ -41,7 +41,7 @@ pub enum Pick {
 
 /// Something only the shell can do.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Wish {
+pub enum ShellCommand {
     Act(Action),
     Pick(Pick),
     /// A tab, and a line and column from 0 of it.
@@ -68,7 +68,7 @@ pub enum Wish {
 
 /// A part of the window that F6 goes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub struct FocusStop {
     pub name: &'static str,
     /// Its `Ui`.
     pub ui: Id,
@@ -78,18 +78,18 @@ pub struct Stop {
 }
 
 #[derive(Debug, Default)]
-pub struct Outbox {
+pub struct UiOutput {
     pub commands: Vec<Command>,
-    pub wishes: Vec<Wish>,
+    pub wishes: Vec<ShellCommand>,
     /// Named places, in points.
     pub places: BTreeMap<String, Rect>,
     /// Says where F6 takes the keyboard.
-    pub stops: Vec<Stop>,
+    pub stops: Vec<FocusStop>,
     /// The keys of actions, for tips and menus.
     pub keys: KeysHere,
 }
 
-impl Outbox {
+impl UiOutput {
     pub fn new(keys: KeysHere) -> Self {
         Self { keys, ..Self::default() }
     }
@@ -99,7 +99,7 @@ impl Outbox {
     }
 
     pub fn act(&mut self, action: Action) {
-        self.wishes.push(Wish::Act(action));
+        self.wishes.push(ShellCommand::Act(action));
     }
 
     /// Notes where a widget is, for scripts that click on it.
@@ -111,12 +111,12 @@ impl Outbox {
 
     /// Notes that what is shown in `ui` is a part of the window, which F6 takes the keyboard to.
     pub fn stop(&mut self, name: &'static str, ui: &Ui) {
-        self.stops.push(Stop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
+        self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
     }
 
     /// The same for one with a widget that takes every key while it has the keyboard.
     pub fn home(&mut self, name: &'static str, ui: &Ui, home: Id) {
-        self.stops.push(Stop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: Some(home) });
+        self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: Some(home) });
     }
 
     /// Notes where a button is; whether it was clicked.

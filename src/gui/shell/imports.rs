@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::outbox::Outbox,
+    gui::ui_output::UiOutput,
     project::PassId,
     session::{Command, Session},
 };
@@ -20,7 +20,7 @@ impl Shell {
     }
 
     /// Takes files that are dropped and texts that are pasted where nothing is typed.
-    pub(super) fn take_arrivals(&mut self, ui: &Ui, session: &Session, out: &mut Outbox) {
+    pub(super) fn take_imports(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
         if std::mem::replace(&mut self.opened, session.opened()) != session.opened() && self.gallery {
             self.close_gallery(out);
         }
@@ -53,7 +53,7 @@ impl Shell {
     }
 
     /// Brings files in: projects are opened, pictures and models go to the pass in front.
-    pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut Outbox) {
+    pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
         let pass = self.code.current().pass().cloned().unwrap_or(PassId::Image);
         // Nothing is in front while the gallery covers it.
         let to = (!self.gallery).then_some((pass, channel));

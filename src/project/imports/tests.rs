@@ -9,14 +9,14 @@ const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
                 "sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
 
 fn project(text: &str) -> crate::Project {
-    match arrival_of_text(text) {
-        Ok(TextArrival::Project(loaded)) => loaded.project,
+    match import_of_text(text) {
+        Ok(TextImport::Project(loaded)) => loaded.project,
         other => panic!("{other:?}"),
     }
 }
 
 fn refused(text: &str) -> String {
-    arrival_of_text(text).expect_err(text).to_string()
+    import_of_text(text).expect_err(text).to_string()
 }
 
 #[test]
@@ -48,8 +48,8 @@ fn places_are_opened_and_addresses_are_told_the_way() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("a b.glsl");
     std::fs::write(&file, "").unwrap();
-    let place = |text: &str| match arrival_of_text(text) {
-        Ok(TextArrival::Place(place)) => place,
+    let place = |text: &str| match import_of_text(text) {
+        Ok(TextImport::Place(place)) => place,
         other => panic!("{text}: {other:?}"),
     };
     let path = file.to_str().unwrap();

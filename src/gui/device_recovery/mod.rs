@@ -45,11 +45,11 @@ impl Losses {
         };
         let is_again = self.newest.replace(now).is_some_and(|at| now.saturating_duration_since(at) < AGAIN);
         if is_again {
-            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+            return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }
         if let Err(e) = renew(session) {
             log::error!("no other GPU is available: {e}");
-            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+            return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }
         let text = format!("{reason}; the window has switched to a new one. Your texts are unchanged");
         session.apply(Command::Notify { level: Level::Warning, text, path: None });
@@ -71,9 +71,9 @@ pub fn caught<W, T>(
     let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
     // Whatever was left half done may make this stumble too.
-    let rescue = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
-    let rescue = rescue.unwrap_or_else(|_| ". Your unsaved work could not be saved".into());
-    Err(GuiError::Panicked { reason, rescue })
+    let unsaved_work = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
+    let unsaved_work = unsaved_work.unwrap_or_else(|_| ". Your unsaved work could not be saved".into());
+    Err(GuiError::Panicked { reason, unsaved_work })
 }
 
 /// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
