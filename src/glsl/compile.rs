@@ -28,7 +28,7 @@ fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamb
     let begun = preamble.and_then(|preamble| preamble.checked(source));
     let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
     let interface =
-        stages::interface(&checked.module, &parsed.names, &parsed.origins, source.kind, link, &mut checked.diagnostics);
+        stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
     let probed = source.probe.map(|wanted| (probe::find(&checked.module, &parsed.origins, &wanted), wanted.visit));
     let mut all = report::Report::default();
     parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));

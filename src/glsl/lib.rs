@@ -23,6 +23,7 @@ mod near;
 pub mod opt;
 pub(crate) mod parse;
 mod pieces;
+pub mod plain;
 mod preamble;
 mod preprocess;
 mod probe;
@@ -43,6 +44,9 @@ pub use check::taken;
 pub use compile::{bulk, check_common, compile, compile_linked, diagnose, dump_ir};
 pub use compiled::Compiled;
 pub use driver::Driver;
+pub use plain::{
+    ClipSpace, PlainOptions, ShaderInterface, ShaderVariable, TextureBinding, UniformBuffer, UniformMember,
+};
 pub use preamble::Preamble;
 pub use probe::Probe;
 pub use probed::{ProbedExpression, probe_places, probed};

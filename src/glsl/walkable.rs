@@ -68,7 +68,7 @@ impl Walkable {
             &checked.module,
             &parsed.names,
             &parsed.origins,
-            source.kind,
+            source,
             link,
             &mut checked.diagnostics,
         );
