@@ -125,7 +125,8 @@ pub(crate) fn interface(
     let mut made = linker.made;
     if source.kind.is_plain() {
         made.resources = plain::resources(module, names, source.plain);
-        let tell = |all: &[(GlobalId, u32)]| all.iter().map(|&(id, at)| plain::variable(module, names, id, at)).collect();
+        let tell =
+            |all: &[(GlobalId, u32)]| all.iter().map(|&(id, at)| plain::variable(module, names, id, at)).collect();
         made.told = [tell(&made.inputs), tell(&made.outputs)];
     } else {
         made.resources.textures = channels(source);

@@ -246,8 +246,7 @@ impl Checker<'_> {
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
         let outer = (storage == GlobalStorage::Uniform).then(|| self.uniform_value(name, ty)).flatten();
-        let is_set =
-            outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
+        let is_set = outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             self.warning(name, format!("`{text}` has no value (0)"));
             self.hint(input_of_the_site(text).unwrap_or(

@@ -97,7 +97,10 @@ impl Checker<'_> {
             _ => true,
         };
         if shadow && has_bias {
-            self.error(loc, format!("`{name}` of a `{shown}` is not supported here: WebGPU compares in no other level"));
+            self.error(
+                loc,
+                format!("`{name}` of a `{shown}` is not supported here: WebGPU compares in no other level"),
+            );
             self.hint("write `texture(sampler, coordinate)`");
         }
     }

@@ -18,9 +18,7 @@ pub(crate) fn layout(module: &Module, ty: TypeId) -> Layout {
         Type::Vector { size: 2, .. } => Layout { size: 8, align: 8 },
         Type::Vector { size, .. } => Layout { size: 4 * u32::from(size), align: SLOT },
         Type::Matrix { columns, .. } => Layout { size: SLOT * u32::from(columns), align: SLOT },
-        Type::Array { element, len } => {
-            Layout { size: array_stride(module, element).saturating_mul(len), align: SLOT }
-        }
+        Type::Array { element, len } => Layout { size: array_stride(module, element).saturating_mul(len), align: SLOT },
         Type::Struct(id) => {
             let size = offsets(module, &module.structs[id.index()]).1;
             Layout { size, align: SLOT }

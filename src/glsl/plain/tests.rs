@@ -105,8 +105,8 @@ fn scalars_vectors_and_matrices_lie_as_std140_has_them() {
             "tint: vec3 @ 16 + 12",
             "inverted: bool @ 28 + 4",
             "cell: ivec2 @ 32 + 8",
-            "turn: mat3x3 @ 48 + 48",
-            "skew: mat2x2 @ 96 + 32",
+            "turn: mat3 @ 48 + 48",
+            "skew: mat2 @ 96 + 32",
             "wide: mat4x2 @ 128 + 64",
             "mask: bvec3 @ 192 + 12",
             "seed: uint @ 204 + 4",
@@ -159,7 +159,7 @@ fn arrays_and_structures_lie_as_std140_has_them() {
         "weights: float[5] @ 224 + 80",
         "points: vec2[2] @ 304 + 32",
         "colors: vec3[2] @ 336 + 32",
-        "turns: mat2x2[2] @ 368 + 64",
+        "turns: mat2[2] @ 368 + 64",
         "flags: bool[3] @ 432 + 48",
         "which: int @ 480 + 4",
     ];
@@ -187,7 +187,7 @@ fn a_block_has_a_buffer_of_its_own() {
         uniforms(&compiled.reflection),
         [
             "alone: float @ 0 + 4",
-            "view: mat4x4 @ 0 + 64",
+            "view: mat4 @ 0 + 64",
             "eye: vec3 @ 64 + 12",
             "near: float @ 76 + 4",
             "material.base: vec4 @ 0 + 16",
@@ -275,7 +275,7 @@ fn inputs_and_outputs_have_locations() {
     };
     let shown: &dyn Fn(&[crate::ShaderVariable]) -> Vec<String> = &shown;
     let shader = &first.reflection.shader;
-    assert_eq!(shown(&shader.inputs), ["0 vec2 uv", "1 uint kind", "3 vec3 position", "4 mat3x3 frame"]);
+    assert_eq!(shown(&shader.inputs), ["0 vec2 uv", "1 uint kind", "3 vec3 position", "4 mat3 frame"]);
     assert_eq!(shown(&shader.outputs), ["0 vec2 v_uv", "1 uint v_kind flat", "2 vec3 v_normal"]);
     assert_eq!(shader.buffers[0].group, 1);
     assert!(text.contains("@vertex") && text.contains("@builtin(instance_index)"), "{text}");
@@ -374,13 +374,21 @@ fn every_uniform_may_be_hidden_from_the_driver() {
 
 #[test]
 fn what_cannot_be_had_says_so() {
-    refused("uniform sampler2D all[2]; out vec4 c; void main() { c = texture(all[1], vec2(0)); }", "an array of samplers", "sampler2D");
+    refused(
+        "uniform sampler2D all[2]; out vec4 c; void main() { c = texture(all[1], vec2(0)); }",
+        "an array of samplers",
+        "sampler2D",
+    );
     refused(
         "precision highp isampler2D; uniform isampler2D s; out vec4 c; void main() { c = vec4(texture(s, vec2(0))); }",
         "WebGPU does not sample integers",
         "texture(s, vec2(0))",
     );
-    refused("layout(std140, row_major) uniform B { mat4 m; }; out vec4 c; void main() { c = m[0]; }", "row_major", "row_major");
+    refused(
+        "layout(std140, row_major) uniform B { mat4 m; }; out vec4 c; void main() { c = m[0]; }",
+        "row_major",
+        "row_major",
+    );
     refused("uniform B { vec4 v; } b[2]; out vec4 c; void main() { c = b[1].v; }", "an array of uniform blocks", "[2]");
     refused("out vec4 c; void main() { c = vec4(gl_PointCoord, 0, 1); }", "gl_PointCoord", "gl_PointCoord");
     refused("out vec4 c[2]; void main() { c[0] = vec4(1); }", "the output `c` cannot be a `vec4[2]`", "c");
@@ -394,12 +402,30 @@ fn old_glsl_gets_its_mend() {
     let hints = |kind, text: &str| {
         let source = if kind == PassKind::PlainVertex { PassSource::vertex(text) } else { PassSource::fragment(text) };
         let all = compile(&source).expect_err(text);
-        all.iter().flat_map(|d| std::iter::once(d.message.clone()).chain(d.hints.clone())).collect::<Vec<_>>().join("\n")
+        all.iter()
+            .flat_map(|d| std::iter::once(d.message.clone()).chain(d.hints.clone()))
+            .collect::<Vec<_>>()
+            .join("\n")
     };
-    let vertex = hints(PassKind::PlainVertex, "attribute vec3 at; varying vec2 uv; void main() { gl_Position = vec4(at, 1.0); }");
-    println!("{vertex}");
+    let vertex = hints(
+        PassKind::PlainVertex,
+        "attribute vec3 at; varying vec2 uv; void main() { gl_Position = vec4(at, 1.0); }",
+    );
     assert!(vertex.contains("`in`") && vertex.contains("`out`"), "{vertex}");
-    let fragment = hints(PassKind::PlainFragment, "varying vec2 uv; uniform sampler2D s; void main() { gl_FragColor = texture2D(s, uv); }");
-    println!("{fragment}");
-    assert!(fragment.contains("out vec4 color;") && fragment.contains("texture("), "{fragment}");
+    let old = hints(
+        PassKind::PlainFragment,
+        "varying vec2 uv; uniform sampler2D s; void main() { gl_FragColor = texture2D(s, uv); }",
+    );
+    assert!(old.contains("out vec4 color;") && old.contains("texture("), "{old}");
+    let version = hints(PassKind::PlainFragment, "#version 100\nvoid main() {}");
+    assert!(version.contains("this is GLSL ES 1.00") && version.contains("#version 300 es"), "{version}");
+    let desktop = hints(PassKind::PlainFragment, "#version 330 core\nvoid main() {}");
+    assert!(desktop.contains("`#version 330 core` is not supported"), "{desktop}");
+    let late = hints(PassKind::PlainFragment, "precision highp float;\n#version 300 es\nvoid main() {}");
+    assert!(late.contains("before everything but comments"), "{late}");
+    let extension = hints(PassKind::PlainFragment, "#extension GL_X : require\nvoid main() {}");
+    assert!(extension.contains("there is no extension `GL_X`"), "{extension}");
+    fragment(
+        "// ours\n#version 300 es\n#extension GL_X : enable\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout vec4 c; void main() { c = vec4(1); }",
+    );
 }
