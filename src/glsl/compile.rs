@@ -3,6 +3,7 @@
 use super::{
     check,
     compiled::Compiled,
+    diagnostics::Diagnostics,
     dialects, emit, hir, ir, lower, opt, parse, pieces,
     preamble::Preamble,
     probe, report,
@@ -57,7 +58,7 @@ struct Judged {
 type Probed = Option<(hir::ExprId, u32)>;
 
 /// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
-pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Diagnostics> {
     compile_linked(source, &Link::default(), None)
 }
 
@@ -68,8 +69,8 @@ pub fn compile_linked(
     source: &PassSource<'_>,
     link: &Link<'_>,
     preamble: Option<&Preamble>,
-) -> Result<Compiled, Vec<Diagnostic>> {
-    on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))
+) -> Result<Compiled, Diagnostics> {
+    Ok(on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))?)
 }
 
 /// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or

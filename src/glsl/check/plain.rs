@@ -1,4 +1,4 @@
-//! What a plain shader cannot have, because WebGPU has nothing for it.
+//! Refuses what a plain shader cannot have, because WebGPU has nothing for it.
 
 use super::{checker::Checker, qualifiers::Qualifiers};
 use crate::{

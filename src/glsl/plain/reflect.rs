@@ -1,4 +1,4 @@
-//! What is told of a plain shader.
+//! Tells what a plain shader reads and writes.
 
 use super::{ShaderVariable, TextureBinding, UniformMember, std140};
 use crate::{

@@ -1,4 +1,4 @@
-//! Where the uniforms and samplers of a plain shader lie.
+//! Gives the uniforms and samplers of a plain shader their places.
 
 use super::PlainOptions;
 use crate::{
