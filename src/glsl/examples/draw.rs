@@ -68,7 +68,7 @@ fn main() {
     let (checks, sampler) = (checks.create_view(&Default::default()), device.create_sampler(&Default::default()));
     let module = |source| device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
     let vertex = module(wgpu::ShaderSource::Wgsl(TRIANGLE.into()));
-    let fragment = module(wgpu::ShaderSource::Naga(std::borrow::Cow::Borrowed(&compiled.module)));
+    let fragment = module(wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(compiled.module.clone())));
     let (entry_point, compilation_options) = (None, wgpu::PipelineCompilationOptions::default());
     let targets = &[Some(wgpu::TextureFormat::Rgba8Unorm.into())];
     let options = compilation_options.clone();
