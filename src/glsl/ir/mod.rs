@@ -1,4 +1,4 @@
-//! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics
+//! The intermediate representation: a program between the checked tree (`hir`) and the module of a graphics
 //! API.
 //!
 //! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the
