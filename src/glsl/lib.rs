@@ -74,7 +74,7 @@
 //!
 //! let text = "void mainImage(out vec4 color, in vec2 at) { color = vec4(smooths";
 //! let analysis = Analysis::new(&PassSource::image(text));
-//! let proposed = analysis.complete(SourceId(0), text.len());
+//! let proposed = analysis.completions(SourceId(0), text.len());
 //! assert!(proposed.items.iter().any(|item| item.label == "smoothstep"));
 //! ```
 //!
