@@ -3,8 +3,8 @@
 use super::cache::Cache;
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
-    self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, Preamble, Probe, Text,
-    UntypedValue, Varying,
+    self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, PlainOptions, Preamble,
+    Probe, Text, UntypedValue, Varying,
 };
 use std::{
     cell::OnceCell,
@@ -39,7 +39,7 @@ pub(super) type Found = (Option<Arc<Compiled>>, Vec<Diagnostic>);
 
 /// Compiles a stage behind a Common that may be read already.
 pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Outcome {
-    glsl::compile_linked(source, link, preamble.filter(|_| source.common.is_some()))
+    Ok(glsl::compile_linked(source, link, preamble.filter(|_| source.common.is_some()))?)
 }
 
 /// The result of compiling a stage. Spans name the texts that it was compiled with.
@@ -92,6 +92,7 @@ struct StageKey {
     values: Vec<(String, Vec<u64>)>,
     bilinear_by_hand: [bool; 4],
     driver: Driver,
+    plain: PlainOptions,
     probe: Option<Probe>,
     varyings: Option<Vec<Varying>>,
     targets: Option<usize>,
@@ -125,6 +126,7 @@ impl StageKey {
             values,
             bilinear_by_hand,
             driver,
+            plain,
             probe,
         } = *source;
         let Link { varyings, targets } = *link;
@@ -142,6 +144,7 @@ impl StageKey {
             values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
             bilinear_by_hand,
             driver,
+            plain,
             probe,
             varyings: varyings.map(<[Varying]>::to_vec),
             targets,

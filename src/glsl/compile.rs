@@ -3,6 +3,7 @@
 use super::{
     check,
     compiled::Compiled,
+    diagnostics::Diagnostics,
     dialects, emit, hir, ir, lower, opt, parse, pieces,
     preamble::Preamble,
     probe, report,
@@ -28,7 +29,7 @@ fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamb
     let begun = preamble.and_then(|preamble| preamble.checked(source));
     let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
     let interface =
-        stages::interface(&checked.module, &parsed.names, &parsed.origins, source.kind, link, &mut checked.diagnostics);
+        stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
     let probed = source.probe.map(|wanted| (probe::find(&checked.module, &parsed.origins, &wanted), wanted.visit));
     let mut all = report::Report::default();
     parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
@@ -57,7 +58,7 @@ struct Judged {
 type Probed = Option<(hir::ExprId, u32)>;
 
 /// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
-pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Diagnostics> {
     compile_linked(source, &Link::default(), None)
 }
 
@@ -68,8 +69,8 @@ pub fn compile_linked(
     source: &PassSource<'_>,
     link: &Link<'_>,
     preamble: Option<&Preamble>,
-) -> Result<Compiled, Vec<Diagnostic>> {
-    on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))
+) -> Result<Compiled, Diagnostics> {
+    Ok(on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))?)
 }
 
 /// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or

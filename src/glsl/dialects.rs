@@ -236,7 +236,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         PassKind::Image | PassKind::Buffer => "mainImage",
         PassKind::Cubemap => "mainCubemap",
         PassKind::Sound => "mainSound",
-        PassKind::Vertex | PassKind::Fragment => return None,
+        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => return None,
     };
     let first = found.iter().find(|d| d.is_error())?;
     let words = Words::of(source.code.text);

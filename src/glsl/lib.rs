@@ -1,48 +1,155 @@
-//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a valid [`naga::Module`] and what it really
-//! reads, out.
+//! A compiler from GLSL ES 3.00 to [`naga`] modules, for wgpu and whatever else reads them, with diagnostics that a
+//! person can act on and the services that an editor needs.
 //!
-//! Owns the language: preprocessor, parser, types, built-ins, lowering, [`Reflection`]. Needs no device, no file and no
-//! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind
-//! groups, uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading
-//! this one.
+//! It takes Shadertoy's programs as they are (`mainImage`, `mainCubemap`, `mainSound`, Common, the `i...` uniforms), and
+//! plain vertex and fragment shaders of WebGL 2 with uniforms, samplers, inputs and outputs of their own. It judges as
+//! WebGL's compiler (ANGLE) does, and gives the same meaning to what GLSL leaves undefined: variables begin as zeros,
+//! indices are clamped.
+//!
+//! # An image shader of Shadertoy's
+//!
+//! ```
+//! use eddy_glsl::{PassSource, compile, naga};
+//!
+//! let text = "void mainImage(out vec4 color, in vec2 at) {
+//!     color = vec4(at / iResolution.xy, 0.5 + 0.5 * sin(iTime), 1.0);
+//! }";
+//! let compiled = compile(&PassSource::image(text))?;
+//! assert!(compiled.reflection.uniforms.contains(eddy_glsl::UniformSet::TIME));
+//!
+//! // wgpu takes the module as it is (`ShaderSource::Naga`); other readers get a text. Feature `wgsl-out`.
+//! let info = naga::valid::Validator::new(Default::default(), Default::default()).validate(&compiled.module)?;
+//! let wgsl = naga::back::wgsl::write_string(&compiled.module, &info, naga::back::wgsl::WriterFlags::empty())?;
+//! println!("{wgsl}");
+//! # assert!(wgsl.contains("@fragment"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`interface`] says which bind groups the module of a Shadertoy program has, and what lies in them.
+//!
+//! # A plain shader
+//!
+//! ```
+//! use eddy_glsl::{PassSource, compile};
+//!
+//! let compiled = compile(&PassSource::fragment(
+//!     "#version 300 es
+//!     precision highp float;
+//!     uniform float level;
+//!     uniform vec3 tint;
+//!     uniform sampler2D photo;
+//!     in vec2 uv;
+//!     out vec4 color;
+//!     void main() { color = vec4(texture(photo, uv).rgb * tint, level); }",
+//! ))?;
+//! let shader = &compiled.reflection.shader;
+//! let buffer = &shader.buffers[0];
+//! assert_eq!((buffer.group, buffer.binding, buffer.size), (0, 0, 32));
+//! assert_eq!((buffer.members[1].name.as_str(), buffer.members[1].offset), ("tint", 16));
+//! assert_eq!((shader.textures[0].texture_binding, shader.textures[0].sampler_binding), (1, 2));
+//! assert_eq!((shader.inputs[0].name.as_str(), shader.inputs[0].location), ("uv", 0));
+//! # Ok::<(), eddy_glsl::Diagnostics>(())
+//! ```
+//!
+//! [`plain`] says where uniforms, samplers, inputs and outputs lie.
+//!
+//! # What is wrong with a text
+//!
+//! ```
+//! use eddy_glsl::{PassSource, SourceMap, diagnose, render_all};
+//!
+//! let text = "void mainImage(out vec4 color, in vec2 at) {\n    color = vec4(lerp(0.0, 1.0, at.x));\n}\n";
+//! let mut sources = SourceMap::default();
+//! sources.add("image.glsl", text);
+//! let found = diagnose(&PassSource::image(text));
+//! assert_eq!(found[0].message, "there is no function `lerp`");
+//! assert_eq!(found[0].fixes[0].edits[0].text, "mix");
+//! assert!(render_all(&found, &sources).contains("image.glsl:2:18"));
+//! ```
+//!
+//! # What could stand at the caret
+//!
+//! ```
+//! use eddy_glsl::{PassSource, SourceId, services::Analysis};
+//!
+//! let text = "void mainImage(out vec4 color, in vec2 at) { color = vec4(smooths";
+//! let analysis = Analysis::new(&PassSource::image(text));
+//! let proposed = analysis.completions(SourceId(0), text.len());
+//! assert!(proposed.items.iter().any(|item| item.label == "smoothstep"));
+//! ```
+//!
+//! # Features
+//!
+//! `wgsl-out`, `spv-out`, `msl-out`, `hlsl-out` and `glsl-out` turn on naga's writers of these names.
+//!
+//! The crate needs no device, no file and no clock.
 
-pub mod ast;
-pub mod builtins;
-pub(crate) mod check;
+// What has a length here is never empty: a table of types has those of the language, a swizzle a component.
+#![allow(clippy::len_without_is_empty)]
+
 mod compile;
 mod compiled;
+mod diagnostics;
 mod dialects;
 mod driver;
-pub(crate) mod emit;
-pub(crate) mod hir;
-pub mod interface;
-pub mod ir;
 mod lex;
-pub(crate) mod lower;
 mod near;
-pub mod opt;
-pub(crate) mod parse;
 mod pieces;
 mod preamble;
 mod preprocess;
 mod probe;
 mod probed;
-pub mod reflection;
 mod report;
-pub mod services;
 mod source;
 mod stack;
-pub mod stages;
-pub mod statements;
-pub mod types;
 mod unsequenced;
+
+pub(crate) mod check;
+pub(crate) mod emit;
+pub(crate) mod hir;
+pub(crate) mod lower;
+pub(crate) mod parse;
+
+pub mod interface;
+pub mod plain;
+pub mod reflection;
+pub mod services;
+pub mod stages;
+
+// Eddy's debugger walks through programs in their intermediate representation, and shows their statements and types:
+// these modules are public for it alone, and change with it.
+#[doc(hidden)]
+pub mod ast;
+#[doc(hidden)]
+pub mod builtins;
+#[doc(hidden)]
+pub mod ir;
+#[doc(hidden)]
+pub mod opt;
+#[doc(hidden)]
+pub mod statements;
+#[doc(hidden)]
+pub mod types;
+#[doc(hidden)]
 pub mod walk;
+#[doc(hidden)]
 pub mod walkable;
 
+pub use eddy_diag::{
+    Diagnostic, Edit, Fix, Label, LineColumn, Severity, SourceId, SourceMap, SourceText, Span, render, render_all,
+};
+pub use naga;
+
 pub use check::taken;
-pub use compile::{bulk, check_common, compile, compile_linked, diagnose, dump_ir};
+#[doc(hidden)]
+pub use compile::dump_ir;
+pub use compile::{bulk, check_common, compile, compile_linked, diagnose};
 pub use compiled::Compiled;
+pub use diagnostics::Diagnostics;
 pub use driver::Driver;
+pub use plain::{
+    ClipSpace, PlainOptions, ShaderInterface, ShaderVariable, TextureBinding, UniformBuffer, UniformMember,
+};
 pub use preamble::Preamble;
 pub use probe::Probe;
 pub use probed::{ProbedExpression, probe_places, probed};

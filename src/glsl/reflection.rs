@@ -79,4 +79,17 @@ pub struct Reflection {
     pub varyings: Vec<super::Varying>,
     /// The targets that a fragment has an output for.
     pub outputs: [bool; super::interface::MAX_TARGETS],
+    /// The resources, inputs and outputs of a plain shader ([`super::plain`]); empty for other passes.
+    pub shader: super::ShaderInterface,
+}
+
+impl Reflection {
+    /// Returns the entry of a channel, or of a sampler that a plain shader declares.
+    pub(crate) fn channel(&mut self, channel: u8) -> &mut ChannelUse {
+        let index = usize::from(channel);
+        match self.shader.textures.get_mut(index) {
+            Some(texture) => &mut texture.used,
+            None => &mut self.channels[index],
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
-use super::{driver::Driver, probe::Probe};
+use super::{driver::Driver, plain::PlainOptions, probe::Probe};
 use eddy_diag::{SourceId, Span};
 
 /// The entry point that a pass defines, and with it the uniforms that it may name.
@@ -18,12 +18,26 @@ pub enum PassKind {
     Vertex,
     /// `void main()` that sets `out` variables, once for each fragment of a mesh.
     Fragment,
+    /// A vertex shader of GLSL ES 3.00 with uniforms and attributes of its own; see [`super::plain`].
+    PlainVertex,
+    /// A fragment shader of GLSL ES 3.00 with uniforms of its own; see [`super::plain`].
+    PlainFragment,
 }
 
 impl PassKind {
-    /// A stage of a program that draws meshes.
+    /// Its entry point is `void main()`, of a vertex or a fragment stage.
     pub fn is_stage(self) -> bool {
-        matches!(self, PassKind::Vertex | PassKind::Fragment)
+        self.is_vertex() || matches!(self, PassKind::Fragment | PassKind::PlainFragment)
+    }
+
+    /// It is called once for each vertex.
+    pub fn is_vertex(self) -> bool {
+        matches!(self, PassKind::Vertex | PassKind::PlainVertex)
+    }
+
+    /// It has the uniforms, samplers and attributes that it declares, and none of Shadertoy's.
+    pub fn is_plain(self) -> bool {
+        matches!(self, PassKind::PlainVertex | PassKind::PlainFragment)
     }
 
     /// Its entry point is called once for each pixel.
@@ -111,6 +125,8 @@ pub struct PassSource<'a> {
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
+    /// Says how a plain shader meets WebGPU; the other kinds of pass do not read it.
+    pub plain: PlainOptions,
     /// A value that is drawn instead of the picture; only in passes that draw one.
     pub probe: Option<Probe>,
 }
@@ -128,12 +144,27 @@ impl<'a> PassSource<'a> {
             values: &[],
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
+            plain: PlainOptions::of(kind),
             probe: None,
         }
     }
 
     /// Returns an Image pass that is this text alone. Diagnostics point into `SourceId(0)`.
     pub fn image(text: &'a str) -> Self {
-        Self::new(PassKind::Image, Text { id: SourceId(0), text })
+        Self::alone(PassKind::Image, text)
+    }
+
+    /// Returns a plain vertex shader: `void main()` with its own attributes and uniforms.
+    pub fn vertex(text: &'a str) -> Self {
+        Self::alone(PassKind::PlainVertex, text)
+    }
+
+    /// Returns a plain fragment shader: `void main()` with its own inputs, outputs and uniforms.
+    pub fn fragment(text: &'a str) -> Self {
+        Self::alone(PassKind::PlainFragment, text)
+    }
+
+    fn alone(kind: PassKind, text: &'a str) -> Self {
+        Self::new(kind, Text { id: SourceId(0), text })
     }
 }

@@ -4,15 +4,21 @@
 //! (section 4.3.9 of the GLSL ES 3.00 specification, which calls the rest a link error).
 
 use super::{
-    PassKind,
+    ChannelKind, PassKind, PassSource,
     ast::{Interner, Origins},
-    hir::{Global, GlobalId, GlobalStorage, Module, Scalar, Type, TypeId},
+    hir::{Global, GlobalId, GlobalStorage, Module, SamplerDim, Scalar, Type, TypeId},
+    interface,
+    ir::Texture,
     near::nearest_identifier,
+    plain::{self, Resources, ShaderVariable},
 };
 use eddy_diag::Diagnostic;
 
 /// Slots of four components between the stages that every device has.
 const MAX_SLOTS: u32 = 15;
+
+/// Attributes of a vertex that every device has (`gl_MaxVertexAttribs`).
+const MAX_ATTRIBUTES: u32 = 16;
 
 /// Names what a vertex has. A stage declares those it reads, by these names and types: `in vec3 aPosition;`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -80,6 +86,10 @@ pub(crate) struct Interface {
     pub inputs: Vec<(GlobalId, u32)>,
     pub outputs: Vec<(GlobalId, u32)>,
     pub varyings: Vec<Varying>,
+    /// Uniforms and samplers of a plain shader, else the channels.
+    pub resources: Resources,
+    /// The inputs and outputs of a plain shader as they are told, in the order of `inputs` and `outputs`.
+    pub told: [Vec<ShaderVariable>; 2],
 }
 
 /// Sorts out the interface of a stage, and reports what is wrong with it. Passes that are no stages have none.
@@ -87,27 +97,58 @@ pub(crate) fn interface(
     module: &Module,
     names: &Interner,
     origins: &Origins,
-    kind: PassKind,
+    source: &PassSource<'_>,
     link: &Link<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Interface {
-    let mut linker = Linker { module, names, origins, link, diagnostics, made: Interface::default() };
+    let is_plain = source.kind.is_plain();
+    let mut linker = Linker { module, names, origins, link, is_plain, diagnostics, made: Interface::default() };
     let of = |storage: GlobalStorage| {
         let all = module.globals.iter().enumerate().filter(move |(_, g)| g.storage == storage && g.ty != TypeId::ERROR);
         all.map(|(i, _)| GlobalId::new(i)).collect::<Vec<_>>()
     };
-    match kind {
+    match source.kind {
+        PassKind::PlainVertex => {
+            linker.located(&of(GlobalStorage::In), MAX_ATTRIBUTES);
+            linker.outputs_of_vertices(&of(GlobalStorage::Out));
+        }
         PassKind::Vertex => {
             of(GlobalStorage::In).into_iter().for_each(|id| linker.attribute(id));
             linker.outputs_of_vertices(&of(GlobalStorage::Out));
         }
-        PassKind::Fragment => {
+        PassKind::Fragment | PassKind::PlainFragment => {
             linker.inputs_of_fragments(&of(GlobalStorage::In));
             linker.colours(&of(GlobalStorage::Out));
         }
         PassKind::Image | PassKind::Buffer | PassKind::Cubemap | PassKind::Sound => {}
     }
-    linker.made
+    let mut made = linker.made;
+    if source.kind.is_plain() {
+        made.resources = plain::resources(module, names, source.plain);
+        let tell =
+            |all: &[(GlobalId, u32)]| all.iter().map(|&(id, at)| plain::variable(module, names, id, at)).collect();
+        made.told = [tell(&made.inputs), tell(&made.outputs)];
+    } else {
+        made.resources.textures = channels(source);
+    }
+    made
+}
+
+/// The textures of the channels.
+fn channels(source: &PassSource<'_>) -> Vec<Texture> {
+    let texture = |(i, kind): (usize, ChannelKind)| Texture {
+        name: String::new(),
+        dim: match kind {
+            ChannelKind::Sampler2D => SamplerDim::D2,
+            ChannelKind::Sampler3D => SamplerDim::D3,
+            ChannelKind::SamplerCube => SamplerDim::Cube,
+        },
+        scalar: Scalar::Float,
+        shadow: false,
+        group: interface::CHANNEL_GROUP,
+        binding: interface::texture_binding(i),
+    };
+    source.channels.into_iter().enumerate().map(texture).collect()
 }
 
 /// The slots a value takes, in order, each a scalar or vector; `None` for what cannot pass between stages.
@@ -131,6 +172,7 @@ struct Linker<'a> {
     names: &'a Interner,
     origins: &'a Origins,
     link: &'a Link<'a>,
+    is_plain: bool,
     diagnostics: &'a mut Vec<Diagnostic>,
     made: Interface,
 }
@@ -166,6 +208,42 @@ impl Linker<'_> {
             return self.error(&global, message, hint);
         }
         self.made.inputs.push((id, attribute.location()));
+    }
+
+    /// Gives attributes of any name the locations that they say, and the others the first that are free.
+    fn located(&mut self, all: &[GlobalId], most: u32) {
+        let mut taken: Vec<(std::ops::Range<u32>, GlobalId)> = Vec::new();
+        let (said, free): (Vec<_>, Vec<_>) = all.iter().partition(|id| self.module[**id].location.is_some());
+        for &id in said.into_iter().chain(free) {
+            let global = self.module[id];
+            let name = self.name(&global).to_owned();
+            // Arrays of attributes are refused by the checker.
+            let Some(size) = slots(self.module, global.ty).map(|slots| slots.len() as u32) else { continue };
+            let overlapping = |from: u32| taken.iter().find(|(other, _)| from < other.end && other.start < from + size);
+            let location = match global.location {
+                Some(location) => location,
+                None => {
+                    let mut from = 0;
+                    while let Some((other, _)) = overlapping(from) {
+                        from = other.end;
+                    }
+                    from
+                }
+            };
+            if let Some(&(_, other)) = overlapping(location) {
+                let other = self.name(&self.module[other]).to_owned();
+                let message = format!("`{name}` and `{other}` both have location {location}");
+                self.error(&global, message, "give each its own location; a matrix takes one for each column");
+                continue;
+            }
+            if location.saturating_add(size) > most {
+                let message = format!("there is no room for `{name}`: the locations are 0 to {}", most - 1);
+                self.error(&global, message, "choose a lower location, or declare fewer inputs");
+                continue;
+            }
+            taken.push((location..location + size, id));
+            self.made.inputs.push((id, location));
+        }
     }
 
     fn outputs_of_vertices(&mut self, all: &[GlobalId]) {
@@ -246,7 +324,17 @@ impl Linker<'_> {
                 self.module.types.get(global.ty),
                 Type::Scalar(Scalar::Float) | Type::Vector { scalar: Scalar::Float, .. }
             );
-            if !is_float {
+            let is_number = matches!(
+                self.module.types.get(global.ty),
+                Type::Scalar(Scalar::Int | Scalar::Uint) | Type::Vector { scalar: Scalar::Int | Scalar::Uint, .. }
+            );
+            if self.is_plain && !is_float && !is_number {
+                let ty = self.module.type_text(self.names, global.ty);
+                let message = format!("the output `{name}` cannot be a `{ty}`");
+                self.error(&global, message, "declare one vector for each target");
+                continue;
+            }
+            if !is_float && !self.is_plain {
                 self.error(&global, format!("targets hold floats, so `{name}` cannot be written"), "make it a `vec4`");
                 continue;
             }
@@ -267,7 +355,10 @@ impl Linker<'_> {
             }
             if let Some(targets) = self.link.targets.filter(|t| location as usize >= *t) {
                 let message = format!("`{name}` writes target {location}, but the pass has {targets}");
-                let hint = "add a format to the pass's `targets` in eddy.toml, or choose another location";
+                let hint = match self.is_plain {
+                    true => "choose another location",
+                    false => "add a format to the pass's `targets` in eddy.toml, or choose another location",
+                };
                 self.error(&global, message, hint);
                 continue;
             }

@@ -64,14 +64,8 @@ impl Walkable {
         let is_marked = detail == Detail::Statements;
         let parsed = parse::parse(source, None);
         let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
-        let interface = stages::interface(
-            &checked.module,
-            &parsed.names,
-            &parsed.origins,
-            source.kind,
-            link,
-            &mut checked.diagnostics,
-        );
+        let interface =
+            stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
         let mut all = report::Report::default();
         parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
         if all.diagnostics.iter().any(Diagnostic::is_error) {

@@ -9,7 +9,7 @@ use eddy::{
 use std::{fmt::Write, time::Duration};
 
 fn compile(text: &str) -> Result<Compiled, Vec<Diagnostic>> {
-    glsl::compile(&PassSource::image(text))
+    Ok(glsl::compile(&PassSource::image(text))?)
 }
 
 /// `n` pieces, one behind the other.

@@ -3,7 +3,7 @@
 use super::{checker::Checker, types::MANY_MEMBERS};
 use crate::{
     ast::{self, Loc, Symbol},
-    hir::{DeclRef, ExprFlags, ExprId, ExprKind, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
+    hir::{DeclRef, ExprFlags, ExprId, ExprKind, GlobalId, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
 };
 
 /// The three sets of component names; they must not be mixed.
@@ -225,16 +225,24 @@ impl Checker<'_> {
     /// A sampler inside a uniform the author declared: nobody sets it, so it reads `iChannel0`.
     fn sampler_of_uniform(&mut self, base: ExprId, ty: TypeId, loc: Loc) -> ExprId {
         let root = self.root_of(base);
-        if !matches!(self.module[root].kind, ExprKind::Global(_)) {
+        let ExprKind::Global(global) = self.module[root].kind else {
             self.error(loc, "a sampler cannot be taken out of this value");
             self.hint("pass the sampler as a parameter of its own");
             return self.error_expr(loc);
-        }
-        self.own_sampler(ty, loc)
+        };
+        self.own_sampler(global, ty, loc)
     }
 
     /// A use of a sampler the author declared: nobody sets it, so WebGL binds it to the unit of `iChannel0`.
-    pub(super) fn own_sampler(&mut self, ty: TypeId, loc: Loc) -> ExprId {
+    /// A plain shader has a texture for each.
+    pub(super) fn own_sampler(&mut self, global: GlobalId, ty: TypeId, loc: Loc) -> ExprId {
+        if self.env.is_plain() {
+            return match self.module.samplers.iter().position(|sampler| *sampler == global) {
+                Some(channel) => self.push(ExprKind::Channel(channel as u8), ty, ExprFlags::default(), loc),
+                // Its declaration was refused.
+                None => self.error_expr(loc),
+            };
+        }
         if ty != self.channel_type(0) {
             let name = self.type_name(ty);
             self.error(

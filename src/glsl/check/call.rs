@@ -216,7 +216,7 @@ impl Checker<'_> {
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         self.uses(loc.first, DeclRef::Builtin(builtin));
         let is_derivative = matches!(builtin, Builtin::DFdx | Builtin::DFdy | Builtin::Fwidth);
-        if is_derivative && self.env == super::env::Env::Pass(crate::PassKind::Vertex) && !self.is_shared(loc) {
+        if is_derivative && self.env.is_vertex() && !self.is_shared(loc) {
             self.error(
                 loc,
                 format!(
@@ -242,7 +242,10 @@ impl Checker<'_> {
         let given = &types[..args.len().min(MOST_ARGS)];
         let result = self.builtin_result(builtin, given);
         let id = match result {
-            Some(result) if args.len() <= MOST_ARGS => self.resolved_builtin(builtin, result, args, base, loc),
+            Some(result) if args.len() <= MOST_ARGS => {
+                self.plain_texture_call(builtin, &types[..args.len()], loc);
+                self.resolved_builtin(builtin, result, args, base, loc)
+            }
             _ if !known => {
                 // Most results have the type of the first argument; guessing wrong would invent mistakes.
                 self.error_expr(loc)

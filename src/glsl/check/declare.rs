@@ -232,7 +232,10 @@ impl Checker<'_> {
         };
         if self.facts(ty).opaque && storage != GlobalStorage::Uniform {
             self.error(self.ast[spec].loc, format!("the sampler `{text}` must be a uniform or a parameter"));
-            self.hint("use iChannel0 to iChannel3");
+            self.hint(match self.env.is_plain() {
+                true => "write `uniform` before it",
+                false => "use iChannel0 to iChannel3",
+            });
             self.declare(name, Binding::Poison);
             return;
         }
@@ -243,7 +246,7 @@ impl Checker<'_> {
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
         let outer = (storage == GlobalStorage::Uniform).then(|| self.uniform_value(name, ty)).flatten();
-        let is_set = outer.is_some() || storage == GlobalStorage::In && self.env.is_stage();
+        let is_set = outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             self.warning(name, format!("`{text}` has no value (0)"));
             self.hint(input_of_the_site(text).unwrap_or(
@@ -278,6 +281,9 @@ impl Checker<'_> {
             GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out => {}
         }
         let id = self.add_global(name, ty, storage, kept, value, loc);
+        if self.env.is_plain() && storage == GlobalStorage::Uniform {
+            self.plain_uniform(id, self.ast[spec].loc);
+        }
         if quals.is(Q::Out) && !self.env.is_stage() {
             self.outputs.push(id);
         }
@@ -330,6 +336,7 @@ impl Checker<'_> {
             flags: VarFlags::default(),
             flat: false,
             location: None,
+            block: None,
         });
         let id = GlobalId::new(self.module.globals.len() - 1);
         self.declare(name, Binding::Global(id));
@@ -342,6 +349,7 @@ impl Checker<'_> {
         let ast = self.ast;
         if ast[names].is_empty() {
             self.check_layout(&quals, LayoutOf::Block);
+            self.refuse_row_major(&quals);
             if quals.layout.is_none() && quals.storage.is_none() {
                 self.error(loc, "these qualifiers have no declaration");
             }
@@ -413,10 +421,17 @@ impl Checker<'_> {
             }
         }
         let text = self.name(name.symbol);
-        self.warning(name, format!("the uniform block `{text}` has no values: its members are 0"));
+        let is_plain = self.env.is_plain();
+        if is_plain {
+            self.plain_block(&quals, fields, dims);
+        } else {
+            self.warning(name, format!("the uniform block `{text}` has no values: its members are 0"));
+        }
+        let block = is_plain.then_some(name.symbol);
         let Some(instance) = instance else {
             for member in members {
-                self.add_global(member.name, member.ty, GlobalStorage::Uniform, None, None, loc);
+                let id = self.add_global(member.name, member.ty, GlobalStorage::Uniform, None, None, loc);
+                self.module[id].block = block;
             }
             return;
         };
@@ -426,6 +441,7 @@ impl Checker<'_> {
         }
         let ty = self.add_struct(Some(name), &members, loc, None);
         let ty = self.complete_type(ty, dims, List::EMPTY, "an array of blocks");
-        self.add_global(instance, ty, GlobalStorage::Uniform, None, None, loc);
+        let id = self.add_global(instance, ty, GlobalStorage::Uniform, None, None, loc);
+        self.module[id].block = block;
     }
 }

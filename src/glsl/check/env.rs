@@ -24,6 +24,7 @@ impl Env {
                 uniform,
                 U::ChannelTime | U::TimeOffset | U::SampleOffset | U::Date | U::SampleRate | U::ChannelResolution
             ),
+            Env::Pass(kind) if kind.is_plain() => false,
             Env::Pass(kind) => {
                 !matches!(uniform, U::TimeOffset | U::SampleOffset | U::ChannelLoaded)
                     && (kind.is_stage() || uniform.geometry_member().is_none())
@@ -33,12 +34,22 @@ impl Env {
 
     /// Returns whether this text may name a built-in variable.
     pub(crate) fn has_variable(self, variable: BuiltinVar) -> bool {
-        variable.is_of_vertices() == (self == Env::Pass(PassKind::Vertex))
+        variable.is_of_vertices() == self.is_vertex()
     }
 
     /// Returns whether it is a stage of a program that draws meshes.
     pub(crate) fn is_stage(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_stage())
+    }
+
+    /// Returns whether it is called once for each vertex.
+    pub(crate) fn is_vertex(self) -> bool {
+        matches!(self, Env::Pass(kind) if kind.is_vertex())
+    }
+
+    /// Returns whether it declares all its inputs itself.
+    pub(crate) fn is_plain(self) -> bool {
+        matches!(self, Env::Pass(kind) if kind.is_plain())
     }
 }
 
@@ -130,7 +141,7 @@ pub(crate) fn entry(kind: PassKind) -> Entry {
             params: &[(In, TypeId::INT), (In, TypeId::FLOAT)],
             usage: "vec2 mainSound(int samp, float time) { .. }",
         },
-        PassKind::Vertex | PassKind::Fragment => {
+        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
             Entry { name: "main", result: TypeId::VOID, params: &[], usage: "void main() { .. }" }
         }
     }

@@ -199,7 +199,7 @@ impl<'a> Checker<'a> {
                 let (ty, storage, value) = (global.ty, global.storage, global.value);
                 match storage {
                     GlobalStorage::Const => self.folded(value, loc),
-                    _ if self.is_sampler(ty) => self.own_sampler(ty, loc),
+                    _ if self.is_sampler(ty) => self.own_sampler(id, ty, loc),
                     GlobalStorage::Private | GlobalStorage::Out => {
                         self.push(ExprKind::Global(id), ty, ExprFlags::PLACE, loc)
                     }
@@ -239,6 +239,7 @@ impl<'a> Checker<'a> {
             }
             Binding::BuiltinVar(var) => {
                 self.uses(token, DeclRef::BuiltinVar(var));
+                self.plain_variable(var, symbol, loc);
                 let flags = if var.is_place() { ExprFlags::PLACE } else { ExprFlags::default() };
                 self.push(ExprKind::BuiltinVar(var), var.ty(), flags, loc)
             }

@@ -27,7 +27,8 @@ impl Checker<'_> {
         for (symbol, binding) in builtins.chain(named).filter(|(symbol, _)| *symbol >= from) {
             self.scopes.give(symbol, binding, scope::LANGUAGE);
         }
-        for uniform in env::EVERYWHERE.into_iter().filter(|uniform| uniform.symbol() >= from) {
+        let everywhere = if self.env.is_plain() { &[][..] } else { &env::EVERYWHERE[..] };
+        for &uniform in everywhere.iter().filter(|uniform| uniform.symbol() >= from) {
             self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
         }
     }
@@ -47,8 +48,10 @@ impl Checker<'_> {
         if self.env.has(Uniform::Time) {
             self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
         }
-        for (i, name) in CHANNELS.into_iter().enumerate() {
-            self.give(name, Binding::Channel(i as u8), scope::FILE);
+        if !self.env.is_plain() {
+            for (i, name) in CHANNELS.into_iter().enumerate() {
+                self.give(name, Binding::Channel(i as u8), scope::FILE);
+            }
         }
         if self.env == Env::Pass(PassKind::Image) {
             for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {

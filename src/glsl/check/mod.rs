@@ -30,6 +30,7 @@ mod graph;
 mod header;
 mod ops;
 pub(crate) mod overloads;
+mod plain;
 mod qualifiers;
 mod scope;
 mod size;

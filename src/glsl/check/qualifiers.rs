@@ -1,8 +1,7 @@
 //! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
 
-use super::{checker::Checker, env::Env};
+use super::checker::Checker;
 use crate::{
-    PassKind,
     ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},
     hir::{LocalKind, Scalar, Type, TypeId},
 };
@@ -244,7 +243,7 @@ impl Checker<'_> {
         for item in &ast[items] {
             let name = self.name(item.name.symbol);
             let (fits, whose) = match name {
-                "location" if self.env == Env::Pass(PassKind::Vertex) => (of == LayoutOf::Output, "inputs"),
+                "location" if self.env.is_vertex() => (of == LayoutOf::Output, "inputs"),
                 "location" => (of == LayoutOf::Output, "outputs"),
                 "row_major" | "column_major" => {
                     (matches!(of, LayoutOf::Block | LayoutOf::Member), "blocks and their members")
@@ -285,11 +284,8 @@ impl Checker<'_> {
         {
             self.error(token, "`layout` needs `in`, `out` or `uniform`");
         } else {
-            let has_location = match self.env {
-                // Section 4.3.8: inputs of vertices, and outputs of fragments.
-                Env::Pass(PassKind::Vertex) => input,
-                _ => output,
-            };
+            // Section 4.3.8: inputs of vertices, and outputs of fragments.
+            let has_location = if self.env.is_vertex() { input } else { output };
             self.check_layout(quals, if has_location { LayoutOf::Output } else { LayoutOf::Variable });
         }
         if !input && !output {
@@ -299,7 +295,7 @@ impl Checker<'_> {
             Type::Array { element, .. } => element,
             _ => ty,
         });
-        let is_vertex = self.env == Env::Pass(PassKind::Vertex);
+        let is_vertex = self.env.is_vertex();
         let word = if input { "input" } else { "output" };
         if self.facts(ty).opaque || scalar == Some(Scalar::Bool) || (output && self.struct_of(ty).is_some()) {
             let name = self.type_name(ty);

@@ -126,7 +126,7 @@ impl Checker<'_> {
                 }
             }
             S::Discard => {
-                if self.env == super::env::Env::Pass(crate::PassKind::Vertex) && !self.is_shared(loc) {
+                if self.env.is_vertex() && !self.is_shared(loc) {
                     self.error(loc, "`discard` works only in a fragment stage");
                     self.hint("move it to the fragment stage");
                 }

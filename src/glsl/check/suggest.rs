@@ -173,7 +173,8 @@ impl Checker<'_> {
             return;
         }
         self.error(token, format!("`{name}` is not declared"));
-        if let Some(hint) = find(VARIABLES, name) {
+        if self.env.is_plain() && self.explain_plain(name) {
+        } else if let Some(hint) = find(VARIABLES, name) {
             self.hint(hint);
             match find(RENAMED, name) {
                 Some(here) => self.fix_with(token, here),
@@ -192,6 +193,20 @@ impl Checker<'_> {
                 "it is declared in another scope: move the declaration out of the braces, or pass it as a parameter",
             );
         }
+    }
+
+    /// Says how a plain shader gets what other hosts give. Returns whether it is that.
+    fn explain_plain(&mut self, name: &str) -> bool {
+        if matches!(name, "gl_FragColor" | "gl_FragData") {
+            self.hint(format!("`{name}` is GLSL ES 1.00: declare `out vec4 color;` at file scope and assign to it"));
+            return true;
+        }
+        let uniforms = crate::hir::Uniform::ALL.iter().map(|uniform| uniform.name());
+        let is_input = uniforms.chain(env::CHANNELS).any(|known| known == name) || input_of_the_site(name).is_some();
+        if is_input {
+            self.hint(format!("a plain shader declares its inputs: `uniform float {name};`, with the type it has"));
+        }
+        is_input
     }
 
     /// Returns whether an error says already why there is no such name.

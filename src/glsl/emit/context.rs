@@ -4,6 +4,7 @@ use rustc_hash::FxHashSet;
 
 use naga::{Expression, FastHashMap, GlobalVariable, Handle, StructMember};
 
+use super::blocks::Block;
 use crate::{
     PassSource, Reflection,
     ir::{self, ConstId, layout::Layouts},
@@ -86,8 +87,11 @@ pub(super) enum TablePlace {
 pub(super) struct Resources {
     pub block: Option<Handle<GlobalVariable>>,
     pub custom_uniform_block: Option<Handle<GlobalVariable>>,
-    pub textures: [Option<Handle<GlobalVariable>>; 4],
-    pub samplers: [Option<Handle<GlobalVariable>>; 4],
+    /// By [`ir::Module::blocks`].
+    pub blocks: Map<u16, Block>,
+    /// Textures and samplers, by channel.
+    pub textures: Map<u8, Handle<GlobalVariable>>,
+    pub samplers: Map<u8, Handle<GlobalVariable>>,
     /// Private memory, by [`ir::GlobalId::index`].
     pub private: Vec<Option<Handle<GlobalVariable>>>,
     pub geometry: Option<Handle<GlobalVariable>>,

@@ -7,7 +7,6 @@ use naga::{
 
 use super::{context::Emitter, function::Builder};
 use crate::{
-    PassKind,
     interface::ENTRY_POINT,
     ir::{self, Input, Output, Value},
     types::{Scalar, TypeId},
@@ -17,7 +16,7 @@ const POSITION: BuiltIn = BuiltIn::Position { invariant: false };
 
 /// Adds the entry point; every function is there already.
 pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) {
-    let is_vertex = cx.source.kind == PassKind::Vertex;
+    let is_vertex = cx.source.kind.is_vertex();
     let mut b = Builder::new(cx, function);
     b.block(&function.body);
     b.emit();
@@ -108,7 +107,7 @@ impl Builder<'_, '_> {
             self.push(Statement::Return { value: None });
             return;
         }
-        let is_vertex = self.cx.source.kind == PassKind::Vertex;
+        let is_vertex = self.cx.source.kind.is_vertex();
         let mut bound = Vec::with_capacity(parts.len());
         for &(output, value) in parts {
             let binding = match output {

@@ -1,6 +1,6 @@
 //! The operations of a function that are expressions of naga's.
 
-use naga::{Expression, ImageQuery, SampleLevel, ScalarKind};
+use naga::{Expression, Handle, ImageQuery, SampleLevel, ScalarKind};
 
 use super::{
     function::Builder,
@@ -9,8 +9,15 @@ use super::{
 };
 use crate::{
     ir::{self, Level, Op, Value},
-    types::{Type, TypeId},
+    types::{SamplerDim, Scalar, Swizzle, Type, TypeId},
 };
+
+/// The coordinate of a read, as naga has it.
+struct Coordinate {
+    coordinate: Handle<Expression>,
+    array_index: Option<Handle<Expression>>,
+    depth_ref: Option<Handle<Expression>>,
+}
 
 impl Builder<'_, '_> {
     /// Returns the expression that computes a value.
@@ -57,7 +64,12 @@ impl Builder<'_, '_> {
             },
             Op::Sample { channel, coordinate, level, offset } => {
                 let (coordinate, offset) = (of(coordinate), offset.map(&mut of));
+                let (dim, shadow) = self.texture_shape(channel);
+                let at = self.coordinate(coordinate, dim, shadow);
+                let mut of = |value: Value| self.value(value);
                 let level = match level {
+                    // WebGPU compares in the base level, or in the one that derivatives ask for.
+                    Level::Exact(_) if shadow => SampleLevel::Zero,
                     Level::Auto => SampleLevel::Auto,
                     Level::Exact(level) => SampleLevel::Exact(of(level)),
                     Level::Bias(bias) => SampleLevel::Bias(of(bias)),
@@ -69,25 +81,32 @@ impl Builder<'_, '_> {
                     image,
                     sampler,
                     gather: None,
-                    coordinate,
-                    array_index: None,
+                    coordinate: at.coordinate,
+                    array_index: at.array_index,
                     offset,
                     level,
-                    depth_ref: None,
+                    depth_ref: at.depth_ref,
                     clamp_to_edge: false,
                 }
             }
             Op::Fetch { channel, coordinate, level } => {
                 let (coordinate, level) = (of(coordinate), of(level));
+                let (dim, _) = self.texture_shape(channel);
+                let at = self.texel(coordinate, dim);
                 let image = self.cx.texture(channel);
                 let image = self.variable(image);
-                Expression::ImageLoad { image, coordinate, array_index: None, sample: None, level: Some(level) }
+                let (coordinate, array_index) = (at.coordinate, at.array_index);
+                Expression::ImageLoad { image, coordinate, array_index, sample: None, level: Some(level) }
             }
             Op::TextureSize { channel, level } => {
                 let level = level.map(&mut of);
                 let image = self.cx.texture(channel);
                 let image = self.variable(image);
-                let size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
+                let mut size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
+                if self.texture_shape(channel).0 == SamplerDim::D2Array {
+                    let layers = self.add(Expression::ImageQuery { image, query: ImageQuery::NumLayers });
+                    size = self.compose(TypeId::vector(Scalar::Uint, 3), vec![size, layers]);
+                }
                 Expression::As { expr: size, kind: ScalarKind::Sint, convert: None }
             }
             Op::TextureLevels { channel } => {
@@ -97,6 +116,46 @@ impl Builder<'_, '_> {
             }
             ref other => unreachable!("{value:?} = {other:?} is no expression"),
         }
+    }
+
+    /// Returns the shape of a channel's texture, and whether reads of it compare.
+    fn texture_shape(&self, channel: u8) -> (SamplerDim, bool) {
+        let texture = &self.cx.ir.textures[usize::from(channel)];
+        (texture.dim, texture.shadow)
+    }
+
+    /// Takes the coordinate of a sample apart: GLSL has the layer and what is compared in its last components.
+    fn coordinate(&mut self, whole: Handle<Expression>, dim: SamplerDim, shadow: bool) -> Coordinate {
+        let size = match dim {
+            SamplerDim::D2 | SamplerDim::D2Array => 2,
+            SamplerDim::D3 | SamplerDim::Cube => 3,
+        };
+        let is_array = dim == SamplerDim::D2Array;
+        let depth_ref =
+            shadow.then(|| self.add(Expression::AccessIndex { base: whole, index: size + u32::from(is_array) }));
+        let array_index = is_array.then(|| {
+            let layer = self.add(Expression::AccessIndex { base: whole, index: size });
+            let fun = naga::MathFunction::Round;
+            let layer = self.add(Expression::Math { fun, arg: layer, arg1: None, arg2: None, arg3: None });
+            self.add(Expression::As { expr: layer, kind: ScalarKind::Sint, convert: Some(4) })
+        });
+        let coordinate = if is_array || shadow { self.first(whole, size) } else { whole };
+        Coordinate { coordinate, array_index, depth_ref }
+    }
+
+    /// Does the same for the coordinate of a fetch.
+    fn texel(&mut self, whole: Handle<Expression>, dim: SamplerDim) -> Coordinate {
+        if dim != SamplerDim::D2Array {
+            return Coordinate { coordinate: whole, array_index: None, depth_ref: None };
+        }
+        let array_index = Some(self.add(Expression::AccessIndex { base: whole, index: 2 }));
+        Coordinate { coordinate: self.first(whole, 2), array_index, depth_ref: None }
+    }
+
+    /// Returns the first components of a vector.
+    fn first(&mut self, vector: Handle<Expression>, size: u32) -> Handle<Expression> {
+        let pattern = pattern(Swizzle::new(&[0, 1, 2][..size as usize]));
+        self.add(Expression::Swizzle { size: types::vector_size(size as usize), vector, pattern })
     }
 
     fn compose_op(&mut self, ty: TypeId, parts: &[Value]) -> Expression {

@@ -183,6 +183,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         let constant = &ir[id];
         if self.cx.is_long(constant.ty)
             && !self.cx.source.driver.tables_in_memory
+            && !self.cx.source.kind.is_plain()
             && !self.cx.holds_booleans(constant.ty)
         {
             // Copied from there by a loop.

@@ -39,7 +39,10 @@ impl Builder<'_, '_> {
                 TablePlace::Private(variable) => Some(variable),
                 TablePlace::Uniform(_) | TablePlace::Storage(_) => None,
             },
-            GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::CubeFace => None,
+            GlobalKind::Uniform(_)
+            | GlobalKind::CustomUniform(_)
+            | GlobalKind::CubeFace
+            | GlobalKind::Member { .. } => None,
         }
     }
 
@@ -59,6 +62,7 @@ impl Builder<'_, '_> {
                 (self.cx.custom_uniform_block(), slot.into())
             }
             GlobalKind::CubeFace => (self.cx.block(), CUBE_FACE),
+            GlobalKind::Member { block, index } => self.cx.block_member(block, index),
             GlobalKind::Table(table) => match self.cx.table_place(table) {
                 TablePlace::Uniform(index) => (self.cx.uniform_tables(), index),
                 TablePlace::Storage(index) => (self.cx.storage_tables(), index),
@@ -86,6 +90,9 @@ impl Builder<'_, '_> {
     pub fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
         let ir = self.ir;
         let (Op::Part { base, .. } | Op::Element { base, .. }) = ir[place] else { unreachable!("it has a base") };
+        if self.is_in_block(place) {
+            return Some(self.part_in_block(place));
+        }
         if self.is_padded(base) {
             return match self.slot(place) {
                 Slot::Whole(pointer) => Some(pointer),
@@ -151,6 +158,9 @@ impl Builder<'_, '_> {
     /// Loads the contents of a place.
     pub fn load(&mut self, place: Value) -> Handle<Expression> {
         let ir = self.ir;
+        if self.is_in_block(place) {
+            return self.load_in_block(place);
+        }
         if self.is_padded(place) {
             let Type::Array { element, len } = self.cx.ir.types.get(ir.ty(place)) else {
                 unreachable!("only arrays are padded")
@@ -177,7 +187,8 @@ impl Builder<'_, '_> {
     /// Returns the int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles
     /// anew for each value of those, what the entry point made.
     pub fn opaque_zero(&mut self) -> Handle<Expression> {
-        let pointer = if self.cx.source.driver.opaque_uniforms {
+        let is_made = self.cx.source.driver.opaque_uniforms || self.cx.source.kind.is_plain();
+        let pointer = if is_made {
             let variable = self.cx.opaque_zero();
             self.variable(variable)
         } else {

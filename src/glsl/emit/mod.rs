@@ -7,6 +7,7 @@
 //! naga knows no bounds of indices and guards divisions by functions of its own: both are taken care of before
 //! ([`super::ir`]), so that modules need none.
 
+mod blocks;
 mod consts;
 mod context;
 mod entry;
@@ -70,6 +71,7 @@ pub(crate) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &m
     }
     entry::emit(&mut emitter, entry);
     let tables = emitter.finish_tables();
+    emitter.finish_blocks();
     let slots = u64::from(emitter.custom_uniform_slots());
     let custom_uniform_bytes =
         if emitter.reflection.custom_uniforms.is_empty() { 0 } else { slots * CUSTOM_UNIFORM_BYTES };

@@ -11,11 +11,11 @@ use naga::{
 
 use super::context::Emitter;
 use crate::{
-    ChannelKind, UniformSet,
+    UniformSet,
     builtins::Uniform,
     interface::{self, GeometryBlock, UniformBlock},
     ir::{GlobalId, GlobalKind},
-    types::{Scalar, TypeId},
+    types::{SamplerDim, Scalar, TypeId},
 };
 
 /// Member of the block: name, offset, and what the reflection calls it.
@@ -184,36 +184,54 @@ impl Emitter<'_> {
 
     /// Returns the texture of a channel.
     pub fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
-        let i = usize::from(channel);
-        if let Some(texture) = self.resources.textures[i] {
+        if let Some(&texture) = self.resources.textures.get(&channel) {
             return texture;
         }
-        let dim = match self.source.channels[i] {
-            ChannelKind::Sampler2D => ImageDimension::D2,
-            ChannelKind::Sampler3D => ImageDimension::D3,
-            ChannelKind::SamplerCube => ImageDimension::Cube,
+        let texture = &self.ir.textures[usize::from(channel)];
+        let dim = match texture.dim {
+            SamplerDim::D2 | SamplerDim::D2Array => ImageDimension::D2,
+            SamplerDim::D3 => ImageDimension::D3,
+            SamplerDim::Cube => ImageDimension::Cube,
         };
-        let class = ImageClass::Sampled { kind: ScalarKind::Float, multi: false };
-        let ty = self.insert_type(TypeInner::Image { dim, arrayed: false, class });
-        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::texture_binding(i) };
-        let texture = self.variable(AddressSpace::Handle, ty, Some(binding), None);
-        self.resources.textures[i] = Some(texture);
-        self.reflection.channels[i].texture = true;
-        texture
+        let kind = match texture.scalar {
+            Scalar::Int => ScalarKind::Sint,
+            Scalar::Uint => ScalarKind::Uint,
+            Scalar::Float | Scalar::Bool => ScalarKind::Float,
+        };
+        let class = match texture.shadow {
+            true => ImageClass::Depth { multi: false },
+            false => ImageClass::Sampled { kind, multi: false },
+        };
+        let ty = self.insert_type(TypeInner::Image { dim, arrayed: texture.dim == SamplerDim::D2Array, class });
+        let made = self.handle(ty, channel, 0);
+        self.resources.textures.insert(channel, made);
+        self.reflection.channel(channel).texture = true;
+        made
     }
 
     /// Returns the sampler of a channel.
     pub fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
-        let i = usize::from(channel);
-        if let Some(sampler) = self.resources.samplers[i] {
+        if let Some(&sampler) = self.resources.samplers.get(&channel) {
             return sampler;
         }
-        let ty = self.insert_type(TypeInner::Sampler { comparison: false });
-        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::sampler_binding(i) };
-        let sampler = self.variable(AddressSpace::Handle, ty, Some(binding), None);
-        self.resources.samplers[i] = Some(sampler);
-        self.reflection.channels[i].sampler = true;
-        sampler
+        let comparison = self.ir.textures[usize::from(channel)].shadow;
+        let ty = self.insert_type(TypeInner::Sampler { comparison });
+        let made = self.handle(ty, channel, 1);
+        self.resources.samplers.insert(channel, made);
+        self.reflection.channel(channel).sampler = true;
+        made
+    }
+
+    /// Returns a variable at the binding that is so far from the first of a channel.
+    fn handle(&mut self, ty: Handle<naga::Type>, channel: u8, after: u32) -> Handle<GlobalVariable> {
+        let texture = &self.ir.textures[usize::from(channel)];
+        let binding = ResourceBinding { group: texture.group, binding: texture.binding + after };
+        let made = self.variable(AddressSpace::Handle, ty, Some(binding), None);
+        if !texture.name.is_empty() {
+            let suffix = if after == 0 { "" } else { "_sampler" };
+            self.out.global_variables[made].name = Some(format!("{}{suffix}", texture.name));
+        }
+        made
     }
 
     /// Returns private memory, set to its constant value where it has one.

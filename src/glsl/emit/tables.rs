@@ -52,7 +52,9 @@ impl Emitter<'_> {
         }
         let constant = &self.ir[id];
         let scalars = constant.words.len();
-        let place = if let Some((ty, size)) = self.in_slots(constant.ty)
+        let place = if self.source.kind.is_plain() {
+            TablePlace::Private(self.private_table(id))
+        } else if let Some((ty, size)) = self.in_slots(constant.ty)
             && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
         {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))

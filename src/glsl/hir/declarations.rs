@@ -2,7 +2,7 @@
 
 use super::ids::{ConstId, ExprId, FuncId, StmtId};
 use crate::{
-    ast::{Ident, List, Loc, Precision, TokenId},
+    ast::{Ident, List, Loc, Precision, Symbol, TokenId},
     types::TypeId,
 };
 use std::ops::Range;
@@ -25,6 +25,8 @@ pub struct Global {
     pub flat: bool,
     /// The location that the `layout` of an output says.
     pub location: Option<u32>,
+    /// The name of the uniform block that it is a member of, or stands for.
+    pub block: Option<Symbol>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,7 +36,8 @@ pub enum GlobalStorage {
     /// `const`: uses are folded to `Literal` or `Const` with this `value`'s id, so no expression refers to the global.
     Const,
     /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`,
-    /// whose unit WebGL gives it: its uses are `Channel(0)`.)
+    /// whose unit WebGL gives it: its uses are `Channel(0)`.) In a plain shader it lies in a buffer, and the uses of a
+    /// sampler are `Channel(n)` with its place among [`super::Module::samplers`].
     Uniform,
     /// `in`: in a pass no vertex shader writes it, and it reads as zero; in a stage the entry point sets it.
     In,

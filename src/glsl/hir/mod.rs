@@ -40,6 +40,8 @@ pub struct Module {
     pub structs: Vec<Struct>,
     /// In text order; initialisers that are not constant run in this order when the entry point starts.
     pub globals: Vec<Global>,
+    /// The samplers that a plain shader declares, in text order.
+    pub samplers: Vec<GlobalId>,
     /// One entry a signature; prototypes and definition share it.
     pub functions: Vec<Function>,
     pub exprs: Vec<Expr>,
@@ -70,6 +72,7 @@ impl Clone for Module {
             types: self.types.clone(),
             structs: self.structs.clone(),
             globals: self.globals.clone(),
+            samplers: self.samplers.clone(),
             functions: self.functions.clone(),
             exprs: ast::with_room(&self.exprs),
             stmts: ast::with_room(&self.stmts),

@@ -40,7 +40,7 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
         Op::Select { accept, .. } => of(accept),
         Op::Convert { value, to } | Op::Bitcast { value, to } => TypeId::vector(to, size(value)),
         Op::Derivative { value, .. } => of(value),
-        Op::Sample { .. } | Op::Fetch { .. } => TypeId::VEC4,
+        Op::Sample { channel, .. } | Op::Fetch { channel, .. } => module.texel(channel),
         Op::TextureSize { .. } => unreachable!("its type is the channel's"),
         Op::Load { place } => of(place),
         Op::Call { function, .. } => module[function].result,

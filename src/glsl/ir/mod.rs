@@ -1,4 +1,4 @@
-//! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics
+//! The intermediate representation: a program between the checked tree (`hir`) and the module of a graphics
 //! API.
 //!
 //! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the
@@ -35,7 +35,7 @@ pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
 use super::{
     ast::Loc,
     builtins::Uniform,
-    types::{Scalar, TypeId, TypeTable},
+    types::{SamplerDim, Scalar, TypeId, TypeTable},
 };
 
 /// A program: functions, and the memory that they share.
@@ -46,8 +46,53 @@ pub struct Module {
     pub structs: Vec<Vec<TypeId>>,
     pub consts: Vec<Const>,
     pub globals: Vec<Global>,
+    /// The textures that operations read, by their `channel`.
+    pub textures: Vec<Texture>,
+    /// The uniform buffers that a plain shader declares.
+    pub blocks: Vec<UniformBlock>,
+    /// The names of structures, in a plain shader alone.
+    pub struct_names: Vec<StructNames>,
     /// Callees before their callers; the last is the entry point.
     pub functions: Vec<Function>,
+}
+
+/// A texture and its sampler.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// As the author calls it; empty for a channel.
+    pub name: String,
+    pub dim: SamplerDim,
+    /// The component type that a read gives: float, int or uint.
+    pub scalar: Scalar,
+    /// Reads compare a depth, and give the share of texels that pass.
+    pub shadow: bool,
+    pub group: u32,
+    /// Binding of the texture; that of the sampler follows.
+    pub binding: u32,
+}
+
+/// The names of a structure and its members; empty: it has none.
+#[derive(Clone, Debug, Default)]
+pub struct StructNames {
+    pub name: String,
+    pub members: Vec<String>,
+}
+
+/// A uniform buffer, laid out by the rules of std140 (section 2.12.6.4 of the OpenGL ES 3.0 specification).
+#[derive(Clone, Debug)]
+pub struct UniformBlock {
+    /// As the author calls it; empty for the uniforms outside of blocks.
+    pub name: String,
+    pub group: u32,
+    pub binding: u32,
+    pub members: Vec<BlockMember>,
+}
+
+/// A member of a [`UniformBlock`].
+#[derive(Clone, Debug)]
+pub struct BlockMember {
+    pub name: String,
+    pub ty: TypeId,
 }
 
 /// A constant vector, matrix, array or structure.
@@ -79,6 +124,8 @@ pub enum GlobalKind {
     CubeFace,
     /// A constant that is indexed at run time: read only.
     Table(ConstId),
+    /// A member of one of [`Module::blocks`]: read only.
+    Member { block: u16, index: u16 },
 }
 
 impl GlobalKind {
@@ -303,6 +350,15 @@ impl Module {
     pub fn add_global(&mut self, ty: TypeId, kind: GlobalKind) -> GlobalId {
         self.globals.push(Global { ty, kind });
         GlobalId::new(self.globals.len() - 1)
+    }
+
+    /// Returns the type of a texel of a channel, or of a comparison with one.
+    pub fn texel(&self, channel: u8) -> TypeId {
+        match self.textures.get(usize::from(channel)) {
+            Some(Texture { shadow: true, .. }) => TypeId::FLOAT,
+            Some(texture) => TypeId::vector(texture.scalar, 4),
+            None => TypeId::VEC4,
+        }
     }
 
     /// Returns the number of statements of each function with all calls written out, by [`FuncId::index`].

@@ -20,6 +20,9 @@ pub fn print(module: &Module) -> String {
             GlobalKind::CustomUniform(slot) => format!("uniform slot {slot}"),
             GlobalKind::CubeFace => "uniform cube face".into(),
             GlobalKind::Table(table) => format!("table {}", constant(module, table.index())),
+            GlobalKind::Member { block, index } => {
+                format!("uniform {}", module.blocks[usize::from(block)].members[usize::from(index)].name)
+            }
         };
         let _ = writeln!(out, "@{index}: {ty} {kind}");
     }

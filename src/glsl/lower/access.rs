@@ -85,6 +85,10 @@ impl Builder<'_, '_> {
                         let variable = self.cx.global(id);
                         return Some(Place::of(self.global(variable), ty));
                     }
+                    GlobalStorage::Uniform if self.cx.source.kind.is_plain() => {
+                        let uniform = self.cx.plain_uniform(id);
+                        return Some(Place::of(self.global(uniform), ty));
+                    }
                     GlobalStorage::Const | GlobalStorage::Uniform | GlobalStorage::In => return None,
                 }
                 let varies =

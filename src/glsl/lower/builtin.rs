@@ -218,7 +218,7 @@ impl Builder<'_, '_> {
     }
 
     fn derivative(&mut self, axis: Axis, expr: Value) -> Value {
-        if self.cx.source.kind == crate::PassKind::Vertex {
+        if self.cx.source.kind.is_vertex() {
             // Of a function of Common that the checker let pass.
             let zero = self.float(0.0);
             return self.op(Binary::Multiply, expr, zero);

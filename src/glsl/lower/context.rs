@@ -23,7 +23,7 @@ pub(super) struct Lowering<'a> {
     pub interface: Interface,
     pub out: ir::Module,
     pub layouts: Layouts,
-    pub resources: Resources,
+    pub resources: Variables,
     pub arguments: Arguments,
     pub functions: FxHashMap<Instance, ir::FuncId>,
     pub reflection: Reflection,
@@ -42,7 +42,7 @@ impl Lowering<'_> {
 }
 
 /// Variables declared so far.
-pub(super) struct Resources {
+pub(super) struct Variables {
     pub read_only: FxHashMap<GlobalKind, ir::GlobalId>,
     /// By [`hir::GlobalId::index`].
     pub globals: Vec<Option<ir::GlobalId>>,
@@ -55,7 +55,7 @@ pub(super) struct Resources {
     pub failed_asserts: Option<ir::GlobalId>,
 }
 
-impl Resources {
+impl Variables {
     pub fn new(globals: usize) -> Self {
         Self {
             read_only: FxHashMap::default(),

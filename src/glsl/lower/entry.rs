@@ -39,7 +39,9 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
             b.call_with_colour(author, vec![at, origin, direction])
         }
         PassKind::Sound => b.sound(author, position),
-        PassKind::Vertex | PassKind::Fragment => unreachable!("stages have an entry point of their own"),
+        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
+            unreachable!("stages have an entry point of their own")
+        }
     };
     let results = [result].into_iter().chain(beside);
     let parts: Vec<_> = results.zip(0..).map(|(result, location)| (Output::Target(location), result)).collect();

@@ -51,7 +51,7 @@ impl Builder<'_, '_> {
             StmtKind::Break => self.push(Stmt::Break),
             StmtKind::Continue => self.push(Stmt::Continue),
             // Of a function of Common that the checker let pass.
-            StmtKind::Discard if self.cx.source.kind == crate::PassKind::Vertex => {}
+            StmtKind::Discard if self.cx.source.kind.is_vertex() => {}
             StmtKind::Discard => {
                 self.cx.reflection.discards = true;
                 self.push(Stmt::Discard);

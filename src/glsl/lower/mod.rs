@@ -51,12 +51,13 @@ pub(crate) use self::{
     reachable::reached,
 };
 use self::{
-    context::{Lowering, Probed, Resources},
+    context::{Lowering, Probed, Variables},
     reachable::Reachable,
 };
 use super::{
     PassSource, Reflection, hir,
     ir::{self, layout::Layouts},
+    plain::{self, Resources},
     stages::Interface,
 };
 
@@ -103,6 +104,8 @@ fn lower_with(
 ) -> Lowered {
     let (reachable, arguments) = Reachable::new(module, options.table);
     let mut out = begin(module);
+    let Resources { textures, blocks, struct_names, .. } = &interface.resources;
+    (out.textures, out.blocks, out.struct_names) = (textures.clone(), blocks.clone(), struct_names.clone());
     let probed = probe.map(|(expr, visit)| Probed::new(&mut out, (expr, module[expr].ty), visit));
     let mut cx = Lowering {
         hir: module,
@@ -111,7 +114,7 @@ fn lower_with(
         interface,
         out,
         layouts: Layouts::default(),
-        resources: Resources::new(module.globals.len()),
+        resources: Variables::new(module.globals.len()),
         arguments,
         functions: FxHashMap::with_capacity_and_hasher(reachable.instances.len(), Default::default()),
         reflection: Reflection::default(),
@@ -119,6 +122,9 @@ fn lower_with(
         marks,
         probed,
     };
+    if source.kind.is_plain() {
+        cx.reflection.shader.textures = cx.out.textures.iter().map(plain::texture).collect();
+    }
     for instance in &reachable.instances {
         let (function, names) = function::lower(&mut cx, instance);
         cx.names.functions.push(names);

@@ -35,6 +35,12 @@ impl Lowering<'_> {
         self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::CustomUniform(slot))
     }
 
+    /// Returns a uniform that a plain shader declares.
+    pub fn plain_uniform(&mut self, id: GlobalId) -> ir::GlobalId {
+        let (block, index) = self.interface.resources.members[&id];
+        self.read_only(self.hir[id].ty, GlobalKind::Member { block, index })
+    }
+
     pub fn cube_face(&mut self) -> ir::GlobalId {
         self.read_only(TypeId::INT, GlobalKind::CubeFace)
     }

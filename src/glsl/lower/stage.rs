@@ -3,9 +3,10 @@
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::{
-    Attribute, PassKind,
+    Attribute,
     hir::{BuiltinVar, GlobalId, Scalar, Swizzle, Type, TypeId},
     ir::{self, Binary, Input, Op, Output, Stmt, Value},
+    plain::ClipSpace,
     stages::slots,
 };
 
@@ -13,11 +14,17 @@ use crate::{
 pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
     let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
-    let is_vertex = cx.source.kind == PassKind::Vertex;
+    let is_vertex = cx.source.kind.is_vertex();
     let inputs: Vec<(GlobalId, u32)> =
         cx.interface.inputs.iter().copied().filter(|(id, _)| reachable.globals[id.index()]).collect();
     cx.reflection.varyings = cx.interface.varyings.clone();
-    if is_vertex {
+    if cx.source.kind.is_plain() {
+        let [mut told_in, mut told_out] = cx.interface.told.clone();
+        told_in.retain(|variable| inputs.iter().any(|(_, location)| *location == variable.location));
+        told_in.sort_by_key(|variable| variable.location);
+        told_out.sort_by_key(|variable| variable.location);
+        (cx.reflection.shader.inputs, cx.reflection.shader.outputs) = (told_in, told_out);
+    } else if is_vertex {
         let read = |a: &Attribute| inputs.iter().any(|(_, location)| *location == a.location());
         cx.reflection.attributes = Attribute::ALL.into_iter().filter(read).collect();
     }
@@ -116,16 +123,30 @@ impl Builder<'_, '_> {
         }
     }
 
+    /// Turns a position in OpenGL's clip space into one in WebGPU's.
+    fn clip_space(&mut self, position: Value) -> Value {
+        let source = self.cx.source;
+        let clip_space = if source.kind.is_plain() { source.plain.clip_space } else { ClipSpace::GL_TEXTURE };
+        if clip_space == ClipSpace::UNCHANGED {
+            return position;
+        }
+        let [x, mut y, mut z, w] = [0, 1, 2, 3].map(|index| self.add(Op::Part { base: position, index }));
+        let (minus, half) = (self.float(-1.0), self.float(0.5));
+        if clip_space.flip_y {
+            y = self.op(Binary::Multiply, y, minus);
+        }
+        if clip_space.map_depth {
+            let sum = self.op(Binary::Add, z, w);
+            z = self.op(Binary::Multiply, sum, half);
+        }
+        self.compose(TypeId::VEC4, vec![x, y, z, w])
+    }
+
     fn vertex_outputs(&mut self) -> Vec<(Output, Value)> {
         let position = self.cx.stage_variable(BuiltinVar::Position);
         let pointer = self.global(position);
         let position = self.load(pointer);
-        let [x, y, z, w] = [0, 1, 2, 3].map(|index| self.add(Op::Part { base: position, index }));
-        let (minus, half) = (self.float(-1.0), self.float(0.5));
-        let y = self.op(Binary::Multiply, y, minus);
-        let sum = self.op(Binary::Add, z, w);
-        let z = self.op(Binary::Multiply, sum, half);
-        let value = self.compose(TypeId::VEC4, vec![x, y, z, w]);
+        let value = self.clip_space(position);
         let mut parts = vec![(Output::Position, value)];
         for (id, location) in self.cx.interface.outputs.clone() {
             let flat = self.cx.hir[id].flat;
@@ -142,6 +163,8 @@ impl Builder<'_, '_> {
         for (id, location) in self.cx.interface.outputs.clone() {
             self.cx.reflection.outputs[location as usize] = true;
             let ty = self.cx.hir[id].ty;
+            let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Float);
+            let one = if scalar == Scalar::Float { 1.0f32.to_bits() } else { 1 };
             let memory = self.cx.global(id);
             let pointer = self.global(memory);
             let written = self.load(pointer);
@@ -153,9 +176,9 @@ impl Builder<'_, '_> {
                         1 => written,
                         _ => self.swizzle(written, ty, Swizzle::new(&[0, 1, 2][..size])),
                     }];
-                    components.extend((size..3).map(|_| self.float(0.0)));
-                    components.push(self.float(1.0));
-                    self.compose(TypeId::VEC4, components)
+                    components.extend((size..3).map(|_| self.literal(scalar, 0)));
+                    components.push(self.literal(scalar, one));
+                    self.compose(TypeId::vector(scalar, 4), components)
                 }
             };
             parts.push((Output::Target(location), value));

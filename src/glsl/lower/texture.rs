@@ -2,8 +2,7 @@
 
 use super::function::Builder;
 use crate::{
-    ChannelKind,
-    hir::{Builtin, ExprId, ExprKind, Scalar, Swizzle, TypeId},
+    hir::{Builtin, ExprId, ExprKind, SamplerDim, Scalar, Swizzle, TypeId},
     ir::{Binary, Level, Op, Value},
 };
 
@@ -52,30 +51,31 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn kind(&self, channel: u8) -> ChannelKind {
-        self.cx.source.channels[usize::from(channel)]
+    fn kind(&self, channel: u8) -> SamplerDim {
+        self.cx.out.textures[usize::from(channel)].dim
     }
 
-    /// Dimensions a coordinate of the channel has.
+    /// Components of a coordinate of the channel, of which one more is what is compared.
     fn dimensions(&self, channel: u8) -> u8 {
-        match self.kind(channel) {
-            ChannelKind::Sampler2D => 2,
-            ChannelKind::Sampler3D | ChannelKind::SamplerCube => 3,
-        }
+        let dimensions = match self.kind(channel) {
+            SamplerDim::D2 => 2,
+            SamplerDim::D3 | SamplerDim::Cube | SamplerDim::D2Array => 3,
+        };
+        dimensions + u8::from(self.cx.out.textures[usize::from(channel)].shadow)
     }
 
     fn texture_size(&mut self, channel: u8, ty: TypeId, lod: ExprId) -> Value {
         let level = match self.literal_bits(lod) {
             Some(0) => None,
             _ => {
-                self.cx.reflection.channels[usize::from(channel)].mips = true;
+                self.cx.reflection.channel(channel).mips = true;
                 Some(self.value(lod))
             }
         };
         debug_assert_eq!(self.cx.hir.types.scalar(ty), Some(Scalar::Int));
         let size = match self.kind(channel) {
-            ChannelKind::Sampler2D | ChannelKind::SamplerCube => 2,
-            ChannelKind::Sampler3D => 3,
+            SamplerDim::D2 | SamplerDim::Cube => 2,
+            SamplerDim::D3 | SamplerDim::D2Array => 3,
         };
         self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, size))
     }
@@ -85,10 +85,14 @@ impl Builder<'_, '_> {
         let mut coordinate = self.value(args[1]);
         let level = self.value(args[2]);
         if self.literal_bits(args[2]) != Some(0) {
-            self.cx.reflection.channels[usize::from(channel)].mips = true;
+            self.cx.reflection.channel(channel).mips = true;
         }
         if let Some(&offset) = args.get(3) {
-            let offset = self.value(offset);
+            let mut offset = self.value(offset);
+            if self.kind(channel) == SamplerDim::D2Array {
+                let layer = self.literal(Scalar::Int, 0);
+                offset = self.compose(TypeId::vector(Scalar::Int, 3), vec![offset, layer]);
+            }
             coordinate = self.op(Binary::Add, coordinate, offset);
         }
         self.add(Op::Fetch { channel, coordinate, level })
@@ -104,7 +108,7 @@ impl Builder<'_, '_> {
             LevelForm::Lod => {
                 let lod = next().expect("a level");
                 let is_base = self.literal_bits(lod).is_some_and(|bits| f32::from_bits(bits) == 0.0);
-                self.cx.reflection.channels[usize::from(channel)].mips |= !is_base;
+                self.cx.reflection.channel(channel).mips |= !is_base;
                 Level::Exact(self.value(lod))
             }
             LevelForm::Grad => {
@@ -116,13 +120,13 @@ impl Builder<'_, '_> {
         if let (LevelForm::Implicit, Some(bias)) = (form.level, next()) {
             level = Level::Bias(self.value(bias));
         }
-        if self.cx.source.kind == crate::PassKind::Vertex && matches!(level, Level::Auto | Level::Bias(_)) {
+        if self.cx.source.kind.is_vertex() && matches!(level, Level::Auto | Level::Bias(_)) {
             // Section 8.8: without derivatives it is the base level that is read.
             level = Level::Exact(self.float(0.0));
         }
         match level {
             Level::Auto | Level::Bias(_) | Level::Gradient { .. } => {
-                self.cx.reflection.channels[usize::from(channel)].mips = true;
+                self.cx.reflection.channel(channel).mips = true;
             }
             Level::Exact(_) => {}
         }

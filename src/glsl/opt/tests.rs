@@ -32,7 +32,10 @@ fn products_with_one_are_dropped() {
 
 #[test]
 fn the_page_shows_the_example() {
-    let page = include_str!("../../../docs/compiler.md");
+    // A package alone has no page.
+    let Ok(page) = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/compiler.md")) else {
+        return;
+    };
     let (_, rest) = page.split_once("   ```rust\n").expect("the page shows Rust");
     let (shown, _) = rest.split_once("   ```\n").expect("the block ends");
     let shown: Vec<&str> = shown.lines().map(|line| line.strip_prefix("   ").unwrap_or(line)).collect();

@@ -60,8 +60,8 @@ impl<'a> Case<'a> {
             Ok(compiled) => (format!("{:?}", compiled.module), compiled.diagnostics),
             Err(errors) => (String::new(), errors),
         };
-        let (module, diagnostics) = said(compile(None));
-        let (module_behind, diagnostics_behind) = said(compile(preamble.as_ref()));
+        let (module, diagnostics) = said(compile(None).map_err(Vec::from));
+        let (module_behind, diagnostics_behind) = said(compile(preamble.as_ref()).map_err(Vec::from));
         assert_eq!(diagnostics, diagnostics_behind);
         assert_eq!(dump(None), dump(preamble.as_ref()));
         assert_eq!(module, module_behind);

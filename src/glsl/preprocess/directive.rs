@@ -71,6 +71,8 @@ impl Preprocessor<'_, '_> {
                 }
             }
             "line" => self.line_directive(name, line),
+            "version" if self.is_plain => self.version(name, line),
+            "extension" if self.is_plain => self.extension(name, line),
             "version" => self.error(
                 name,
                 "`#version` must come first, and Shadertoy's header already has it",
@@ -87,6 +89,42 @@ impl Preprocessor<'_, '_> {
                 let other = other.to_owned();
                 self.unknown_directive(name, &other, line);
             }
+        }
+    }
+
+    /// Takes the version of a text that stands alone (section 3.3).
+    fn version(&mut self, name: &Token, line: &[Token]) {
+        let words: Vec<&str> = line.iter().map(|token| self.text(token.span)).collect();
+        let message = match words[..] {
+            ["300", "es"] if self.tokens.len() == self.earlier => return,
+            ["300", "es"] => "`#version` must come before everything but comments".to_owned(),
+            ["100"] | [] => "this is GLSL ES 1.00; only GLSL ES 3.00 is supported".to_owned(),
+            _ => format!("`#version {}` is not supported", words.join(" ")),
+        };
+        let mend = match words[..] {
+            ["300", "es"] => "move it to the first line",
+            ["100"] | [] => {
+                "write `#version 300 es`, `in` for attribute, `in` or `out` for varying, `texture` for texture2D, and \
+                 `out vec4 color;` at file scope for gl_FragColor"
+            }
+            _ => "write `#version 300 es`, or delete the line: the language is always GLSL ES 3.00",
+        };
+        self.error(name, message, Some(mend.into()));
+    }
+
+    /// Takes an extension, of which there is none: what only wants to have one goes on without (section 3.4).
+    fn extension(&mut self, name: &Token, line: &[Token]) {
+        let words: Vec<&str> = line.iter().map(|token| self.text(token.span)).collect();
+        let (extension, behaviour) = match words[..] {
+            [extension, ":", behaviour] => (extension.to_owned(), behaviour),
+            _ => return self.error(name, "write `#extension NAME : enable`", None),
+        };
+        let message = format!("there is no extension `{extension}`");
+        let hint = "delete the line: the feature is part of GLSL ES 3.00 or not available";
+        if behaviour == "require" {
+            self.error(name, message, Some(hint.into()));
+        } else {
+            self.report.add(Diagnostic::warning(name.span, message).hint(hint));
         }
     }
 

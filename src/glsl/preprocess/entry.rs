@@ -37,7 +37,7 @@ fn wrapper(kind: PassKind) -> Option<Wrapper> {
             body: "return mainSound(entry_sample, entry_time); }",
         },
         // A stage is a whole program: nothing calls its `main`.
-        PassKind::Vertex | PassKind::Fragment => return None,
+        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => return None,
     })
 }
 

@@ -68,6 +68,8 @@ pub(super) struct Preprocessor<'a, 'r> {
     /// The diagnostic that tells of a Markdown fence.
     pub fence: Option<usize>,
     pub line: LineCount,
+    /// Nothing stands in front of the text, so that it may begin with its version and extensions.
+    pub is_plain: bool,
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
@@ -108,6 +110,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             foreign: Vec::new(),
             fence: None,
             line: LineCount::new(unit),
+            is_plain: matches!(unit, Unit::Pass(kind) if kind.is_plain()),
         };
         // A token for four bytes is what shaders have, comments included.
         new.tokens.reserve(bytes / 4 + 16);

@@ -2,9 +2,9 @@
 //! caret, which colour a word deserves.
 //!
 //! Owns [`Analysis`], made of a pass by the compiler's own preprocessor, parser and checker, and the documentation of
-//! what the language and the site give ([`docs`]). Nothing here needs a text that compiles: what the checker understood
-//! answers first, and for the statement that it did not, the words as written ([`text`]) with the scopes around them
-//! ([`scope`]) and the types that can be told from them ([`infer`]). Positions are bytes of a text, as in
+//! what the language and the site give (`docs`). Nothing here needs a text that compiles: what the checker understood
+//! answers first, and for the statement that it did not, the words as written (`text`) with the scopes around them
+//! (`scope`) and the types that can be told from them (`infer`). Positions are bytes of a text, as in
 //! [`eddy_diag::Span`].
 
 mod analysis;

@@ -131,7 +131,7 @@ impl<'a, R: Real> Machine<'a, R> {
                 layout::constant(self.state.module, global.ty, &mut words, &mut self.initial);
             };
             match global.kind {
-                GlobalKind::Private(None) => fill(&mut std::iter::repeat(0)),
+                GlobalKind::Private(None) | GlobalKind::Member { .. } => fill(&mut std::iter::repeat(0)),
                 GlobalKind::Private(Some(id)) | GlobalKind::Table(id) => {
                     fill(&mut self.state.module[id].words.iter().copied());
                 }

@@ -25,7 +25,7 @@ struct ByHand([bool; 4]);
 impl Rule for ByHand {
     fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {
         let Op::Sample { channel, coordinate, level, offset } = *op else { return None };
-        if !self.0[usize::from(channel)] || r.f.ty(coordinate) != TypeId::VEC2 {
+        if !self.0.get(usize::from(channel)).is_some_and(|by_hand| *by_hand) || r.f.ty(coordinate) != TypeId::VEC2 {
             return None;
         }
         Some(Reads { r, channel, coordinate, offset }.filtered(level))

@@ -11,7 +11,7 @@ use crate::{
         GlobalId, GlobalKind, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
     },
-    types::{Type, TypeId},
+    types::{Scalar, Type, TypeId},
 };
 
 pub(super) fn run(program: &mut Module) {
@@ -27,7 +27,10 @@ impl Rule for Uniforms {
         let Op::Load { place } = *op else { return None };
         let root = r.f.root(place);
         let Op::Global(global) = r.f[root] else { return None };
-        if !matches!(r.module[global].kind, GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_)) {
+        if !matches!(
+            r.module[global].kind,
+            GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::Member { .. }
+        ) {
             return None;
         }
         let ty = r.f.ty(value);
@@ -64,9 +67,10 @@ fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
 
 /// Loads the contents of a place, in a way that the driver does not see through.
 fn load(r: &mut Rewriter<'_>, place: Value, ty: TypeId) -> Value {
-    if !matches!(r.module.types.get(ty), Type::Array { .. } | Type::Matrix { .. }) {
+    if !matches!(r.module.types.get(ty), Type::Array { .. } | Type::Matrix { .. } | Type::Struct(_)) {
         let value = r.add_typed(Op::Load { place }, ty);
-        return r.opaque(value);
+        // A bool is made of a number, which nothing knows of.
+        return if r.module.types.scalar(ty) == Some(Scalar::Bool) { value } else { r.opaque(value) };
     }
     let parts = (0..r.module.extent(ty)).map(|index| {
         let part = r.add(Op::Part { base: place, index });
