@@ -1,4 +1,4 @@
-//! What a program does for one pixel, and where it goes wrong.
+//! Debugging of one pixel: the values that its program computes, and the place where it goes wrong.
 //!
 //! Owns the fragment that is walked on the processor ([`fragment`]), its trace and history ([`trace`]), the first
 //! difference from the device ([`divergence`]), the audit of precision and undefined values ([`audit`]), and the search

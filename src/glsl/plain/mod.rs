@@ -76,7 +76,7 @@ pub struct ShaderInterface {
     pub textures: Vec<TextureBinding>,
     /// The attributes of a vertex, or what a fragment gets from the vertex stage, by their locations.
     pub inputs: Vec<ShaderVariable>,
-    /// What a vertex hands on, or the targets that a fragment writes, by their locations.
+    /// The values that a vertex hands on, or the targets that a fragment writes, by their locations.
     pub outputs: Vec<ShaderVariable>,
 }
 

@@ -80,7 +80,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "background"]),
+    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
     (&["env"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
     (&["fs", "File", "OpenOptions"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger"]),
 ];
