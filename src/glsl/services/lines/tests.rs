@@ -116,7 +116,8 @@ fn every_word_of_the_language_has_a_class() {
     for builtin in crate::hir::Builtin::ALL {
         assert_eq!(kind_of(builtin.name(), builtin.name()), Class::Builtin, "{}", builtin.name());
     }
-    for uniform in crate::hir::Uniform::ALL {
+    // One of them is a member of a struct.
+    for uniform in crate::hir::Uniform::ALL.iter().filter(|u| !u.name().contains('.')) {
         assert_eq!(kind_of(uniform.name(), uniform.name()), Class::Uniform, "{}", uniform.name());
     }
     for word in ["iModel", "iProjection", "iNormalMatrix", "iSampleOffset", "gl_FragDepth", "mainSound"] {
