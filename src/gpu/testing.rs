@@ -1,11 +1,16 @@
-//! The device that unit tests draw on. Integration tests have the same in `tests/it/support`.
+//! The device that tests draw on, and how they say that there is none.
 
 use crate::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
 /// Returns a device, or `None` after saying so. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
 pub fn gpu() -> Option<Gpu> {
-    let error = match Gpu::new(&GpuOptions::default()) {
+    gpu_with(&GpuOptions::default())
+}
+
+/// As [`gpu`], with other options.
+pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
+    let error = match Gpu::new(options) {
         Ok(gpu) => return Some(gpu),
         Err(error) => error,
     };

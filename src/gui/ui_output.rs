@@ -1,4 +1,4 @@
-//! An outbox gathers what the panels of one frame want: commands for the session, actions for the shell, and where
+//! Collects what the panels of one frame ask for: commands for the session, actions for the shell, and where
 //! things are.
 
 use super::{

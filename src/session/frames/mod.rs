@@ -21,8 +21,8 @@ const BRIEF: Duration = Duration::from_millis(100);
 
 impl Session {
     /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one a
-    /// call, while paused only when something the picture depends on has changed. Where the session draws apart it does
-    /// not wait for the frame, which a later tick takes. Call it once for each frame shown.
+    /// call, while paused only when something the picture depends on has changed. Where a thread draws, it does not wait
+    /// for the frame, which a later tick takes. Call it once for each frame shown.
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.take_found_work();

@@ -89,7 +89,7 @@ fn what_the_graphics_layer_refuses_is_told_of_once() {
     assert_eq!(session.notices().iter().filter(|n| n.text.contains("planted")).count(), 1);
 }
 
-/// A session that draws apart, and its picture is there.
+/// A session whose frames are drawn on a thread, and its picture is there.
 fn open_apart(gpu: Gpu) -> Session {
     let options = SessionOptions {
         edit_debounce: Duration::ZERO,

@@ -307,6 +307,37 @@ fn every_file_keeps_to_its_layer() {
     assert!(found.is_empty(), "{} violations:\n{}", found.len(), found.join("\n"));
 }
 
+/// Dependencies of a manifest that no source of its package names.
+fn unused(manifest: &str, sources: &[String]) -> Vec<String> {
+    let manifest: toml::Table = manifest.parse().unwrap();
+    let named = |name: &str| {
+        let name = name.replace('-', "_");
+        let stands = |text: &String| text.split(|c: char| c != '_' && !c.is_alphanumeric()).any(|word| word == name);
+        sources.iter().any(stands)
+    };
+    let listed = manifest.get("dependencies").and_then(|listed| listed.as_table());
+    listed.into_iter().flatten().map(|(name, _)| name.clone()).filter(|name| !named(name)).collect()
+}
+
+/// Cargo refuses circles of packages, not arrows that nobody needs.
+#[test]
+fn every_dependency_of_a_package_is_used() {
+    let root = sources_of_eddy();
+    let texts = source_texts(&root);
+    let mut packages = 0;
+    for layer in LAYERS {
+        let Ok(manifest) = fs::read_to_string(root.join(layer).join("Cargo.toml")) else { continue };
+        let is_product = |path: &str| !path.contains("tests") && !path.contains("/examples/");
+        let own = texts.iter().filter(|(path, _)| path.starts_with(&format!("{layer}/")) && is_product(path));
+        let own: Vec<String> = own.map(|(_, text)| text.clone()).collect();
+        assert_eq!(unused(&manifest, &own), [""; 0], "{layer}");
+        packages += 1;
+    }
+    assert!(packages > 8, "only {packages} manifests were read");
+    let planted = "[dependencies]\neddy-gpu.workspace = true\nlog.workspace = true\n";
+    assert_eq!(unused(planted, &["use log::warn; struct my_eddy_gpu;".into()]), ["eddy-gpu"]);
+}
+
 /// Files of a folder of tests that its `main.rs` does not declare, so that nothing runs them.
 fn undeclared(main: &str, files: &[String]) -> Vec<String> {
     let is_declared = |name: &str| main.lines().any(|line| line.trim() == format!("mod {name};"));

@@ -20,41 +20,13 @@ pub mod stage;
 pub mod walked;
 pub mod window;
 
+pub use eddy::gpu::testing::{gpu, gpu_with, skipped};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
-    gpu::{Gpu, GpuOptions},
+    gpu::Gpu,
     media::MediaSet,
     project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap},
 };
-use std::{fs::OpenOptions, io::Write};
-
-/// A device, or `None` after saying so: a machine without one skips the test visibly, and `EDDY_REQUIRE_GPU=1`, which
-/// `.ci/run` sets, turns the skip into a failure.
-pub fn gpu() -> Option<Gpu> {
-    gpu_with(&GpuOptions::default())
-}
-
-pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
-    match Gpu::new(options) {
-        Ok(gpu) => Some(gpu),
-        Err(error) if std::env::var_os("EDDY_REQUIRE_GPU").is_some() => panic!("a device is required here: {error}"),
-        Err(error) => {
-            skipped(&error.to_string());
-            None
-        }
-    }
-}
-
-/// Says so on standard error, past the harness, which keeps a passing test's words to itself; and in the file that
-/// `EDDY_SKIPS` names, whose lines `scripts/test` counts.
-pub fn skipped(why: &str) {
-    let line = format!("{}: {why}\n", std::thread::current().name().unwrap_or("a test"));
-    let _ = write!(std::io::stderr(), "SKIPPED {line}");
-    if let Some(path) = std::env::var_os("EDDY_SKIPS") {
-        let mut file = OpenOptions::new().append(true).create(true).open(path).unwrap();
-        file.write_all(line.as_bytes()).unwrap();
-    }
-}
 
 pub fn buffer(name: &str) -> PassId {
     PassId::Buffer(name.into())
