@@ -54,12 +54,6 @@ impl<'p> Sources<'p> {
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 
-    /// Returns what the author wrote at a place.
-    pub fn written(&self, span: Span) -> &str {
-        let text = self.texts.get(span.source.0 as usize);
-        text.and_then(|text| text.get(span.range())).unwrap_or_default()
-    }
-
     pub fn custom_uniforms(&self) -> &CustomUniforms {
         &self.custom_uniforms
     }

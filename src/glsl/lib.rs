@@ -131,6 +131,8 @@ pub mod statements;
 #[doc(hidden)]
 pub mod types;
 #[doc(hidden)]
+pub mod undefined;
+#[doc(hidden)]
 pub mod walk;
 #[doc(hidden)]
 pub mod walkable;

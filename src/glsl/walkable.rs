@@ -1,6 +1,8 @@
 //! A pass as the walker takes it: lowered, with no pass of the optimiser and no work-around, and with the names and
 //! places of the author's text.
 
+pub use super::lower::Precondition;
+
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
@@ -167,6 +169,11 @@ impl Walkable {
     /// The values of a function that stand for what GLSL leaves undefined.
     pub fn undefined(&self, function: ir::FuncId) -> &[ir::Value] {
         &self.names.functions[function.index()].undefined
+    }
+
+    /// Returns what lowering keeps a device from at an operation, or what the result of a call depends on.
+    pub fn precondition(&self, function: ir::FuncId, value: ir::Value) -> Option<&Precondition> {
+        self.names.preconditions.get(&(function, value))
     }
 
     /// The name of a member of a structure.

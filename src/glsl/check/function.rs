@@ -4,7 +4,6 @@ use super::{
     checker::Checker,
     env::{self, Env},
     facts::FuncFacts,
-    overloads,
     qualifiers::Place,
     scope::{self, Binding},
     types::Size,
@@ -102,8 +101,8 @@ impl Checker<'_> {
         let name = decl.name;
         let text = self.name(name.symbol);
         let sign = FunctionSign { symbol: name.symbol, token: name.token, result, params: &params };
-        let builtin = Builtin::from_symbol(name.symbol).filter(|&b| b != Builtin::StAssert);
-        let func = if builtin.is_some_and(|b| !overloads::may_be_overloaded(b)) {
+        let builtin = Builtin::from_symbol(name.symbol).filter(|builtin| !builtin.is_of_image);
+        let func = if builtin.is_some_and(|builtin| !builtin.may_be_overloaded) {
             self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
@@ -143,7 +142,7 @@ impl Checker<'_> {
                 }
             }
         };
-        if builtin.is_some_and(overloads::may_be_overloaded) && self.module[func].declared_at.is_empty() {
+        if builtin.is_some_and(|builtin| builtin.may_be_overloaded) && self.module[func].declared_at.is_empty() {
             self.warning(
                 name,
                 format!("`{text}` is a built-in function; only Shadertoy's compiler allows overloading it"),

@@ -44,6 +44,7 @@ mod writes;
 
 use rustc_hash::FxHashMap;
 
+pub use self::names::Precondition;
 pub(crate) use self::{
     constant_arrays::arrays_to_constants,
     names::{FunctionNames, Mark, Marks, Names},

@@ -1,7 +1,10 @@
 //! Names of the author's, for who shows a program while it runs.
 
+use rustc_hash::FxHashMap;
+
 use crate::{
     ast::Symbol,
+    builtins::Builtin,
     hir::{LocalId, StmtId},
     ir,
 };
@@ -12,6 +15,8 @@ pub(crate) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
     pub globals: Vec<(Symbol, ir::GlobalId)>,
+    /// By function and value: only where they are asked for.
+    pub preconditions: FxHashMap<(ir::FuncId, ir::Value), Precondition>,
     /// The members of each structure, by [`StructId::index`](crate::types::StructId::index).
     pub members: Vec<Vec<Symbol>>,
 }
@@ -31,6 +36,20 @@ pub(crate) struct FunctionNames {
     pub marks: Vec<(ir::Value, Mark)>,
 }
 
+/// Operands that GLSL leaves a result undefined for. It is noted of the operation that lowering keeps the device from
+/// them by, or of the result.
+#[derive(Clone, Debug)]
+pub enum Precondition {
+    /// Arguments of a built-in function are in none of its gaps.
+    Call(Builtin, Vec<ir::Value>),
+    /// The divisor of integers is not zero.
+    Divisor(ir::Value),
+    /// The bits that a shift goes by are fewer than there are.
+    Distance(ir::Value),
+    /// An index is below a length.
+    Index(ir::Value, u32),
+}
+
 /// A part of the text that control comes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mark {
@@ -47,7 +66,8 @@ pub(crate) enum Mark {
 /// Marks in a program for who walks through it; a device needs none.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Marks {
-    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]).
+    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]), and
+    /// preconditions are noted ([`Names::preconditions`]).
     pub undefined: bool,
     /// The beginning of each statement is marked ([`FunctionNames::marks`]).
     pub statements: bool,

@@ -1,6 +1,6 @@
 //! Places that expressions write.
 
-use crate::hir::{Builtin, ExprId, ExprKind, Module};
+use crate::hir::{ExprId, ExprKind, Module};
 
 /// Calls `visit` for each place that an expression writes by itself: what it consists of and what it calls left out.
 pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId)) {
@@ -8,7 +8,7 @@ pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId
         ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {
             visit(place)
         }
-        ExprKind::Builtin { builtin: Builtin::Modf, args } => visit(module[args][1]),
+        ExprKind::Builtin { builtin, args } => builtin.writes.iter().for_each(|&at| visit(module[args][at])),
         ExprKind::Call { func, args } => {
             for (param, &arg) in module.params(func).iter().zip(&module[args]) {
                 if param.kind.copies_out() {

@@ -222,7 +222,7 @@ impl Unroller<'_> {
                 }
                 let mut op = self.f[value].clone();
                 op.operands_mut(|operand| *operand = copy.value(*operand));
-                let new = self.f.append(op, self.f.ty(value), self.f.loc(value));
+                let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
                 if self.elements.binary_search(&value).is_ok() {
                     self.elements.push(new);
                 }

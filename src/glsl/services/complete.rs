@@ -14,6 +14,7 @@ use crate::{
     hir::{Builtin, DeclRef, FuncId, GlobalId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId, Uniform},
     lex::{Kind as Token, words},
     near,
+    source::PassKind,
 };
 use eddy_diag::SourceId;
 use std::{collections::HashSet, ops::Range};
@@ -234,14 +235,11 @@ impl Analysis {
             let doc = docs::variable(name).unwrap_or_default();
             add(name, CompletionKind::Uniform, line(DeclRef::Channel(i as u8)), doc, 1_499);
         }
-        for &builtin in Builtin::ALL {
-            if builtin == Builtin::StAssert && self.kind != crate::PassKind::Image {
-                continue;
-            }
+        for builtin in Builtin::all().filter(|builtin| !builtin.is_of_image || self.kind == PassKind::Image) {
             let texts = show::builtin_texts(builtin);
             let mut detail = texts.first().cloned().unwrap_or_default();
             more_overloads(&mut detail, texts.len().saturating_sub(1));
-            add(builtin.name(), CompletionKind::Builtin, detail, docs::function(builtin).text, 2_000);
+            add(builtin.name, CompletionKind::Builtin, detail, builtin.text, 2_000);
         }
         for &ty in BasicType::ALL {
             let is_plain =

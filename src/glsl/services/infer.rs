@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     ast::{BasicType, MacroId},
-    check::overloads::{self, Pattern},
+    builtins::Pattern,
     hir::{Builtin, DeclRef, FuncId, Scalar, StructId, Type, TypeId},
     lex::{Kind, words},
 };
@@ -223,7 +223,7 @@ impl<'a> Infer<'a> {
 
     fn builtin(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
         let types = &self.a.module.types;
-        let all = overloads::of(builtin);
+        let all = builtin.overloads;
         if let Some(ty) = all.iter().find_map(|o| o.result_for(args, types)) {
             return Some(ty);
         }

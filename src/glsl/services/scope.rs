@@ -121,7 +121,7 @@ impl Analysis {
     /// Returns what the language or the site declares under a name.
     fn predeclared(&self, symbol: Symbol) -> Option<DeclRef> {
         if let Some(builtin) = Builtin::from_symbol(symbol) {
-            return (builtin != Builtin::StAssert || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
+            return (!builtin.is_of_image || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
         }
         if let Some(uniform) = Uniform::from_symbol(symbol) {
             return Env::Pass(self.kind).has(uniform).then_some(DeclRef::Uniform(uniform));

@@ -2,14 +2,13 @@
 
 use super::{
     analysis::{Analysis, Place},
-    docs,
     infer::Infer,
     show,
     symbols::Target,
     text::Source,
 };
 use crate::{
-    check::overloads,
+    builtins::Overload,
     hir::{DeclRef, FuncId, StructId, Type, TypeId},
     lex::{Kind, words},
 };
@@ -114,16 +113,16 @@ impl Analysis {
                     help(signatures.map(|(label, params)| Signature { label, params }).collect(), active, doc)
                 }
                 Target::Decl(DeclRef::Builtin(builtin)) => {
-                    let all = overloads::of(builtin);
+                    let all = builtin.overloads;
                     let types = &self.module.types;
                     // The arguments before the caret's own are whole.
                     let whole = &args[..args.len().min(parameter)];
-                    let takes = |o: &&overloads::Overload| o.params.len() > parameter && o.begins_with(whole, types);
+                    let takes = |o: &&Overload| o.params.len() > parameter && o.begins_with(whole, types);
                     let best = all.iter().position(|o| takes(&o));
                     let active = best.or_else(|| all.iter().position(|o| o.params.len() > parameter)).unwrap_or(0);
                     let signatures = all.iter().map(|o| show::overload_text(builtin, o));
                     let signatures = signatures.map(|(label, params)| Signature { label, params }).collect();
-                    help(signatures, active, docs::function(builtin).text.to_owned())
+                    help(signatures, active, builtin.text.to_owned())
                 }
                 _ => None,
             },

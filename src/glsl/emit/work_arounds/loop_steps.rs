@@ -74,7 +74,7 @@ fn copy(f: &mut Function, step: &Block, out: &mut Block) {
         if let Stmt::Let(value) = &mut stmt {
             let mut op = f[*value].clone();
             op.operands_mut(|operand| *operand = new.get(operand).copied().unwrap_or(*operand));
-            let made = f.append(op, f.ty(*value), f.loc(*value));
+            let made = f.append(op, f.ty(*value), f.origin(*value));
             new.insert(*value, made);
             *value = made;
         }

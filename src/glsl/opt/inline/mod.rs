@@ -198,7 +198,7 @@ impl Inliner<'_> {
                     op
                 }
             };
-            self.f.append(op, site.callee.ty(value), site.callee.loc(value));
+            self.f.append(op, site.callee.ty(value), site.callee.origin(value));
         }
     }
 
