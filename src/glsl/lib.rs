@@ -92,13 +92,13 @@ mod compiled;
 mod diagnostics;
 mod dialects;
 mod driver;
+mod front_end;
 mod lex;
 mod near;
 mod pieces;
 mod preamble;
 mod preprocess;
 mod probe;
-mod probed;
 mod report;
 mod source;
 mod stack;
@@ -153,8 +153,7 @@ pub use plain::{
     ClipSpace, PlainOptions, ShaderInterface, ShaderVariable, TextureBinding, UniformBuffer, UniformMember,
 };
 pub use preamble::Preamble;
-pub use probe::Probe;
-pub use probed::{ProbedExpression, probe_places, probed};
+pub use probe::{Probe, ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
     ChannelKind, CustomUniform, CustomUniformKind, Include, PassKind, PassSource, Text, UniformValue, UntypedValue,

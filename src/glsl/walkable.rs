@@ -6,11 +6,13 @@ pub use super::lower::Precondition;
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
-    check, emit, ir,
+    check, emit,
+    front_end::FrontEnd,
+    ir,
     lower::{self, Mark},
-    parse, report,
+    preamble::Preamble,
     stack::on_deep_stack,
-    stages::{self, Link, Varying},
+    stages::{Link, Varying},
     statements::Statements,
     types::{StructId, TypeId},
     unsequenced,
@@ -57,23 +59,23 @@ pub enum Coming {
 }
 
 impl Walkable {
-    /// Lowers a pass, or a stage of a program that draws meshes. On failure the list holds at least one error.
-    pub fn new(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
-        on_deep_stack(|| Self::lowered(source, link, detail))
+    /// Lowers a pass, or a stage of a program that draws meshes. The `preamble` is as [`super::compile_linked`] has it. On
+    /// failure the list holds at least one error.
+    pub fn new(
+        source: &PassSource<'_>,
+        link: &Link<'_>,
+        preamble: Option<&Preamble>,
+        detail: Detail,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        on_deep_stack(|| Self::lowered(source, FrontEnd::run(source, link, preamble), detail))
     }
 
-    fn lowered(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
-        let is_marked = detail == Detail::Statements;
-        let parsed = parse::parse(source, None);
-        let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
-        let interface =
-            stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
-        let mut all = report::Report::default();
-        parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
-        if all.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(all.diagnostics);
+    fn lowered(source: &PassSource<'_>, pass: FrontEnd, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
+        if pass.has_errors() {
+            return Err(pass.diagnostics);
         }
-        let (module, faults, origins, interner) = (checked.module, checked.faults, parsed.origins, parsed.names);
+        let is_marked = detail == Detail::Statements;
+        let FrontEnd { module, interface, faults, origins, names: interner, .. } = pass;
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };

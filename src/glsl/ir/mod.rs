@@ -20,6 +20,7 @@
 //! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step
 //! by step on the processor.
 
+pub mod analysis;
 mod compact;
 mod ids;
 pub mod infer;

@@ -4,7 +4,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::ir::{Block, Function, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, Module, Op, Stmt, Value, analysis::leaves};
 
 /// Statements of a step that is repeated.
 const LONGEST: usize = 16;
@@ -26,7 +26,7 @@ fn block(f: &mut Function, stmts: &mut Block) {
         {
             let step = std::mem::take(continuing);
             before_continues(f, body, &step);
-            if !matches!(body.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard)) {
+            if !leaves(body) {
                 body.extend(step);
             }
         }

@@ -13,8 +13,6 @@
 //! that differ, lowering leaves `smoothstep` to the driver.
 
 mod constants;
-mod exposed;
-mod known;
 mod same;
 mod state;
 
