@@ -28,8 +28,8 @@ impl FrontEnd {
     pub fn run(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Self {
         let preamble = preamble.filter(|_| source.common.is_some());
         let parsed = parse::parse(source, preamble.map(Preamble::parsed));
-        let begun = preamble.and_then(|preamble| preamble.checked(source));
-        let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
+        let checkpoint = preamble.and_then(|preamble| preamble.checked(source));
+        let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, checkpoint);
         let interface =
             stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
         let mut all = Report::default();

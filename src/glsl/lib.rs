@@ -88,7 +88,6 @@
 #![allow(clippy::len_without_is_empty)]
 
 mod compile;
-mod compiled;
 mod diagnostics;
 mod dialects;
 mod driver;
@@ -143,10 +142,10 @@ pub use eddy_diag::{
 pub use naga;
 
 pub use check::taken;
+pub use compile::Compiled;
 #[doc(hidden)]
 pub use compile::dump_ir;
 pub use compile::{bulk, check_common, compile, compile_linked, diagnose};
-pub use compiled::Compiled;
 pub use diagnostics::Diagnostics;
 pub use driver::Driver;
 pub use plain::{

@@ -1,15 +1,14 @@
 //! A pass as the walker takes it: lowered, with no pass of the optimiser and no work-around, and with the names and
 //! places of the author's text.
 
-pub use super::lower::Precondition;
+pub use super::lower::{Precondition, StatementEvent};
 
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
     check, emit,
     front_end::FrontEnd,
-    ir,
-    lower::{self, Mark},
+    ir, lower,
     preamble::Preamble,
     stack::on_deep_stack,
     stages::{Link, Varying},
@@ -43,19 +42,6 @@ pub enum Detail {
     Values,
     /// Somebody steps through it, statement by statement.
     Statements,
-}
-
-/// Control comes to a part of a statement, which [`Statements`] tells of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coming {
-    /// It begins.
-    Begin(u32),
-    /// A loop begins a turn: with its test, if that stands before its body.
-    Turn(u32),
-    /// A loop comes to the test behind its body.
-    Test(u32),
-    /// A loop comes to what it does between two turns.
-    Step(u32),
 }
 
 impl Walkable {
@@ -109,16 +95,8 @@ impl Walkable {
     }
 
     /// The values of a function that say where control comes to.
-    pub fn marks(&self, function: ir::FuncId) -> impl Iterator<Item = (ir::Value, Coming)> {
-        self.names.functions[function.index()].marks.iter().map(|&(value, mark)| {
-            let coming = match mark {
-                Mark::Statement(stmt) => Coming::Begin(stmt.index() as u32),
-                Mark::Turn(stmt) => Coming::Turn(stmt.index() as u32),
-                Mark::Test(stmt) => Coming::Test(stmt.index() as u32),
-                Mark::Step(stmt) => Coming::Step(stmt.index() as u32),
-            };
-            (value, coming)
-        })
+    pub fn marks(&self, function: ir::FuncId) -> &[(ir::Value, StatementEvent)] {
+        &self.names.functions[function.index()].marks
     }
 
     /// The author's variables of a function: each by its place in [`Statements::locals`], with the value or place that

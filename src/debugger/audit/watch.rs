@@ -204,7 +204,7 @@ impl Observer<Shadowed> for Watch<'_> {
         self.calls.pop();
     }
 
-    fn parted(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+    fn diverged(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let what = match *view.op(value) {
             Op::Sample { channel, .. } if !self.inputs.is_of_levels(channel) => return,
             Op::Sample { .. } => {

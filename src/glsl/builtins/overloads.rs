@@ -44,7 +44,7 @@ pub(super) mod patterns {
     pub const MAT: Pattern = Pattern::Matrix;
     pub const SQUARE: Pattern = Pattern::Square;
     pub const TRANSPOSED: Pattern = Pattern::Transposed;
-    pub const TEXEL: Pattern = Pattern::Texel;
+    pub const G4: Pattern = Pattern::Texel;
     pub const F: Pattern = Pattern::Gen(Scalar::Float);
     pub const I: Pattern = Pattern::Gen(Scalar::Int);
     pub const U: Pattern = Pattern::Gen(Scalar::Uint);

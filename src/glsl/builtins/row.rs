@@ -60,7 +60,7 @@ pub enum Operation {
     Not,
     /// A comparison of a float's magnitude with infinity, by their bits.
     Exponent(Binary),
-    /// Of one number or of two.
+    /// The arc tangent of one number or of two.
     Atan,
     Modulo,
     Modf,

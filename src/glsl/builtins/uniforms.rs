@@ -6,7 +6,7 @@ use crate::{
     types::{TypeId, TypeTable},
 };
 
-/// The site's uniforms, in the order of `interface::UniformBlock`. Which of them a pass may name is the checker's matter.
+/// One of them, in the order of `interface::UniformBlock`. Which of them a pass may name is the checker's matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Uniform {
@@ -36,26 +36,14 @@ pub enum Uniform {
 
 impl Uniform {
     /// All, in order of their symbols.
-    pub const ALL: &'static [Uniform] = &[
-        Uniform::Resolution,
-        Uniform::Time,
-        Uniform::Mouse,
-        Uniform::Date,
-        Uniform::TimeDelta,
-        Uniform::FrameRate,
-        Uniform::SampleRate,
-        Uniform::Frame,
-        Uniform::ChannelTime,
-        Uniform::ChannelResolution,
-        Uniform::TimeOffset,
-        Uniform::SampleOffset,
-        Uniform::Model,
-        Uniform::View,
-        Uniform::Projection,
-        Uniform::NormalMatrix,
-        Uniform::CameraPosition,
-        Uniform::ChannelLoaded,
-    ];
+    #[rustfmt::skip]
+    pub const ALL: &'static [Uniform] = {
+        use Uniform::*;
+        &[
+            Resolution, Time, Mouse, Date, TimeDelta, FrameRate, SampleRate, Frame, ChannelTime, ChannelResolution,
+            TimeOffset, SampleOffset, Model, View, Projection, NormalMatrix, CameraPosition, ChannelLoaded,
+        ]
+    };
 
     /// As GLSL spells it.
     pub fn name(self) -> &'static str {

@@ -4,7 +4,7 @@ use super::{
     checker::Checker,
     env::{self, Env},
     facts::FuncFacts,
-    qualifiers::Place,
+    qualifiers::DeclContext,
     scope::{self, Binding},
     types::Size,
 };
@@ -169,7 +169,7 @@ impl Checker<'_> {
     fn result_type(&mut self, decl: &ast::FunctionDecl) -> TypeId {
         let base = self.base_type(decl.result);
         let spec = self.ast[decl.result];
-        let quals = self.qualifiers(decl.qualifiers, Place::Result);
+        let quals = self.qualifiers(decl.qualifiers, DeclContext::Result);
         self.check_precision(&quals, base, spec.loc);
         let ty = self.complete_type(base, spec.dims, ast::List::EMPTY, "an array that is returned");
         if self.facts(ty).opaque {
@@ -193,7 +193,7 @@ impl Checker<'_> {
                 self.hint("define it before the function and use its name here");
             }
             let base = self.base_type(param.ty);
-            let quals = self.qualifiers(param.qualifiers, Place::Param);
+            let quals = self.qualifiers(param.qualifiers, DeclContext::Param);
             let mut ty = match self.sizes(spec.dims, param.dims) {
                 None => base,
                 Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),

@@ -2,12 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::{
-    ast::Symbol,
-    builtins::Builtin,
-    hir::{LocalId, StmtId},
-    ir,
-};
+use crate::{ast::Symbol, builtins::Builtin, hir::LocalId, ir};
 
 /// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
 #[derive(Debug, Default)]
@@ -33,7 +28,7 @@ pub(crate) struct FunctionNames {
     /// The variables of `locals`, in the same order.
     pub ids: Vec<LocalId>,
     /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
-    pub marks: Vec<(ir::Value, Mark)>,
+    pub marks: Vec<(ir::Value, StatementEvent)>,
 }
 
 /// Operands that GLSL leaves a result undefined for. It is noted of the operation that lowering keeps the device from
@@ -50,17 +45,17 @@ pub enum Precondition {
     Index(ir::Value, u32),
 }
 
-/// A part of the text that control comes to.
+/// Control comes to a part of a statement, which [`Statements`](crate::statements::Statements) tells of by this number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mark {
-    /// A statement begins.
-    Statement(StmtId),
-    /// A loop begins a turn: with its test, if that stands before its body.
-    Turn(StmtId),
+pub enum StatementEvent {
+    /// It begins.
+    Begin(u32),
+    /// A loop begins an iteration: with its test, if that stands before its body.
+    Iteration(u32),
     /// A loop comes to the test behind its body.
-    Test(StmtId),
-    /// A loop comes to what it does between two turns.
-    Step(StmtId),
+    Test(u32),
+    /// A loop comes to what it does between two iterations.
+    Step(u32),
 }
 
 /// Marks in a program for who walks through it; a device needs none.

@@ -64,7 +64,7 @@ fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     }
 }
 
-/// Hyperbolic functions are left to the driver, which writes them out by vectors.
+/// Drivers write these out themselves (`spirv_to_nir` in Mesa), so they stay whole.
 fn is_hyperbolic(fun: Math) -> bool {
     use Math::*;
     matches!(fun, Sinh | Cosh | Tanh | Asinh | Acosh | Atanh)

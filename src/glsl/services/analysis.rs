@@ -13,7 +13,7 @@ use crate::{
 use eddy_diag::{SourceId, Span};
 
 /// A place in the texts of a pass: later texts come after earlier ones.
-pub(super) type Place = (usize, u32);
+pub(super) type Position = (usize, u32);
 
 /// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is
 /// neither has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.

@@ -1,7 +1,7 @@
 //! Says what a call that is being written takes, and which argument the caret is at.
 
 use super::{
-    analysis::{Analysis, Place},
+    analysis::{Analysis, Position},
     infer::Infer,
     show,
     symbols::Target,
@@ -70,7 +70,7 @@ impl Analysis {
         let text = &self.sources[source];
         let name = open.checked_sub(1)?;
         let word = text.tokens[name];
-        let at: Place = (source, word.start);
+        let at: Position = (source, word.start);
         // A header declares its parameters: what stands before the name is a type.
         let declares = name > 0
             && match text.kind(name - 1) {

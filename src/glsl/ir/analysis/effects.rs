@@ -1,4 +1,4 @@
-//! What statements write, and whether they go on.
+//! Effects of statements: the places that they write, and whether control goes on behind them.
 
 use crate::ir::{Block, Function, Op, Stmt, Value};
 

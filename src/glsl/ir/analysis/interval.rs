@@ -66,7 +66,7 @@ impl Interval {
         Interval { least, most, zero: self.zero }
     }
 
-    /// What is also in another interval that is not apart from it.
+    /// Returns the intersection with an interval that it meets.
     pub fn within(self, other: Interval) -> Interval {
         Interval { least: self.least.max(other.least), most: self.most.min(other.most), zero: self.zero && other.zero }
     }

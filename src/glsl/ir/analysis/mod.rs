@@ -1,4 +1,4 @@
-//! What is known of a program without running it, for passes and work-arounds.
+//! Facts about a program that hold without running it, for passes and work-arounds.
 //!
 //! Owns one domain of numbers ([`Interval`]), what statements write ([`stores`]), and the loops that count a variable
 //! ([`Counters`]). Which facts follow from them where, says who asks: `opt::ranges` may use a bound only where it holds on

@@ -10,12 +10,12 @@ pub(super) use constants::Part as PartOf;
 use super::{
     arguments::{Instance, Specialization},
     context::{Lowering, const_id},
-    names::{FunctionNames, Mark, Precondition},
+    names::{FunctionNames, Precondition, StatementEvent},
 };
 use crate::{
     ast::{List, Loc},
     builtins::Builtin,
-    hir::{FuncId, LocalId, LocalKind, TypeId},
+    hir::{FuncId, LocalId, LocalKind, StmtId, TypeId},
     ir::{self, Block, Op, Param, Stmt, Value},
 };
 use rustc_hash::FxHashMap;
@@ -62,7 +62,7 @@ pub(super) struct Builder<'m, 'a> {
     pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
     pub undefined: Vec<Value>,
-    pub(super) marks: Vec<(Value, Mark)>,
+    pub(super) marks: Vec<(Value, StatementEvent)>,
 }
 
 /// Lowers one copy of a user function.
@@ -181,10 +181,10 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Marks that control comes to a part of the text, where statements are marked.
-    pub fn mark(&mut self, mark: Mark) {
+    pub fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
-            self.marks.push((value, mark));
+            self.marks.push((value, event(stmt.index() as u32)));
         }
     }
 
