@@ -55,12 +55,6 @@ impl<'p> Sources<'p> {
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 
-    /// Returns what the author wrote at a place.
-    pub fn written(&self, span: Span) -> &str {
-        let text = self.texts.get(span.source.0 as usize);
-        text.and_then(|text| text.get(span.range())).unwrap_or_default()
-    }
-
     pub fn custom_uniforms(&self) -> &CustomUniforms {
         &self.custom_uniforms
     }
@@ -143,7 +137,9 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn walkable(&self, index: usize, detail: Detail) -> Result<Walkable, Vec<Diagnostic>> {
-        self.walked(index, (Stage::Own, self.own_kind(index)), |source| Walkable::new(source, &Link::default(), detail))
+        self.walked(index, (Stage::Own, self.own_kind(index)), |source| {
+            Walkable::new(source, &Link::default(), self.preamble(), detail)
+        })
     }
 
     /// Lowers the vertex stage of a draw of `project.passes[index]` for the walker.
@@ -151,7 +147,9 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass or stage.
     pub fn walkable_vertices(&self, index: usize, stage: Stage) -> Result<Walkable, Vec<Diagnostic>> {
-        self.walked(index, (stage, PassKind::Vertex), |source| Walkable::new(source, &Link::default(), Detail::Values))
+        self.walked(index, (stage, PassKind::Vertex), |source| {
+            Walkable::new(source, &Link::default(), self.preamble(), Detail::Values)
+        })
     }
 
     /// Lowers the fragment stage of a draw of `project.passes[index]`, to which a vertex stage hands these varyings.
@@ -166,7 +164,7 @@ impl<'p> Sources<'p> {
     ) -> Result<Walkable, Vec<Diagnostic>> {
         let targets = Some(self.pass(index).settings.formats().len());
         let link = Link { varyings: Some(varyings), targets };
-        self.walked(index, (stage, PassKind::Fragment), |source| Walkable::new(source, &link, detail))
+        self.walked(index, (stage, PassKind::Fragment), |source| Walkable::new(source, &link, self.preamble(), detail))
     }
 
     /// Lowers what stands in `project.passes[index]`, of one that draws meshes the fragment stage of a draw, and behind
@@ -189,7 +187,7 @@ impl<'p> Sources<'p> {
                 );
                 let code = Text { id: source.code.id, text: &text };
                 let source = PassSource { kind: PassKind::Cubemap, code, ..*source };
-                Walkable::new(&source, &Link::default(), Detail::Values)
+                Walkable::new(&source, &Link::default(), self.preamble(), Detail::Values)
             });
         };
         let vertices = self.walkable_vertices(index, draw.vertex)?;
@@ -201,7 +199,7 @@ impl<'p> Sources<'p> {
                 source.code.text
             );
             let code = Text { id: source.code.id, text: &text };
-            Walkable::new(&PassSource { code, ..*source }, &link, Detail::Values)
+            Walkable::new(&PassSource { code, ..*source }, &link, self.preamble(), Detail::Values)
         })
     }
 
@@ -213,8 +211,9 @@ impl<'p> Sources<'p> {
         let fill = self.pass(index).fill(FillKind::Boundary)?;
         let text = FillSource::new(&fill.value, self.fill_text(index, FillKind::Boundary)?);
         let value = text.value()?;
-        let lowered =
-            self.with_fill(text.code(), Some(value), |source| Walkable::new(source, &Link::default(), Detail::Values));
+        let lowered = self.with_fill(text.code(), Some(value), |source| {
+            Walkable::new(source, &Link::default(), self.preamble(), Detail::Values)
+        });
         Some(lowered.map_err(|said| text.told(said)))
     }
 
@@ -233,7 +232,7 @@ impl<'p> Sources<'p> {
     pub fn probed(&self, index: usize, probe: &Probe) -> Option<ProbedExpression> {
         let is_probed = self.pass(index).settings.meshes().is_none();
         let own = (Stage::Own, self.own_kind(index));
-        is_probed.then(|| self.walked(index, own, |source| glsl::probed(source, probe)))?
+        is_probed.then(|| self.walked(index, own, |source| glsl::probed(source, self.preamble(), probe)))?
     }
 
     /// Returns for each of these parts of the texts of `project.passes[index]` a byte at which a probe means the
@@ -245,7 +244,8 @@ impl<'p> Sources<'p> {
     pub fn probe_places(&self, index: usize, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
         match self.pass(index).settings.meshes() {
             Some(_) => vec![None; spans.len()],
-            None => self.walked(index, (Stage::Own, self.own_kind(index)), |s| glsl::probe_places(s, spans)),
+            None => self
+                .walked(index, (Stage::Own, self.own_kind(index)), |s| glsl::probe_places(s, self.preamble(), spans)),
         }
     }
 

@@ -39,7 +39,7 @@ pub(super) type Found = (Option<Arc<Compiled>>, Vec<Diagnostic>);
 
 /// Compiles a stage behind a Common that may be read already.
 pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Outcome {
-    Ok(glsl::compile_linked(source, link, preamble.filter(|_| source.common.is_some()))?)
+    Ok(glsl::compile_linked(source, link, preamble)?)
 }
 
 /// The result of compiling a stage. Spans name the texts that it was compiled with.

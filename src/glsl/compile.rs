@@ -1,15 +1,17 @@
-//! A pass from its texts to a module, through every room of the compiler.
+//! A pass from its texts to a module, through every room of the compiler, and what comes of it.
 
 use super::{
     check,
-    compiled::Compiled,
     diagnostics::Diagnostics,
-    dialects, emit, hir, ir, lower, opt, parse, pieces,
+    emit,
+    front_end::FrontEnd,
+    hir, ir, lower, opt, parse, pieces,
     preamble::Preamble,
-    probe, report,
+    probe,
+    reflection::Reflection,
     source::{CustomUniform, Include, PassSource, Text},
     stack::on_deep_stack,
-    stages::{self, Interface, Link},
+    stages::Link,
 };
 use eddy_diag::{Diagnostic, Span};
 
@@ -24,38 +26,20 @@ pub fn bulk(source: &PassSource<'_>) -> Option<Span> {
     check_pass(source, &Link::default(), None).0.bulk
 }
 
-fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> (Judged, Interface, Probed) {
-    let parsed = parse::parse(source, preamble.map(Preamble::parsed));
-    let begun = preamble.and_then(|preamble| preamble.checked(source));
-    let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
-    let interface =
-        stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
-    let probed = source.probe.map(|wanted| (probe::find(&checked.module, &parsed.origins, &wanted), wanted.visit));
-    let mut all = report::Report::default();
-    parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
-    // As the author reads the text.
-    all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
-    if all.has_errors()
-        && let Some(named) = dialects::name(source, &all.diagnostics)
-    {
-        all.diagnostics = vec![named];
-    }
-    if let Some((None, _)) = probed {
-        all.diagnostics.push(Diagnostic::error(None, "there is nothing to probe here: put the caret on an expression"));
-    }
-    let judged = Judged { module: checked.module, diagnostics: all.diagnostics, bulk: checked.bulk };
-    (judged, interface, probed.and_then(|(found, visit)| Some((found?.0, visit))))
-}
-
-/// A checked program, with everything that is wrong with it.
-struct Judged {
-    module: hir::Module,
-    diagnostics: Vec<Diagnostic>,
-    bulk: Option<Span>,
-}
-
 /// The expression that is probed, and the visit.
 type Probed = Option<(hir::ExprId, u32)>;
+
+/// Checks a pass, and finds what is probed in it.
+fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> (FrontEnd, Probed) {
+    let mut pass = FrontEnd::run(source, link, preamble);
+    let Some(wanted) = source.probe else { return (pass, None) };
+    let Some((expr, _)) = probe::find(&pass.module, &pass.origins, &wanted) else {
+        let nothing = "there is nothing to probe here: put the caret on an expression";
+        pass.diagnostics.push(Diagnostic::error(None, nothing));
+        return (pass, None);
+    };
+    (pass, Some((expr, wanted.visit)))
+}
 
 /// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
 pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Diagnostics> {
@@ -108,11 +92,11 @@ pub(super) fn compile_seen(
     preamble: Option<&Preamble>,
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let (judged, interface, probed) = check_pass(source, link, preamble);
-    let Judged { module: mut checked, diagnostics, .. } = judged;
-    if diagnostics.iter().any(Diagnostic::is_error) {
-        return Err(diagnostics);
+    let (pass, probed) = check_pass(source, link, preamble);
+    if pass.has_errors() {
+        return Err(pass.diagnostics);
     }
+    let FrontEnd { module: mut checked, interface, diagnostics, .. } = pass;
     lower::arrays_to_constants(&mut checked, emit::LEAST_STORAGE_TABLE);
     let options = lower::Options {
         by_reference: source.driver.array_loops.then_some(emit::LEAST_COPY),
@@ -172,4 +156,28 @@ pub fn check_common(
         return Vec::new();
     }
     check::check_common(&parsed.ast, &parsed.origins, &parsed.names, custom_uniforms)
+}
+
+/// A pass that compiled.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// Valid ([`Compiled::validate`]); one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader
+    /// but for [`super::PassKind::Vertex`].
+    pub module: naga::Module,
+    pub reflection: Reflection,
+    /// Says what the storage buffer at [`super::interface::TABLE_BINDING`] holds; empty: the module declares none.
+    pub tables: Vec<u8>,
+    /// Says what the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares
+    /// none.
+    pub uniform_tables: Vec<u8>,
+    /// Bytes that the module reads at [`super::interface::CUSTOM_UNIFORM_BINDING`]; 0: it declares nothing there.
+    pub custom_uniform_bytes: u64,
+    /// An array of at least so many scalars that has no initialiser is written before anything reads it, so that it
+    /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that
+    /// long.
+    pub initialized_arrays: Option<u32>,
+    /// Statements of the program with all calls written out, as drivers compile it.
+    pub inlined_size: u64,
+    /// Warnings and notes; never an error.
+    pub diagnostics: Vec<Diagnostic>,
 }

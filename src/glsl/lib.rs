@@ -88,17 +88,16 @@
 #![allow(clippy::len_without_is_empty)]
 
 mod compile;
-mod compiled;
 mod diagnostics;
 mod dialects;
 mod driver;
+mod front_end;
 mod lex;
 mod near;
 mod pieces;
 mod preamble;
 mod preprocess;
 mod probe;
-mod probed;
 mod report;
 mod source;
 mod stack;
@@ -131,6 +130,8 @@ pub mod statements;
 #[doc(hidden)]
 pub mod types;
 #[doc(hidden)]
+pub mod undefined;
+#[doc(hidden)]
 pub mod walk;
 #[doc(hidden)]
 pub mod walkable;
@@ -141,18 +142,17 @@ pub use eddy_diag::{
 pub use naga;
 
 pub use check::taken;
+pub use compile::Compiled;
 #[doc(hidden)]
 pub use compile::dump_ir;
 pub use compile::{bulk, check_common, compile, compile_linked, diagnose};
-pub use compiled::Compiled;
 pub use diagnostics::Diagnostics;
 pub use driver::Driver;
 pub use plain::{
     ClipSpace, PlainOptions, ShaderInterface, ShaderVariable, TextureBinding, UniformBuffer, UniformMember,
 };
 pub use preamble::Preamble;
-pub use probe::Probe;
-pub use probed::{ProbedExpression, probe_places, probed};
+pub use probe::{Probe, ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
     ChannelKind, CustomUniform, CustomUniformKind, Include, PassKind, PassSource, Text, UniformValue, UntypedValue,

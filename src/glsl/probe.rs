@@ -1,8 +1,13 @@
-//! Finds what a probe asks for: the expression at a place of the text.
+//! A probe: the expression at a place of the text, and the meaning of its picture.
 
 use super::{
     ast::Origins,
+    front_end::FrontEnd,
     hir::{ExprId, ExprKind, Module, StmtKind},
+    preamble::Preamble,
+    source::PassSource,
+    stages::Link,
+    types::{Scalar, Type},
 };
 use eddy_diag::{SourceId, Span};
 
@@ -17,6 +22,42 @@ pub struct Probe {
     pub visit: u32,
 }
 
+/// The expression that is probed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProbedExpression {
+    pub span: Span,
+    /// As GLSL writes it.
+    pub type_text: String,
+    /// Numbers of the value that are drawn, 1 to 4.
+    pub components: u8,
+    /// They are ints, uints or bools.
+    pub is_whole: bool,
+}
+
+/// Says what a probe means in a text without errors; `None` where there is no value.
+pub fn probed(source: &PassSource<'_>, preamble: Option<&Preamble>, probe: &Probe) -> Option<ProbedExpression> {
+    let pass = FrontEnd::run(source, &Link::default(), preamble);
+    let (expr, span) = find(&pass.module, &pass.origins, probe)?;
+    let (module, ty) = (&pass.module, pass.module[expr].ty);
+    if matches!(module.types.get(ty), Type::Void | Type::Error | Type::Sampler { .. }) {
+        return None;
+    }
+    let scalar = module.types.scalar(ty);
+    Some(ProbedExpression {
+        span,
+        type_text: module.type_text(&pass.names, ty),
+        components: module.types.components(ty).map_or(4, |count| count.min(4) as u8),
+        is_whole: scalar.is_some_and(|scalar| scalar != Scalar::Float),
+    })
+}
+
+/// Returns for each of these parts of the texts a byte at which a probe means the expression there, and how many numbers
+/// its value has; `None` where no probe can tell it from another.
+pub fn probe_places(source: &PassSource<'_>, preamble: Option<&Preamble>, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
+    let pass = FrontEnd::run(source, &Link::default(), preamble);
+    places(&pass.module, &pass.origins, spans)
+}
+
 /// The expression that a probe means, and its part of the text.
 pub(super) fn find(module: &Module, origins: &Origins, probe: &Probe) -> Option<(ExprId, Span)> {
     Places::new(module, origins).find(module, origins, probe)
@@ -25,7 +66,7 @@ pub(super) fn find(module: &Module, origins: &Origins, probe: &Probe) -> Option<
 /// A byte for each of these parts of the texts at which a probe means the one expression that stands there, and how many
 /// numbers its value has; `None` where there is no such expression or several, as in what a macro brings in. What `++`
 /// and `--` leave in a variable is not their value.
-pub(super) fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
+fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
     let places = Places::new(module, origins);
     let place = |span: &Span| {
         let mut there = places.exprs.iter().filter(|(_, other)| other == span);

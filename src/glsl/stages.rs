@@ -88,8 +88,8 @@ pub(crate) struct Interface {
     pub varyings: Vec<Varying>,
     /// Uniforms and samplers of a plain shader, else the channels.
     pub resources: Resources,
-    /// The inputs and outputs of a plain shader as they are told, in the order of `inputs` and `outputs`.
-    pub told: [Vec<ShaderVariable>; 2],
+    /// The inputs and outputs of a plain shader for its users, in the order of `inputs` and `outputs`.
+    pub variables: [Vec<ShaderVariable>; 2],
 }
 
 /// Sorts out the interface of a stage, and reports what is wrong with it. Passes that are no stages have none.
@@ -127,7 +127,7 @@ pub(crate) fn interface(
         made.resources = plain::resources(module, names, source.plain);
         let tell =
             |all: &[(GlobalId, u32)]| all.iter().map(|&(id, at)| plain::variable(module, names, id, at)).collect();
-        made.told = [tell(&made.inputs), tell(&made.outputs)];
+        made.variables = [tell(&made.inputs), tell(&made.outputs)];
     } else {
         made.resources.textures = channels(source);
     }

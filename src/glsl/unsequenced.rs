@@ -7,7 +7,6 @@
 
 use super::{
     ast::{List, Loc},
-    builtins::Builtin,
     hir::{ExprId, ExprKind, FuncId, LocalKind, Module},
 };
 use std::collections::BTreeSet;
@@ -137,7 +136,7 @@ impl Finder<'_> {
             ExprKind::Call { func, args } => self.call(expr.loc, func, args),
             ExprKind::Builtin { builtin, args } => {
                 let mut all = self.take_all(args);
-                if builtin == Builtin::Modf {
+                if builtin.writes.is_some() {
                     all.writes.extend(self.module[args].last().and_then(|&place| self.root(place)));
                 }
                 all

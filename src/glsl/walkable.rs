@@ -1,14 +1,17 @@
 //! A pass as the walker takes it: lowered, with no pass of the optimiser and no work-around, and with the names and
 //! places of the author's text.
 
+pub use super::lower::{Precondition, StatementEvent};
+
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
-    check, emit, ir,
-    lower::{self, Mark},
-    parse, report,
+    check, emit,
+    front_end::FrontEnd,
+    ir, lower,
+    preamble::Preamble,
     stack::on_deep_stack,
-    stages::{self, Link, Varying},
+    stages::{Link, Varying},
     statements::Statements,
     types::{StructId, TypeId},
     unsequenced,
@@ -41,37 +44,24 @@ pub enum Detail {
     Statements,
 }
 
-/// Control comes to a part of a statement, which [`Statements`] tells of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coming {
-    /// It begins.
-    Begin(u32),
-    /// A loop begins a turn: with its test, if that stands before its body.
-    Turn(u32),
-    /// A loop comes to the test behind its body.
-    Test(u32),
-    /// A loop comes to what it does between two turns.
-    Step(u32),
-}
-
 impl Walkable {
-    /// Lowers a pass, or a stage of a program that draws meshes. On failure the list holds at least one error.
-    pub fn new(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
-        on_deep_stack(|| Self::lowered(source, link, detail))
+    /// Lowers a pass, or a stage of a program that draws meshes. The `preamble` is as [`super::compile_linked`] has it. On
+    /// failure the list holds at least one error.
+    pub fn new(
+        source: &PassSource<'_>,
+        link: &Link<'_>,
+        preamble: Option<&Preamble>,
+        detail: Detail,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        on_deep_stack(|| Self::lowered(source, FrontEnd::run(source, link, preamble), detail))
     }
 
-    fn lowered(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
-        let is_marked = detail == Detail::Statements;
-        let parsed = parse::parse(source, None);
-        let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
-        let interface =
-            stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
-        let mut all = report::Report::default();
-        parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
-        if all.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(all.diagnostics);
+    fn lowered(source: &PassSource<'_>, pass: FrontEnd, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
+        if pass.has_errors() {
+            return Err(pass.diagnostics);
         }
-        let (module, faults, origins, interner) = (checked.module, checked.faults, parsed.origins, parsed.names);
+        let is_marked = detail == Detail::Statements;
+        let FrontEnd { module, interface, faults, origins, names: interner, .. } = pass;
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
@@ -105,16 +95,8 @@ impl Walkable {
     }
 
     /// The values of a function that say where control comes to.
-    pub fn marks(&self, function: ir::FuncId) -> impl Iterator<Item = (ir::Value, Coming)> {
-        self.names.functions[function.index()].marks.iter().map(|&(value, mark)| {
-            let coming = match mark {
-                Mark::Statement(stmt) => Coming::Begin(stmt.index() as u32),
-                Mark::Turn(stmt) => Coming::Turn(stmt.index() as u32),
-                Mark::Test(stmt) => Coming::Test(stmt.index() as u32),
-                Mark::Step(stmt) => Coming::Step(stmt.index() as u32),
-            };
-            (value, coming)
-        })
+    pub fn marks(&self, function: ir::FuncId) -> &[(ir::Value, StatementEvent)] {
+        &self.names.functions[function.index()].marks
     }
 
     /// The author's variables of a function: each by its place in [`Statements::locals`], with the value or place that
@@ -167,6 +149,11 @@ impl Walkable {
     /// The values of a function that stand for what GLSL leaves undefined.
     pub fn undefined(&self, function: ir::FuncId) -> &[ir::Value] {
         &self.names.functions[function.index()].undefined
+    }
+
+    /// Returns what lowering keeps a device from at an operation, or what the result of a call depends on.
+    pub fn precondition(&self, function: ir::FuncId, value: ir::Value) -> Option<&Precondition> {
+        self.names.preconditions.get(&(function, value))
     }
 
     /// The name of a member of a structure.

@@ -90,7 +90,7 @@ pub fn audit(
     limit: u64,
 ) -> Result<Audit, TraceError> {
     let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
-    let mut audit = audit_pixels(&pass, sources, inputs.size, pixels)?;
+    let mut audit = audit_pixels(&pass, inputs.size, pixels)?;
     let Some(first) = audit.pixels.first().map(|audited| audited.pixel) else { return Ok(audit) };
     for (span, is_undefined, what) in pass.programs().flat_map(Walkable::faults) {
         let kind = if is_undefined { Kind::Undefined(what) } else { Kind::Nonfinite(what) };
@@ -113,15 +113,10 @@ pub fn audit_pixel(
     limit: u64,
 ) -> Result<Audit, TraceError> {
     let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
-    audit_pixels(&pass, sources, inputs.size, &[pixel])
+    audit_pixels(&pass, inputs.size, &[pixel])
 }
 
-fn audit_pixels(
-    pass: &PassFragments<'_>,
-    sources: &Sources<'_>,
-    size: (u32, u32),
-    pixels: &[(u32, u32)],
-) -> Result<Audit, TraceError> {
+fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)]) -> Result<Audit, TraceError> {
     if let Some(&pixel) = pixels.iter().find(|p| p.0 >= size.0 || p.1 >= size.1) {
         return Err(TraceError::Outside { pixel, size });
     }
@@ -129,7 +124,7 @@ fn audit_pixels(
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.extend(walked(pass, sources, pixel)?);
+            done.extend(walked(pass, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -158,11 +153,7 @@ fn audit_pixels(
     Ok(audit)
 }
 
-fn walked(
-    pass: &PassFragments<'_>,
-    sources: &Sources<'_>,
-    pixel: (u32, u32),
-) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
+fn walked(pass: &PassFragments<'_>, pixel: (u32, u32)) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
     let at = match pass.at(pixel)? {
         AtPixel::Fragment(at) => at,
         AtPixel::Undrawn(Origin::Clear) => {
@@ -171,7 +162,7 @@ fn walked(
         }
         AtPixel::Undrawn(_) => return Ok(None),
     };
-    let mut watch = Watch::new(at.walkable, sources, &at.world);
+    let mut watch = Watch::new(at.walkable, &at.world);
     let drawn = walk(&at, &mut watch)?;
     let audited = AuditedPixel {
         pixel,

@@ -1,117 +1,34 @@
 //! GLSL ES 3.00 leaves results undefined by the operands of an operation. Sections are those of its specification.
 
 use eddy_glsl::{
-    ir::{Binary, Math, Op, Value},
-    types::Scalar,
+    builtins::{Arg, Builtin},
+    ir::{Binary, Op, Value},
+    types::{Scalar, Type, TypeId},
+    undefined::{DIVISION, SHIFT, conversion},
     walk::{Cell, Shadowed, View},
+    walkable::Precondition,
 };
 
-/// Returns why the result of an operation is undefined, and the numbers that make it so. `text` is what the author
-/// wrote there, and `size` gives the size of a level of a channel's texture.
-pub fn reason<'t>(
-    view: &View<'_, '_, Shadowed>,
-    op: &Op,
-    text: &dyn Fn() -> &'t str,
-    size: &dyn Fn(u8, i32) -> [i32; 3],
-) -> Option<(&'static str, String)> {
-    let floats = |value: Value| view.value(value).iter().map(|cell| cell.float().single).collect::<Vec<f32>>();
-    let one = |what: &'static str, name: &str, arg: Value, is_bad: &dyn Fn(f32) -> bool| {
-        let bad = floats(arg).into_iter().find(|&x| is_bad(x))?;
-        Some((what, format!("{name}({bad:?})")))
-    };
-    match *op {
-        Op::Math { fun, arg, arg1, arg2, .. } if is_float(view, arg) => match fun {
-            Math::Sqrt => one("the square root of a negative number is undefined (8.2)", "sqrt", arg, &|x| x < 0.0),
-            Math::InverseSqrt if text().starts_with("normalize") => {
-                one("normalize of a zero vector is undefined (8.5)", "inversesqrt", arg, &|x| x <= 0.0)
-            }
-            Math::InverseSqrt => {
-                one("inversesqrt is undefined for 0 and below (8.2)", "inversesqrt", arg, &|x| x <= 0.0)
-            }
-            Math::Log => one("the logarithm of 0 and below is undefined (8.2)", "log", arg, &|x| x <= 0.0),
-            Math::Log2 => one("the logarithm of 0 and below is undefined (8.2)", "log2", arg, &|x| x <= 0.0),
-            Math::Asin => one("asin is undefined outside -1 to 1 (8.1)", "asin", arg, &|x| x.abs() > 1.0),
-            Math::Acos => one("acos is undefined outside -1 to 1 (8.1)", "acos", arg, &|x| x.abs() > 1.0),
-            Math::Acosh => one("acosh is undefined below 1 (8.1)", "acosh", arg, &|x| x < 1.0),
-            Math::Atanh => one("atanh is undefined at and beyond -1 and 1 (8.1)", "atanh", arg, &|x| x.abs() >= 1.0),
-            Math::Pow => {
-                let bad = |&(x, y): &(f32, f32)| x < 0.0 || (x == 0.0 && y <= 0.0);
-                let (x, y) = pairs(&floats(arg), &floats(arg1?)).find(bad)?;
-                let what = match x < 0.0 {
-                    true => "pow of a negative base is undefined (8.2)",
-                    false => "pow of 0 is undefined unless the exponent is above 0 (8.2)",
-                };
-                Some((what, format!("pow({x:?}, {y:?})")))
-            }
-            Math::Atan2 => {
-                let (y, x) = pairs(&floats(arg), &floats(arg1?)).find(|&(y, x)| x == 0.0 && y == 0.0)?;
-                Some(("the angle of (0, 0) is undefined (8.1)", format!("atan({y:?}, {x:?})")))
-            }
-            Math::SmoothStep => {
-                let (a, b) = pairs(&floats(arg), &floats(arg1?)).find(|(a, b)| a >= b)?;
-                Some((SMOOTHSTEP, format!("smoothstep({a:?}, {b:?}, …)")))
-            }
-            Math::Clamp => {
-                let (low, high) = pairs(&floats(arg1?), &floats(arg2?)).find(|(low, high)| low > high)?;
-                Some(("clamp is undefined where minVal is above maxVal (8.3)", format!("clamp(…, {low:?}, {high:?})")))
-            }
-            _ => None,
-        },
-        // The width of `smoothstep` whose edges are not known, see `lower`.
-        Op::Binary { op: Binary::Divide, right, .. } if is_float(view, right) && text().starts_with("smoothstep") => {
-            let Op::Binary { op: Binary::Subtract, left, right } = *view.op(right) else { return None };
-            let (b, a) = pairs(&floats(left), &floats(right)).find(|(b, a)| a >= b)?;
-            Some((SMOOTHSTEP, format!("smoothstep({a:?}, {b:?}, …)")))
-        }
+/// A sentence about what is undefined, and the numbers that make it so.
+pub type Reason = (&'static str, String);
+
+/// Returns why the result of an operation is undefined, as far as the operation says it. `size` gives the size of a
+/// level of a channel's texture.
+pub fn of_operation(view: &View<'_, '_, Shadowed>, value: Value, size: &dyn Fn(u8, i32) -> [i32; 3]) -> Option<Reason> {
+    // What a function is written out with is undefined where the function is.
+    if view.function().origin(value).builtin.is_some_and(|builtin| !builtin.gaps.is_empty()) {
+        return None;
+    }
+    match *view.op(value) {
         Op::Binary { op: Binary::Divide, left, right } if is_float(view, right) => {
             // Any other number gives an infinity (4.5.1), which is told as such.
-            let (x, y) = pairs(&floats(left), &floats(right)).find(|&(x, y)| x == 0.0 && y == 0.0)?;
+            let (x, y) = pairs(&floats(view, left), &floats(view, right)).find(|&(x, y)| x == 0.0 && y == 0.0)?;
             Some(("zero divided by zero is undefined (4.5.1)", format!("{x:?} / {y:?}")))
         }
-        Op::Binary { op: Binary::Divide | Binary::Modulo, right, .. } => {
-            // `lower` keeps every divisor from 0.
-            let divisor = match *view.op(right) {
-                Op::Select { reject, .. } => reject,
-                Op::Math { fun: Math::Max, arg, .. } => arg,
-                _ => return None,
-            };
-            let is_zero = ints(view, divisor).any(|n| n == 0);
-            is_zero.then(|| ("an integer divided by zero is undefined (5.9)", "… / 0".into()))
-        }
-        Op::Binary { op: Binary::ShiftLeft | Binary::ShiftRight, right, .. } => {
-            // `lower` keeps the low five bits.
-            let mut by = right;
-            if let Op::Splat { value, .. } = *view.op(by) {
-                by = value;
-            }
-            let Op::Binary { op: Binary::And, left, .. } = *view.op(by) else { return None };
-            let far = ints(view, left).find(|&n| n >= 32)?;
-            Some((
-                "a shift by as many bits as there are, or by a negative number, is undefined (5.9)",
-                format!("… by {}", far as i32),
-            ))
-        }
-        Op::Convert { value, to: Scalar::Int } if is_float(view, value) => {
-            let far = floats(value).into_iter().find(|&x| !((-2_147_483_648.0..2_147_483_648.0).contains(&x)))?;
-            Some(("converting a number out of range to int is undefined (5.4.1)", format!("int({far:?})")))
-        }
-        Op::Convert { value, to: Scalar::Uint } if is_float(view, value) => {
-            let far = floats(value).into_iter().find(|&x| !(x > -1.0 && x < 4_294_967_296.0))?;
-            Some(("converting a number out of range to uint is undefined (5.4.1)", format!("uint({far:?})")))
-        }
-        Op::Element { index, .. } => {
-            // `lower` clamps every index.
-            let Op::Math { fun: Math::Min, arg, arg1: Some(last), .. } = *view.op(index) else { return None };
-            let (signed, asked) = match *view.op(arg) {
-                Op::Math { fun: Math::Max, arg, .. } => (true, arg),
-                _ => (false, arg),
-            };
-            let (asked, last) = (ints(view, asked).next()?, ints(view, last).next()?);
-            let is_out = if signed { (asked as i32) < 0 || asked as i32 > last as i32 } else { asked > last };
-            is_out.then(|| {
-                let shown = if signed { (asked as i32).to_string() } else { asked.to_string() };
-                ("an index beyond the end is undefined (4.1.9)", format!("[{shown}] of {}", last + 1))
-            })
+        Op::Convert { value, to } if is_float(view, value) => {
+            let bad = |float: f32| Some((conversion(float, to)?, float));
+            let (what, float) = floats(view, value).into_iter().find_map(bad)?;
+            Some((what, format!("{}({float:?})", if to == Scalar::Int { "int" } else { "uint" })))
         }
         Op::Fetch { channel, coordinate, level } => {
             let level = ints(view, level).next()? as i32;
@@ -127,11 +44,53 @@ pub fn reason<'t>(
     }
 }
 
-const SMOOTHSTEP: &str = "smoothstep is undefined unless its first edge is below the second (8.3)";
+/// Returns why a precondition that lowering noted does not hold.
+pub fn of_precondition(view: &View<'_, '_, Shadowed>, precondition: &Precondition) -> Option<Reason> {
+    match *precondition {
+        Precondition::Call(builtin, ref args) => of_call(view, builtin, args),
+        Precondition::Divisor(divisor) => ints(view, divisor).any(|n| n == 0).then(|| (DIVISION, "… / 0".into())),
+        Precondition::Distance(by) => {
+            let far = ints(view, by).find(|&n| n >= 32)?;
+            Some((SHIFT, format!("… by {}", far as i32)))
+        }
+        Precondition::Index(index, len) => {
+            let bits = ints(view, index).next()?;
+            let is_signed = view.function().ty(index) == TypeId::INT;
+            // A negative index is a large number without a sign.
+            (bits >= len).then(|| {
+                let shown = if is_signed { (bits as i32).to_string() } else { bits.to_string() };
+                ("an index beyond the end is undefined (4.1.9)", format!("[{shown}] of {len}"))
+            })
+        }
+    }
+}
+
+fn of_call(view: &View<'_, '_, Shadowed>, builtin: Builtin, args: &[Value]) -> Option<Reason> {
+    let words: Vec<Vec<u32>> = args.iter().map(|&arg| ints(view, arg).collect()).collect();
+    let types = &view.module().types;
+    let given = args.iter().zip(&words).map(|(&arg, words)| {
+        let ty = view.function().ty(arg);
+        let columns = if let Type::Matrix { columns, .. } = types.get(ty) { columns.into() } else { 1 };
+        Some(Arg { words, scalar: types.scalar(ty)?, columns })
+    });
+    let given: Vec<Arg<'_>> = given.collect::<Option<_>>()?;
+    let (gap, component) = builtin.gap(&given)?;
+    let shown = |(index, arg): (usize, &Arg<'_>)| match component {
+        _ if !gap.decides.contains(&index) => "…".to_owned(),
+        Some(component) => arg.text(component),
+        None => (0..arg.words.len()).map(|component| arg.text(component)).collect::<Vec<_>>().join(", "),
+    };
+    let shown: Vec<String> = given.iter().enumerate().map(shown).collect();
+    Some((gap.what, format!("{}({})", builtin.name, shown.join(", "))))
+}
 
 fn is_float(view: &View<'_, '_, Shadowed>, value: Value) -> bool {
     matches!(view.value(value).first(), Some(Cell::Float(_)))
         && view.module().types.scalar(view.function().ty(value)) == Some(Scalar::Float)
+}
+
+fn floats(view: &View<'_, '_, Shadowed>, value: Value) -> Vec<f32> {
+    view.value(value).iter().map(|cell| cell.float().single).collect()
 }
 
 fn ints<'v>(view: &'v View<'_, '_, Shadowed>, value: Value) -> impl Iterator<Item = u32> + 'v {

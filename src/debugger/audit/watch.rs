@@ -6,7 +6,7 @@ use super::{
     undefined,
 };
 use eddy_diag::Span;
-use eddy_engine::{DrawInputs, Sources};
+use eddy_engine::DrawInputs;
 use eddy_glsl::{
     ast::Loc,
     ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
@@ -45,7 +45,6 @@ pub struct Blame {
 
 pub struct Watch<'w> {
     walkable: &'w Walkable,
-    sources: &'w Sources<'w>,
     inputs: &'w DrawInputs<'w>,
     births: HashMap<(FuncId, Value), Birth>,
     found: Vec<(Kind, Option<Span>, String)>,
@@ -59,10 +58,9 @@ pub struct Watch<'w> {
 }
 
 impl<'w> Watch<'w> {
-    pub fn new(walkable: &'w Walkable, sources: &'w Sources<'w>, inputs: &'w DrawInputs<'w>) -> Self {
+    pub fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>) -> Self {
         Self {
             walkable,
-            sources,
             inputs,
             births: HashMap::new(),
             found: Vec::new(),
@@ -206,7 +204,7 @@ impl Observer<Shadowed> for Watch<'_> {
         self.calls.pop();
     }
 
-    fn parted(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+    fn diverged(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let what = match *view.op(value) {
             Op::Sample { channel, .. } if !self.inputs.is_of_levels(channel) => return,
             Op::Sample { .. } => {
@@ -252,12 +250,6 @@ impl Observer<Shadowed> for Watch<'_> {
         let op = view.op(value);
         let loc = view.function().loc(value);
         if view.is_place(value) {
-            if let Op::Element { .. } = op
-                && let Some((what, numbers)) = undefined::reason(view, op, &|| "", &|_, _| [0; 3])
-            {
-                let span = self.span(loc);
-                self.find(Kind::Undefined(what), span, numbers);
-            }
             return;
         }
         self.follow(view, value, op);
@@ -265,10 +257,10 @@ impl Observer<Shadowed> for Watch<'_> {
             let span = self.span(loc);
             self.find(Kind::Undefined(what), span, String::new());
         }
-        let (sources, inputs) = (self.sources, self.inputs);
-        let text = || self.span(loc).map_or("", |span| sources.written(span));
-        let size = |channel, level| World::size(inputs, channel, level);
-        if let Some((what, numbers)) = undefined::reason(view, op, &text, &size) {
+        let size = |channel, level| World::size(self.inputs, channel, level);
+        let precondition = self.walkable.precondition(view.function_id(), value);
+        let broken = precondition.and_then(|precondition| undefined::of_precondition(view, precondition));
+        for (what, numbers) in [undefined::of_operation(view, value, &size), broken].into_iter().flatten() {
             let span = self.span(loc);
             self.find(Kind::Undefined(what), span, numbers);
         }

@@ -9,7 +9,7 @@ pub struct Symbol(pub u32);
 /// Identifiers to [`Symbol`]s and back.
 ///
 /// Make one seeded interner a process (`LazyLock`) with [`Interner::seeded`] and clone it for each compile. The seed
-/// must begin with the names of `hir::Builtin::ALL` and then `hir::Uniform::ALL`, in order, so that a symbol tells
+/// must begin with the names of `Builtin::all()` and then `Uniform::ALL`, in order, so that a symbol tells
 /// which it is without a look-up; keywords and other known words follow as the lexer likes.
 #[derive(Clone)]
 pub struct Interner {

@@ -1,9 +1,10 @@
 //! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
 
-use super::{checker::Checker, env, overloads, scope::Binding};
+use super::{checker::Checker, env, fault, scope::Binding, words::Words};
 use crate::{
     ast::{self, BasicType, List, Loc, Symbol},
-    hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, TypeId},
+    builtins::{Arg, Operation, Overload},
+    hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, Type, TypeId},
     parse::foreign_type,
 };
 
@@ -64,7 +65,7 @@ impl Checker<'_> {
         }
         // Overloads of a built-in leave its own in force.
         if let Some(builtin) = Builtin::from_symbol(self.module[first].name.symbol)
-            && builtin != Builtin::StAssert
+            && !builtin.is_of_image
         {
             return self.builtin_call(builtin, args, loc);
         }
@@ -215,14 +216,11 @@ impl Checker<'_> {
 
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         self.uses(loc.first, DeclRef::Builtin(builtin));
-        let is_derivative = matches!(builtin, Builtin::DFdx | Builtin::DFdy | Builtin::Fwidth);
+        let is_derivative = matches!(builtin.operation, Operation::Derivative(_));
         if is_derivative && self.env.is_vertex() && !self.is_shared(loc) {
             self.error(
                 loc,
-                format!(
-                    "`{}` works only in a fragment stage: a vertex stage has no neighbouring pixels",
-                    builtin.name()
-                ),
+                format!("`{}` works only in a fragment stage: a vertex stage has no neighbouring pixels", builtin.name),
             );
             self.hint("move it to the fragment stage");
         }
@@ -274,17 +272,15 @@ impl Checker<'_> {
             return folded;
         }
         let mut flags = self.inherited(&self.expr_stack[base..]);
-        match builtin {
-            Builtin::Modf => {
-                flags = flags.with(ExprFlags::EFFECTS);
-                if !self.place(self.expr_stack[base + 1], "passed as `out`") {
-                    return self.error_expr_of(result, loc);
-                }
-            }
-            Builtin::StAssert => flags = flags.with(ExprFlags::EFFECTS),
-            _ => {}
+        if builtin.has_effect() {
+            flags = flags.with(ExprFlags::EFFECTS);
         }
-        if let Some(at) = overloads::offset_argument(builtin)
+        if let Some(at) = builtin.writes
+            && !self.place(self.expr_stack[base + at], "passed as `out`")
+        {
+            return self.error_expr_of(result, loc);
+        }
+        if let Some(at) = builtin.offset_argument()
             && !self.check_offset(builtin, self.expr_stack[base + at])
         {
             return self.error_expr_of(result, loc);
@@ -294,6 +290,38 @@ impl Checker<'_> {
         self.push(ExprKind::Builtin { builtin, args }, result, flags, loc)
     }
 
+    /// The value of a built-in whose arguments, on the stack above `base`, are all constants. `None` where it has none.
+    fn fold_builtin(&mut self, builtin: Builtin, result: TypeId, base: usize, loc: Loc) -> Option<ExprId> {
+        let types = &self.module.types;
+        let given = &self.expr_stack[base..];
+        let mut args = [Arg { words: &[], scalar: Scalar::Float, columns: 1 }; 3];
+        for (arg, &id) in args.get_mut(..given.len())?.iter_mut().zip(given) {
+            let ty = self.module[id].ty;
+            let columns = if let Type::Matrix { columns, .. } = types.get(ty) { columns.into() } else { 1 };
+            *arg = Arg { words: self.words(id)?, scalar: types.scalar(ty)?, columns };
+        }
+        let args = &args[..given.len()];
+        let mut words = Words::zeros(types.components(result)? as usize);
+        if !builtin.fold(args, words.as_mut_slice()) {
+            return None;
+        }
+        let gap = builtin.gap(args);
+        let (mut is_nan, mut is_infinite) = (false, false);
+        if types.scalar(result) == Some(Scalar::Float) && !builtin.reads_bits() {
+            let floats = args.iter().filter(|arg| arg.scalar == Scalar::Float);
+            (is_nan, is_infinite) = fault::born(floats.map(|arg| arg.words), words.as_slice());
+        }
+        let id = self.constant(result, words.as_slice(), loc);
+        match gap {
+            None => self.note_floats(loc, is_nan, is_infinite),
+            Some((gap, _)) => {
+                self.undefined(loc, gap.what);
+                self.warning(loc, format!("`{}` is undefined for this value; 0 is used", builtin.name));
+            }
+        }
+        Some(id)
+    }
+
     /// Section 8.8: a constant expression, in the range of the implementation.
     fn check_offset(&mut self, builtin: Builtin, offset: ExprId) -> bool {
         let loc = self.loc(offset);
@@ -301,7 +329,7 @@ impl Checker<'_> {
             if self.is_broken() {
                 return false;
             }
-            self.error(loc, format!("the offset of `{}` must be a constant expression", builtin.name()));
+            self.error(loc, format!("the offset of `{}` must be a constant expression", builtin.name));
             self.hint("to move by a varying amount, add it to the coordinate");
             return false;
         };
@@ -316,11 +344,11 @@ impl Checker<'_> {
     #[cold]
     fn no_builtin_overload(&mut self, builtin: Builtin, given: &[TypeId], args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let ast = self.ast;
-        let name = builtin.name();
+        let name = builtin.name;
         if ast[args].iter().any(|&arg| self.is_void(self.done(arg))) {
             return self.error_expr(loc);
         }
-        let all = overloads::of(builtin);
+        let all = builtin.overloads;
         let counts: Vec<usize> = all.iter().map(|o| o.params.len()).collect();
         if !counts.contains(&args.len()) {
             let (least, most) = (counts.iter().min().copied().unwrap_or(0), counts.iter().max().copied().unwrap_or(0));
@@ -388,7 +416,7 @@ impl Checker<'_> {
     }
 
     /// Coordinates that would fit a sampler of another shape.
-    fn sampler_hint(&mut self, all: &[overloads::Overload], given: &[TypeId], sampler: ast::ExprId) {
+    fn sampler_hint(&mut self, all: &[Overload], given: &[TypeId], sampler: ast::ExprId) {
         if given.first().is_none_or(|&ty| !self.is_sampler(ty)) {
             return;
         }
@@ -415,12 +443,12 @@ impl Checker<'_> {
         let size = self.largest(given);
         let sampler = given.first().filter(|&&ty| self.is_sampler(ty)).map(|&ty| self.type_name(ty));
         let mut lines: Vec<(bool, String)> = Vec::new();
-        for overload in overloads::of(builtin) {
+        for overload in builtin.overloads {
             let params: Vec<String> = overload.params.iter().map(|&p| overload.shown(p, size)).collect();
             if sampler.as_ref().is_some_and(|sampler| params[0] != *sampler) {
                 continue;
             }
-            let line = format!("{} {}({})", overload.shown(overload.result, size), builtin.name(), params.join(", "));
+            let line = format!("{} {}({})", overload.shown(overload.result, size), builtin.name, params.join(", "));
             let off = overload.params.len() != given.len();
             if !lines.iter().any(|(_, l)| *l == line) {
                 lines.push((off, line));
@@ -434,7 +462,7 @@ impl Checker<'_> {
 
     /// Result of a built-in for these argument types, if some overload takes them.
     fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
-        overloads::of(builtin).iter().find_map(|overload| overload.result_for(args, &self.module.types))
+        builtin.overloads.iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The checker's state and what every rule of it needs: reports, places, types. The rules are in the files beside.
 
 use super::{
-    begun::{Begun, Precisions},
+    checkpoint::{Checkpoint, Precisions},
     env::Env,
     facts::{FuncFacts, TypeFacts},
     fault::Fault,
@@ -108,17 +108,17 @@ impl<'a> Checker<'a> {
         names: &'a Interner,
         env: Env,
         settings: Settings<'a>,
-        begun: Option<&Begun>,
+        checkpoint: Option<&Checkpoint>,
     ) -> Self {
         let broken_tree = ast.exprs.iter().any(|e| matches!(e.kind, ast::ExprKind::Error))
             || ast.stmts.iter().any(|s| matches!(s.kind, ast::StmtKind::Error))
             || ast.decls.iter().any(|d| matches!(d.kind, ast::DeclKind::Error))
             || ast.types.iter().any(|t| matches!(t.kind, ast::TypeSpecKind::Error));
-        let mut begun = begun.map_or_else(Begun::nothing, Begun::clone);
-        let known = Symbol(begun.scopes.symbols() as u32);
-        begun.scopes.reserve_symbols(names.len());
-        begun.module.reserve(ast, begun.lowered.len());
-        begun.lowered.resize(ast.exprs.len(), None);
+        let mut checkpoint = checkpoint.map_or_else(Checkpoint::nothing, Checkpoint::clone);
+        let known = Symbol(checkpoint.scopes.symbols() as u32);
+        checkpoint.scopes.reserve_symbols(names.len());
+        checkpoint.module.reserve(ast, checkpoint.lowered.len());
+        checkpoint.lowered.resize(ast.exprs.len(), None);
         let mut checker = Self {
             ast,
             origins,
@@ -126,26 +126,26 @@ impl<'a> Checker<'a> {
             env,
             settings,
             broken_tree,
-            module: begun.module,
-            diagnostics: begun.diagnostics,
-            faults: begun.faults,
+            module: checkpoint.module,
+            diagnostics: checkpoint.diagnostics,
+            faults: checkpoint.faults,
             errors: 0,
             refused_in_common: Vec::new(),
-            scopes: begun.scopes,
-            lowered: begun.lowered,
+            scopes: checkpoint.scopes,
+            lowered: checkpoint.lowered,
             full_expr: 0,
-            facts: begun.facts,
-            members: begun.members,
-            funcs: begun.funcs,
-            overloads: begun.overloads,
-            folded_words: begun.folded_words,
-            precisions: begun.precisions,
+            facts: checkpoint.facts,
+            members: checkpoint.members,
+            funcs: checkpoint.funcs,
+            overloads: checkpoint.overloads,
+            folded_words: checkpoint.folded_words,
+            precisions: checkpoint.precisions,
             saved_precisions: Vec::new(),
             func: None,
             returns: false,
             loops: 0,
             switches: Vec::new(),
-            global_calls: begun.global_calls,
+            global_calls: checkpoint.global_calls,
             bulk: None,
             expr_stack: Vec::new(),
             stmt_stack: Vec::new(),
@@ -154,11 +154,11 @@ impl<'a> Checker<'a> {
             unknown_said: Vec::new(),
             outputs: Vec::new(),
             too_deep_told: false,
-            depth_range: begun.depth_range,
+            depth_range: checkpoint.depth_range,
             entry_symbol: None,
             header_entry: None,
             foreign_main: None,
-            items: begun.items,
+            items: checkpoint.items,
         };
         checker.declare_language(known);
         checker
@@ -284,9 +284,9 @@ impl<'a> Checker<'a> {
 
 impl Checker<'_> {
     /// Ends behind the declarations that were checked; `None` where one of them has an error.
-    pub(super) fn into_begun(self) -> Option<Begun> {
+    pub(super) fn into_begun(self) -> Option<Checkpoint> {
         // Whether an output does harm is known at the end of the pass.
-        (self.errors == 0 && !self.broken_tree && self.outputs.is_empty()).then_some(Begun {
+        (self.errors == 0 && !self.broken_tree && self.outputs.is_empty()).then_some(Checkpoint {
             items: self.items,
             module: self.module,
             diagnostics: self.diagnostics,

@@ -137,17 +137,17 @@ impl Checker<'_> {
             return self.error_expr_of(ty, loc);
         }
         if self.expr_stack[base..].iter().all(|&id| self.is_constant(id)) {
-            let (mut words, mut is_out) = (Words::default(), false);
+            let (mut words, mut gap) = (Words::default(), None);
             for i in base..base + count {
                 let id = self.expr_stack[i];
                 let from = self.module.types.scalar(self.ty(id)).expect("has components");
                 let room = usize::from(size) - words.as_slice().len();
                 for &bits in self.words(id).expect("constant").iter().take(room) {
-                    is_out |= fold::is_out_of_range(bits, from, scalar);
+                    gap = gap.or(fold::conversion_gap(bits, from, scalar));
                     words.push(fold::convert(bits, from, scalar));
                 }
             }
-            return self.converted(ty, (&words, is_out), loc);
+            return self.converted(ty, (&words, gap), loc);
         }
         debug_assert_eq!(written.len(), count);
         let mut filled = 0;
@@ -210,19 +210,20 @@ impl Checker<'_> {
         }
         let ty = TypeId::vector(scalar, size);
         if let Some(words) = self.words(id) {
-            let is_out = words.iter().any(|&bits| fold::is_out_of_range(bits, from, scalar));
+            let gap = words.iter().find_map(|&bits| fold::conversion_gap(bits, from, scalar));
             let words: Words = words.iter().map(|&bits| fold::convert(bits, from, scalar)).collect();
-            return self.converted(ty, (&words, is_out), loc);
+            return self.converted(ty, (&words, gap), loc);
         }
         let flags = self.inherited(&[id]);
         self.push(ExprKind::Convert(id), ty, flags, loc)
     }
 
     /// A constant whose numbers were others' before, some of them beyond its range.
-    fn converted(&mut self, ty: TypeId, (words, is_out): (&Words, bool), loc: Loc) -> ExprId {
+    fn converted(&mut self, ty: TypeId, (words, gap): (&Words, Option<&'static str>), loc: Loc) -> ExprId {
         let id = self.constant(ty, words.as_slice(), loc);
-        if is_out && let Some(scalar) = self.module.types.scalar(ty) {
-            self.out_of_range(scalar, loc);
+        if let Some(what) = gap {
+            self.undefined(loc, what);
+            self.warning(loc, what);
         }
         id
     }
@@ -242,9 +243,9 @@ impl Checker<'_> {
         }
         if let Some(words) = self.words(arg) {
             let of = |i: usize| words[if given == 1 { 0 } else { i }];
-            let is_out = (0..usize::from(size)).any(|i| fold::is_out_of_range(of(i), from, scalar));
+            let gap = (0..usize::from(size)).find_map(|i| fold::conversion_gap(of(i), from, scalar));
             let words: Words = (0..usize::from(size)).map(|i| fold::convert(of(i), from, scalar)).collect();
-            return self.converted(ty, (&words, is_out), loc);
+            return self.converted(ty, (&words, gap), loc);
         }
         let flags = self.inherited(&[arg]);
         match self.module.types.get(at) {

@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 use super::{
     checker::Checker,
     facts::MAX_WORDS,
-    qualifiers::{LayoutOf, Place, Qualifiers},
+    qualifiers::{DeclContext, LayoutOf, Qualifiers},
     scope::Binding,
     suggest::input_of_the_site,
     types::Size,
@@ -29,7 +29,7 @@ impl Checker<'_> {
                 self.hint("remove it");
             }
             DeclKind::Vars { qualifiers, ty, declarators } => {
-                let quals = self.qualifiers(qualifiers, Place::Global);
+                let quals = self.qualifiers(qualifiers, DeclContext::Global);
                 let base = self.base_type(ty);
                 self.check_precision(&quals, base, self.ast[ty].loc);
                 let ast = self.ast;
@@ -51,7 +51,7 @@ impl Checker<'_> {
         match kind {
             DeclKind::Error | DeclKind::Empty => {}
             DeclKind::Vars { qualifiers, ty, declarators } => {
-                let quals = self.qualifiers(qualifiers, Place::Local);
+                let quals = self.qualifiers(qualifiers, DeclContext::Local);
                 let base = self.base_type(ty);
                 self.check_precision(&quals, base, self.ast[ty].loc);
                 let ast = self.ast;
@@ -345,7 +345,7 @@ impl Checker<'_> {
 
     /// `invariant a, b;` and `layout(..) uniform;`.
     fn qualify(&mut self, qualifiers: List<ast::Qualifier>, names: List<Ident>, loc: Loc) {
-        let quals = self.qualifiers(qualifiers, Place::Global);
+        let quals = self.qualifiers(qualifiers, DeclContext::Global);
         let ast = self.ast;
         if ast[names].is_empty() {
             self.check_layout(&quals, LayoutOf::Block);
@@ -382,7 +382,7 @@ impl Checker<'_> {
         loc: Loc,
     ) {
         let ast = self.ast;
-        let quals = self.qualifiers(qualifiers, Place::Block);
+        let quals = self.qualifiers(qualifiers, DeclContext::Block);
         if !quals.is(Q::Uniform) {
             self.error(name, "GLSL ES 3.00 has only `uniform` blocks");
         }
@@ -393,7 +393,7 @@ impl Checker<'_> {
         for field in &ast[fields] {
             let base = self.base_type(field.ty);
             let spec = ast[field.ty];
-            let of_field = self.qualifiers(field.qualifiers, Place::Block);
+            let of_field = self.qualifiers(field.qualifiers, DeclContext::Block);
             self.check_layout(&of_field, LayoutOf::Member);
             if let Some((Q::In | Q::Out, token)) = of_field.storage {
                 self.error(token, "a member of a uniform block cannot be `in` or `out`");

@@ -92,8 +92,8 @@ pub(super) fn differ() -> impl Iterator<Item = &'static str> {
     let uniforms = Uniform::ALL.iter().filter(|u| !EVERYWHERE.contains(u)).map(|u| u.name());
     let kinds = [PassKind::Image, PassKind::Cubemap, PassKind::Sound, PassKind::Fragment];
     let entries = kinds.map(|kind| entry(kind).name);
-    let others = [Builtin::StAssert.name(), "iGlobalTime"];
-    uniforms.chain(CHANNELS).chain(CHANNEL_STRUCTS).chain(entries).chain(others)
+    let functions = Builtin::all().filter(|builtin| builtin.is_of_image).map(|builtin| builtin.row().name);
+    uniforms.chain(CHANNELS).chain(CHANNEL_STRUCTS).chain(entries).chain(functions).chain(["iGlobalTime"])
 }
 
 pub(crate) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
@@ -166,7 +166,7 @@ pub fn taken(name: &str) -> Option<&'static str> {
         Some("Shadertoy's header has a uniform of this name")
     } else if entries.contains(&name) {
         Some("it is the name of an entry point")
-    } else if Builtin::ALL.iter().any(|b| b.name() == name) {
+    } else if Builtin::all().any(|builtin| builtin.name == name) {
         Some("GLSL has a function of this name")
     } else if name.starts_with("gl_") || name.contains("__") {
         Some("GLSL reserves names that start with `gl_` or contain `__`")

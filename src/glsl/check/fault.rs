@@ -1,7 +1,11 @@
 //! Operations on constants whose result GLSL ES 3.00 leaves open, or that is no finite number. They are folded, so that
 //! no device and no walk comes to them.
 
-use crate::{ast::Loc, hir::Builtin as X};
+use super::checker::Checker;
+use crate::ast::Loc;
+
+const INFINITE: &str = "first infinity here";
+const NAN: &str = "this is NaN, which a GPU need not support: the result is undefined (4.5.1)";
 
 /// An operation on constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,27 +26,18 @@ pub(super) fn born<'w>(given: impl Iterator<Item = &'w [u32]> + Clone, result: &
     (is_nan, is_infinite)
 }
 
-/// Returns why a function has no result for some arguments.
-pub(super) fn domain(builtin: X) -> &'static str {
-    match builtin {
-        X::Asin => "asin is undefined outside -1 to 1 (8.1)",
-        X::Acos => "acos is undefined outside -1 to 1 (8.1)",
-        X::Acosh => "acosh is undefined below 1 (8.1)",
-        X::Atanh => "atanh is undefined at and beyond -1 and 1 (8.1)",
-        X::Atan => "the angle of (0, 0) is undefined (8.1)",
-        X::Pow => "pow of a negative base, and of 0 unless the exponent is above 0, is undefined (8.2)",
-        X::Log | X::Log2 => "the logarithm of 0 and below is undefined (8.2)",
-        X::Sqrt => "the square root of a negative number is undefined (8.2)",
-        X::InverseSqrt => "inversesqrt is undefined for 0 and below (8.2)",
-        X::Clamp => "clamp is undefined where minVal is above maxVal (8.3)",
-        X::Smoothstep => "smoothstep is undefined unless its first edge is below the second (8.3)",
-        X::Normalize => "normalize of a zero vector is undefined (8.5)",
-        X::Inverse => "the inverse of a singular matrix is undefined (8.6)",
-        _ => "the result is undefined for this value",
+impl Checker<'_> {
+    pub(super) fn undefined(&mut self, loc: Loc, what: &'static str) {
+        self.faults.push(Fault { loc, is_undefined: true, what });
     }
-}
 
-/// The function makes floats of other bits, which may stand for anything.
-pub(super) fn reads_bits(builtin: X) -> bool {
-    matches!(builtin, X::IntBitsToFloat | X::UintBitsToFloat | X::UnpackHalf2x16)
+    /// Notes what floats came of constants: `given` are those that went in. Infinities are often meant, and no warning.
+    pub(super) fn note_floats(&mut self, loc: Loc, is_nan: bool, is_infinite: bool) {
+        if is_nan {
+            self.undefined(loc, NAN);
+            self.warning(loc, NAN);
+        } else if is_infinite {
+            self.faults.push(Fault { loc, is_undefined: false, what: INFINITE });
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! Values of operators and conversions on constants, bit for bit as a device with 32-bit floats and wrapping ints has
 //! them. What the specification leaves undefined is what ANGLE makes of it.
 
-use crate::hir::{BinaryOp, Scalar, Shape, UnaryOp};
+use crate::{
+    hir::{BinaryOp, Scalar, Shape, UnaryOp},
+    undefined,
+};
 
 /// Says what an author should know about a folded operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,14 +31,9 @@ pub(super) fn convert(bits: u32, from: Scalar, to: Scalar) -> u32 {
     }
 }
 
-/// The conversion of a float to an int or a uint that has no number for it is undefined.
-pub(super) fn is_out_of_range(bits: u32, from: Scalar, to: Scalar) -> bool {
-    let float = f32::from_bits(bits);
-    match (from, to) {
-        (Scalar::Float, Scalar::Int) => !(-2_147_483_648.0..2_147_483_648.0).contains(&float),
-        (Scalar::Float, Scalar::Uint) => !(float > -1.0 && float < 4_294_967_296.0),
-        _ => false,
-    }
+/// Returns why a conversion is undefined, if it is.
+pub(super) fn conversion_gap(bits: u32, from: Scalar, to: Scalar) -> Option<&'static str> {
+    if from == Scalar::Float { undefined::conversion(f32::from_bits(bits), to) } else { None }
 }
 
 pub(super) fn unary(op: UnaryOp, scalar: Scalar, bits: u32) -> u32 {

@@ -4,8 +4,7 @@ use super::{
     checker::Checker,
     env::{self, Env},
     facts::FuncFacts,
-    overloads,
-    qualifiers::Place,
+    qualifiers::DeclContext,
     scope::{self, Binding},
     types::Size,
 };
@@ -102,8 +101,8 @@ impl Checker<'_> {
         let name = decl.name;
         let text = self.name(name.symbol);
         let sign = FunctionSign { symbol: name.symbol, token: name.token, result, params: &params };
-        let builtin = Builtin::from_symbol(name.symbol).filter(|&b| b != Builtin::StAssert);
-        let func = if builtin.is_some_and(|b| !overloads::may_be_overloaded(b)) {
+        let builtin = Builtin::from_symbol(name.symbol).filter(|builtin| !builtin.is_of_image);
+        let func = if builtin.is_some_and(|builtin| !builtin.may_be_overloaded) {
             self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
@@ -143,7 +142,7 @@ impl Checker<'_> {
                 }
             }
         };
-        if builtin.is_some_and(overloads::may_be_overloaded) && self.module[func].declared_at.is_empty() {
+        if builtin.is_some_and(|builtin| builtin.may_be_overloaded) && self.module[func].declared_at.is_empty() {
             self.warning(
                 name,
                 format!("`{text}` is a built-in function; only Shadertoy's compiler allows overloading it"),
@@ -170,7 +169,7 @@ impl Checker<'_> {
     fn result_type(&mut self, decl: &ast::FunctionDecl) -> TypeId {
         let base = self.base_type(decl.result);
         let spec = self.ast[decl.result];
-        let quals = self.qualifiers(decl.qualifiers, Place::Result);
+        let quals = self.qualifiers(decl.qualifiers, DeclContext::Result);
         self.check_precision(&quals, base, spec.loc);
         let ty = self.complete_type(base, spec.dims, ast::List::EMPTY, "an array that is returned");
         if self.facts(ty).opaque {
@@ -194,7 +193,7 @@ impl Checker<'_> {
                 self.hint("define it before the function and use its name here");
             }
             let base = self.base_type(param.ty);
-            let quals = self.qualifiers(param.qualifiers, Place::Param);
+            let quals = self.qualifiers(param.qualifiers, DeclContext::Param);
             let mut ty = match self.sizes(spec.dims, param.dims) {
                 None => base,
                 Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),

@@ -16,8 +16,8 @@ impl Checker<'_> {
     /// Fills the scopes with what is there before the first line of every text, whichever pass it belongs to: names
     /// from this symbol on, as those before it have come up in texts that were checked.
     pub(super) fn declare_language(&mut self, from: Symbol) {
-        let builtins = Builtin::ALL.iter().filter(|&&builtin| builtin != Builtin::StAssert);
-        let builtins = builtins.map(|&builtin| (builtin.symbol(), Binding::Builtin(builtin)));
+        let builtins = Builtin::all().filter(|builtin| !builtin.is_of_image);
+        let builtins = builtins.map(|builtin| (builtin.symbol(), Binding::Builtin(builtin)));
         let variables = VARIABLES.into_iter().filter(|&(_, var)| self.env.has_variable(var));
         let named = variables
             .map(|(name, var)| (name, Binding::BuiltinVar(var)))
@@ -38,7 +38,9 @@ impl Checker<'_> {
     pub(super) fn declare_pass(&mut self) {
         // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
         if self.env == Env::Pass(PassKind::Image) {
-            self.scopes.give(Builtin::StAssert.symbol(), Binding::Builtin(Builtin::StAssert), scope::LANGUAGE);
+            for builtin in Builtin::all().filter(|builtin| builtin.is_of_image) {
+                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
+            }
         }
         for &uniform in Uniform::ALL {
             if self.env.has(uniform) {

@@ -11,9 +11,9 @@
 //! scope is an undo stack over one table indexed by symbol, so looking a name up is one load.
 
 mod access;
-mod begun;
 mod call;
 mod checker;
+mod checkpoint;
 mod construct;
 mod conversion;
 mod declare;
@@ -21,15 +21,12 @@ pub(crate) mod env;
 mod expr;
 mod facts;
 mod fault;
-mod faults;
 mod fold;
-mod fold_builtin;
 mod function;
 mod given;
 mod graph;
 mod header;
 mod ops;
-pub(crate) mod overloads;
 mod plain;
 mod qualifiers;
 mod scope;
@@ -43,7 +40,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use begun::Begun;
+pub(crate) use checkpoint::Checkpoint;
 pub(crate) use env::custom_uniform_type;
 pub use env::taken;
 pub(crate) use fault::Fault;
@@ -76,11 +73,11 @@ pub(crate) fn check(
     origins: &Origins,
     names: &Interner,
     source: &PassSource<'_>,
-    begun: Option<&Begun>,
+    checkpoint: Option<&Checkpoint>,
 ) -> Checked {
     let &PassSource { channels, custom_uniforms, values, common, .. } = source;
     let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
-    let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, begun);
+    let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
     let bulk = checker.bulk.map(|name| origins.span(name));
     Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, bulk }
@@ -109,7 +106,7 @@ pub(crate) fn begin(
     names: &Interner,
     values: &[UniformValue],
     mut mentions: impl FnMut(&str) -> bool,
-) -> Option<Begun> {
+) -> Option<Checkpoint> {
     if env::differ().any(&mut mentions) {
         return None;
     }

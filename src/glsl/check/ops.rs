@@ -9,6 +9,7 @@ use super::{
 use crate::{
     ast::{self, BinaryOp as Op, Loc},
     hir::{BinaryOp, ExprFlags, ExprId, ExprKind, IncDec, LogicalOp, Scalar, Shape, Type, TypeId, UnaryOp},
+    undefined,
 };
 
 impl Checker<'_> {
@@ -229,11 +230,11 @@ impl Checker<'_> {
         let id = self.constant(ty, folded.as_slice(), loc);
         match trouble {
             Some(Trouble::DivisionByZero) => {
-                self.undefined(loc, "an integer divided by zero is undefined (5.9)");
+                self.undefined(loc, undefined::DIVISION);
                 self.warning(loc, "division by zero: the result is undefined");
             }
             Some(Trouble::ShiftRange) => {
-                self.undefined(loc, "a shift by 32 or more bits, or by a negative number, is undefined (5.9)");
+                self.undefined(loc, undefined::SHIFT);
                 self.warning(loc, "a shift by less than 0 or more than 31 bits: the result is undefined");
             }
             None => self.note_floats(loc, is_nan, is_infinite),

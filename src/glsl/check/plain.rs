@@ -3,6 +3,7 @@
 use super::{checker::Checker, qualifiers::Qualifiers};
 use crate::{
     ast::{Dim, Field, List, Loc, QualifierKind as Q, Symbol},
+    builtins::{Lod, Operation},
     hir::{Builtin, BuiltinVar, GlobalId, Scalar, Type, TypeId},
 };
 
@@ -79,24 +80,17 @@ impl Checker<'_> {
 
     /// Checks a call that reads a texture: `types` are of its arguments, the sampler first.
     pub(super) fn plain_texture_call(&mut self, builtin: Builtin, types: &[TypeId], loc: Loc) {
-        use Builtin as B;
         let Some(&sampler) = types.first().filter(|_| self.env.is_plain()) else { return };
         let Type::Sampler { scalar, shadow, .. } = self.module.types.get(sampler) else { return };
-        if matches!(builtin, B::TextureSize | B::TexelFetch | B::TexelFetchOffset) {
-            return;
-        }
-        let (name, shown) = (builtin.name(), self.type_name(sampler));
+        let Operation::Sample(form) = builtin.operation else { return };
+        let (name, shown) = (builtin.name, self.type_name(sampler));
         if scalar != Scalar::Float {
             self.error(loc, format!("`{name}` of a `{shown}` is not supported: WebGPU does not sample integers"));
             self.hint("read it with `texelFetch`");
             return;
         }
-        let has_bias = match builtin {
-            B::Texture | B::TextureProj => types.len() > 2,
-            B::TextureOffset | B::TextureProjOffset => types.len() > 3,
-            _ => true,
-        };
-        if shadow && has_bias {
+        let has_level = form.lod != Lod::Implicit || types.len() > 2 + usize::from(form.offset.is_some());
+        if shadow && has_level {
             self.error(
                 loc,
                 format!("`{name}` of a `{shown}` is not supported here: WebGPU compares in no other level"),

@@ -8,7 +8,7 @@ use crate::{
 
 /// Says where qualifiers stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum DeclContext {
     Global,
     Local,
     Param,
@@ -79,19 +79,19 @@ fn text(kind: Q) -> &'static str {
     }
 }
 
-fn fits(kind: Q, place: Place) -> bool {
+fn fits(kind: Q, place: DeclContext) -> bool {
     match kind {
-        Q::Precision(_) => place != Place::Block,
-        Q::Const => matches!(place, Place::Global | Place::Local | Place::Param),
-        Q::In | Q::Out => matches!(place, Place::Global | Place::Param | Place::Block),
-        Q::Inout => place == Place::Param,
-        Q::Uniform | Q::Layout(_) => matches!(place, Place::Global | Place::Block),
-        Q::Flat | Q::Smooth | Q::Centroid | Q::Invariant => place == Place::Global,
+        Q::Precision(_) => place != DeclContext::Block,
+        Q::Const => matches!(place, DeclContext::Global | DeclContext::Local | DeclContext::Param),
+        Q::In | Q::Out => matches!(place, DeclContext::Global | DeclContext::Param | DeclContext::Block),
+        Q::Inout => place == DeclContext::Param,
+        Q::Uniform | Q::Layout(_) => matches!(place, DeclContext::Global | DeclContext::Block),
+        Q::Flat | Q::Smooth | Q::Centroid | Q::Invariant => place == DeclContext::Global,
     }
 }
 
 impl Checker<'_> {
-    pub(super) fn qualifiers(&mut self, list: List<Qualifier>, place: Place) -> Qualifiers {
+    pub(super) fn qualifiers(&mut self, list: List<Qualifier>, place: DeclContext) -> Qualifiers {
         let mut out = Qualifiers::default();
         let mut last: Option<Qualifier> = None;
         let ast = self.ast;
@@ -129,7 +129,7 @@ impl Checker<'_> {
         }
         if out.constant.is_some()
             && let Some((kind, token)) = out.storage
-            && (place != Place::Param || kind != Q::In)
+            && (place != DeclContext::Param || kind != Q::In)
         {
             self.error(token, format!("`const` and `{}` cannot be combined", text(kind)));
             out.constant = None;
@@ -138,20 +138,20 @@ impl Checker<'_> {
     }
 
     #[cold]
-    fn misplaced(&mut self, kind: Q, token: TokenId, place: Place) {
+    fn misplaced(&mut self, kind: Q, token: TokenId, place: DeclContext) {
         let place_name = match place {
-            Place::Global => "a global variable",
-            Place::Local => "a local variable",
-            Place::Param => "a parameter",
-            Place::Field => "a struct's member",
-            Place::Result => "a function's result",
-            Place::Block => "a block",
+            DeclContext::Global => "a global variable",
+            DeclContext::Local => "a local variable",
+            DeclContext::Param => "a parameter",
+            DeclContext::Field => "a struct's member",
+            DeclContext::Result => "a function's result",
+            DeclContext::Block => "a block",
         };
         self.error(token, format!("`{}` is not allowed on {place_name}", text(kind)));
         match (kind, place) {
-            (Q::Uniform, Place::Local | Place::Param) => self.hint("uniforms are declared at file scope"),
-            (Q::In | Q::Out | Q::Inout, Place::Local) => self.hint("remove it: directions belong to parameters"),
-            (Q::Const, Place::Result | Place::Field) => self.hint("remove it"),
+            (Q::Uniform, DeclContext::Local | DeclContext::Param) => self.hint("uniforms are declared at file scope"),
+            (Q::In | Q::Out | Q::Inout, DeclContext::Local) => self.hint("remove it: directions belong to parameters"),
+            (Q::Const, DeclContext::Result | DeclContext::Field) => self.hint("remove it"),
             _ => {}
         }
     }
@@ -229,7 +229,7 @@ impl Checker<'_> {
         if list.is_empty() {
             return;
         }
-        let quals = self.qualifiers(list, Place::Field);
+        let quals = self.qualifiers(list, DeclContext::Field);
         if let Some((_, token)) = quals.precision {
             self.check_precision(&quals, base, token.into());
         }

@@ -206,7 +206,7 @@ impl Checker<'_> {
         let ast = self.ast;
         let DeclKind::Vars { qualifiers, ty, declarators } = ast[decl].kind else { return None };
         let &[declarator] = &ast[declarators] else { return None };
-        let quals = self.qualifiers(qualifiers, super::qualifiers::Place::Local);
+        let quals = self.qualifiers(qualifiers, super::qualifiers::DeclContext::Local);
         let base = self.base_type(ty);
         self.check_precision(&quals, base, ast[ty].loc);
         let init = declarator.init?;

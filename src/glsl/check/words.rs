@@ -18,6 +18,15 @@ pub(super) struct Words {
 }
 
 impl Words {
+    /// So many zeros.
+    pub fn zeros(len: usize) -> Self {
+        Self { len: len as u8, ..Self::default() }
+    }
+
+    pub fn as_mut_slice(&mut self) -> &mut [u32] {
+        &mut self.bits[..usize::from(self.len)]
+    }
+
     pub fn push(&mut self, bits: u32) {
         self.bits[usize::from(self.len)] = bits;
         self.len += 1;

@@ -43,7 +43,7 @@ impl Compact<'_> {
     }
 
     fn append(&mut self, old: Value, op: Op) -> Value {
-        let new = self.new.append(op, self.old.ty(old), self.old.loc(old));
+        let new = self.new.append(op, self.old.ty(old), self.old.origin(old));
         self.map[old.index()] = Some(new);
         new
     }

@@ -20,6 +20,7 @@
 //! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step
 //! by step on the processor.
 
+pub mod analysis;
 mod compact;
 mod ids;
 pub mod infer;
@@ -34,7 +35,7 @@ pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
 
 use super::{
     ast::Loc,
-    builtins::Uniform,
+    builtins::{Builtin, Uniform},
     types::{SamplerDim, Scalar, TypeId, TypeTable},
 };
 
@@ -146,12 +147,26 @@ pub struct Function {
     nodes: Vec<Node>,
 }
 
-/// A value: the operation that computes it, its type, and the part of the text that it is computed for.
+/// A value: the operation that computes it, its type, and what it is computed for.
 #[derive(Clone, Debug)]
 struct Node {
     op: Op,
     ty: TypeId,
-    loc: Loc,
+    origin: Origin,
+}
+
+/// The part of the author's program that a value is computed for. Passes keep it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    pub loc: Loc,
+    /// The built-in function that the operation belongs to: the call became this one, or several.
+    pub builtin: Option<Builtin>,
+}
+
+impl From<Loc> for Origin {
+    fn from(loc: Loc) -> Self {
+        Self { loc, builtin: None }
+    }
 }
 
 /// A parameter.
@@ -285,8 +300,8 @@ impl Function {
     }
 
     /// Appends an op, for a statement to compute, or a free one.
-    pub fn append(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
-        self.nodes.push(Node { op, ty, loc });
+    pub fn append(&mut self, op: Op, ty: TypeId, origin: impl Into<Origin>) -> Value {
+        self.nodes.push(Node { op, ty, origin: origin.into() });
         Value::new(self.nodes.len() - 1)
     }
 
@@ -302,7 +317,12 @@ impl Function {
 
     /// Returns the part of the text that a value is computed for.
     pub fn loc(&self, value: Value) -> Loc {
-        self.nodes[value.index()].loc
+        self.origin(value).loc
+    }
+
+    /// Returns what a value is computed for.
+    pub fn origin(&self, value: Value) -> Origin {
+        self.nodes[value.index()].origin
     }
 
     /// Returns the number of values.

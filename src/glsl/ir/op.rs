@@ -240,6 +240,28 @@ pub enum Math {
     Unpack2x16float,
 }
 
+impl Math {
+    /// Returns whether each component of the result is the function of those of the operands.
+    pub fn is_by_component(self) -> bool {
+        use Math::*;
+        !matches!(
+            self,
+            Cross
+                | Length
+                | Normalize
+                | FaceForward
+                | Determinant
+                | Transpose
+                | Pack2x16snorm
+                | Pack2x16unorm
+                | Pack2x16float
+                | Unpack2x16snorm
+                | Unpack2x16unorm
+                | Unpack2x16float
+        )
+    }
+}
+
 /// A direction in which a value changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {

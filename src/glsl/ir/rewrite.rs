@@ -5,11 +5,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Binary, Block, Function, Module, Op, Stmt, Value, infer};
-use crate::{
-    ast::Loc,
-    types::{Scalar, Type, TypeId},
-};
+use super::{Binary, Block, Function, Module, Op, Origin, Stmt, Value, infer};
+use crate::types::{Scalar, Type, TypeId};
 
 /// A rule that a pass applies to the operations and statements of a function.
 pub trait Rule {
@@ -58,14 +55,14 @@ pub struct Rewriter<'m> {
     map: Vec<Value>,
     /// Made when a rule asks for one; each is one value already.
     literals: Option<FxHashMap<(Scalar, u32), Value>>,
-    /// The place of the operation at hand.
-    loc: Loc,
+    /// That of the operation at hand: what is added for it has the same.
+    origin: Origin,
 }
 
 impl<'m> Rewriter<'m> {
     fn new(module: &'m Module, f: Function) -> Self {
         let map = (0..f.len()).map(Value::new).collect();
-        Self { module, f, out: Block::new(), start: Block::new(), map, literals: None, loc: Loc::default() }
+        Self { module, f, out: Block::new(), start: Block::new(), map, literals: None, origin: Origin::default() }
     }
 
     fn run(mut self, rule: &mut impl Rule) -> Function {
@@ -87,7 +84,7 @@ impl<'m> Rewriter<'m> {
     }
 
     pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
-        let value = self.f.append(op, ty, self.loc);
+        let value = self.f.append(op, ty, self.origin);
         self.out.push(Stmt::Let(value));
         value
     }
@@ -133,8 +130,8 @@ impl<'m> Rewriter<'m> {
             _ => None,
         };
         let literals = self.literals.get_or_insert_with(|| self.f.values().filter_map(literal).collect());
-        let (f, loc) = (&mut self.f, self.loc);
-        let new = || f.append(Op::Literal(scalar, bits), TypeId::vector(scalar, 1), loc);
+        let (f, origin) = (&mut self.f, self.origin);
+        let new = || f.append(Op::Literal(scalar, bits), TypeId::vector(scalar, 1), origin);
         *literals.entry((scalar, bits)).or_insert_with(new)
     }
 
@@ -157,7 +154,7 @@ impl<'m> Rewriter<'m> {
                 // Taken out, so that the rule sees it while it changes the function.
                 let mut op = self.f.replace(value, Op::OpaqueZero);
                 op.operands_mut(|operand| *operand = self.value(*operand));
-                self.loc = self.f.loc(value);
+                self.origin = self.f.origin(value);
                 let other = rule.operation(self, value, &op);
                 self.f.replace(value, op);
                 match other {

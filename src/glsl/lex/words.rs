@@ -10,7 +10,7 @@ use crate::{
 };
 use std::sync::LazyLock;
 
-const FIRST_TYPE: u32 = (Builtin::ALL.len() + Uniform::ALL.len()) as u32;
+const FIRST_TYPE: u32 = (Builtin::COUNT + Uniform::ALL.len()) as u32;
 const FIRST_KEYWORD: u32 = FIRST_TYPE + BasicType::ALL.len() as u32 + TYPE_ALIASES.len() as u32;
 const FIRST_RESERVED: u32 = FIRST_KEYWORD + KEYWORDS.len() as u32;
 const END: u32 = FIRST_RESERVED + RESERVED.len() as u32;
@@ -93,7 +93,7 @@ pub(crate) enum Meaning {
 pub(crate) fn meaning(name: &str) -> Option<Meaning> {
     let symbol = seeded().find(name)?.0;
     Some(match symbol {
-        _ if symbol < Builtin::ALL.len() as u32 => Meaning::Builtin,
+        _ if symbol < Builtin::COUNT as u32 => Meaning::Builtin,
         _ if symbol < FIRST_TYPE => Meaning::Uniform,
         _ if symbol < FIRST_KEYWORD => Meaning::Type,
         _ => Meaning::Keyword,
@@ -108,9 +108,8 @@ pub(crate) fn interner() -> Interner {
 fn seeded() -> &'static Interner {
     static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
         Interner::seeded(
-            Builtin::ALL
-                .iter()
-                .map(|b| b.name())
+            Builtin::all()
+                .map(|builtin| builtin.row().name)
                 .chain(Uniform::ALL.iter().map(|u| u.name()))
                 .chain(BasicType::ALL.iter().map(|t| t.name()))
                 .chain(TYPE_ALIASES.iter().map(|a| a.0))

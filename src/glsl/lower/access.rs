@@ -3,6 +3,7 @@
 use super::{
     context::const_id,
     function::{Builder, Slot},
+    names::Precondition,
 };
 use crate::{
     hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
@@ -275,13 +276,16 @@ impl Builder<'_, '_> {
     /// Returns an index, clamped to `0..len`: WebGL lets no index stray, and clamping is what its implementations do.
     fn index(&mut self, index: ExprId, len: u32) -> Value {
         let value = self.value(index);
-        if self.cx.hir[index].ty == TypeId::UINT {
+        let clamped = if self.cx.hir[index].ty == TypeId::UINT {
             let last = self.literal(Scalar::Uint, len - 1);
-            return self.math2(Math::Min, value, last);
-        }
-        let (zero, last) = (self.literal(Scalar::Int, 0), self.literal(Scalar::Int, len - 1));
-        let value = self.math2(Math::Max, value, zero);
-        self.math2(Math::Min, value, last)
+            self.math2(Math::Min, value, last)
+        } else {
+            let (zero, last) = (self.literal(Scalar::Int, 0), self.literal(Scalar::Int, len - 1));
+            let positive = self.math2(Math::Max, value, zero);
+            self.math2(Math::Min, positive, last)
+        };
+        self.note(clamped, || Precondition::Index(value, len));
+        clamped
     }
 
     /// Components of a vector, or a scalar alone.

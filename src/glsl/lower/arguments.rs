@@ -52,7 +52,7 @@ pub(super) struct Arguments {
     specializable: Vec<Vec<LocalId>>,
     /// The number of expressions that name each constant, by [`ConstId::index`].
     named: Vec<u32>,
-    /// See [`Options::table`](super::options::Options::table).
+    /// See [`Options::table`](super::context::Options::table).
     table: usize,
 }
 

@@ -1,7 +1,12 @@
 //! Built-in functions of chapter 8, textures excepted.
 
-use super::function::{Builder, PartOf};
+use super::{
+    function::{Builder, PartOf},
+    names::Precondition,
+    operators::Typed,
+};
 use crate::{
+    builtins::Operation,
     hir::{Builtin, ExprId, Scalar, TypeId},
     ir::{Axis, Binary, Block, Math, Op, Stmt, Value},
 };
@@ -21,190 +26,116 @@ impl Builder<'_, '_> {
 
     /// Calls a built-in of result type `ty`; `None` for void ones.
     pub fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
-        if builtin.is_texture() {
-            return Some(self.texture(builtin, ty, args));
-        }
-        match builtin {
-            Builtin::Modf => return Some(self.modf(args)),
-            Builtin::StAssert => {
+        match builtin.operation {
+            Operation::Modf => return Some(self.modf(args)),
+            Operation::Assert => {
                 self.st_assert(args);
                 return None;
             }
+            operation if builtin.is_texture() => return Some(self.texture(operation, ty, args)),
             _ => {}
         }
-        let hir = self.cx.hir;
-        let mut values = [None; 3];
-        for (value, &arg) in values.iter_mut().zip(args) {
-            *value = Some((hir[arg].ty, self.value(arg)));
+        let mut values = [self.typed(args[0]); 3];
+        for (value, &arg) in values.iter_mut().zip(args).skip(1) {
+            *value = self.typed(arg);
         }
-        let (first_ty, a) = values[0].expect("every built-in has an argument");
-        Some(match (values[1], values[2]) {
-            (None, _) => self.unary_builtin(builtin, first_ty, a),
-            (Some(b), None) => self.binary_builtin(builtin, ty, (first_ty, a), b),
-            (Some((_, b)), Some(c)) => self.ternary_builtin(builtin, ty, (first_ty, a), b, c),
-        })
+        let values = &values[..args.len()];
+        self.builtin = Some(builtin);
+        let value = self.operation(builtin.operation, ty, values);
+        self.builtin = None;
+        if !builtin.gaps.is_empty() {
+            self.note(value, || Precondition::Call(builtin, values.iter().map(|arg| arg.1).collect()));
+        }
+        Some(value)
     }
 
-    fn unary_builtin(&mut self, builtin: Builtin, ty: TypeId, a: Value) -> Value {
-        use Builtin as B;
-        let fun = match builtin {
-            B::Radians => Math::Radians,
-            B::Degrees => Math::Degrees,
-            B::Sin => Math::Sin,
-            B::Cos => Math::Cos,
-            B::Tan => Math::Tan,
-            B::Asin => Math::Asin,
-            B::Acos => Math::Acos,
-            B::Atan => Math::Atan,
-            B::Sinh => Math::Sinh,
-            B::Cosh => Math::Cosh,
-            B::Tanh => Math::Tanh,
-            B::Asinh => Math::Asinh,
-            B::Acosh => Math::Acosh,
-            B::Atanh => Math::Atanh,
-            B::Exp => Math::Exp,
-            B::Log => Math::Log,
-            B::Exp2 => Math::Exp2,
-            B::Log2 => Math::Log2,
-            B::Sqrt => Math::Sqrt,
-            B::InverseSqrt => Math::InverseSqrt,
-            B::Abs => Math::Abs,
-            B::Sign => Math::Sign,
-            B::Floor => Math::Floor,
-            B::Trunc => Math::Trunc,
-            // `round` may go either way at halves.
-            B::Round | B::RoundEven => Math::Round,
-            B::Ceil => Math::Ceil,
-            B::Fract => Math::Fract,
-            B::Transpose => Math::Transpose,
-            B::PackSnorm2x16 => Math::Pack2x16snorm,
-            B::PackUnorm2x16 => Math::Pack2x16unorm,
-            B::PackHalf2x16 => Math::Pack2x16float,
-            B::UnpackSnorm2x16 => Math::Unpack2x16snorm,
-            B::UnpackUnorm2x16 => Math::Unpack2x16unorm,
-            B::UnpackHalf2x16 => Math::Unpack2x16float,
-            // A unit "vector" of one component is its sign.
-            B::Normalize if ty == TypeId::FLOAT => Math::Sign,
-            B::Normalize => return self.normalize(ty, a),
-            B::Length => return self.length(ty, a),
-            B::Inverse => return self.inverse(ty, a),
-            B::Determinant => return self.determinant(ty, a),
-            B::FloatBitsToInt => return self.bitcast(a, Scalar::Int),
-            B::FloatBitsToUint => return self.bitcast(a, Scalar::Uint),
-            B::IntBitsToFloat | B::UintBitsToFloat => return self.bitcast(a, Scalar::Float),
-            B::IsNan => return self.exponent_test(Binary::Greater, ty, a),
-            B::IsInf => return self.exponent_test(Binary::Equal, ty, a),
-            B::Not => return self.not(a),
-            B::Any | B::All => {
-                return self.add(if builtin == B::Any { Op::Any(a) } else { Op::All(a) });
-            }
-            B::DFdx => return self.derivative(Axis::X, a),
-            B::DFdy => return self.derivative(Axis::Y, a),
-            B::Fwidth => return self.derivative(Axis::Width, a),
-            other => unreachable!("{other:?} takes more than one argument"),
-        };
-        self.math(fun, a)
+    fn typed(&mut self, expr: ExprId) -> Typed {
+        (self.cx.hir[expr].ty, self.value(expr))
     }
 
-    /// `ty` is the result's; one side may be a scalar where it is a vector.
-    fn binary_builtin(
-        &mut self,
-        builtin: Builtin,
-        ty: TypeId,
-        (a_ty, a): (TypeId, Value),
-        b: (TypeId, Value),
-    ) -> Value {
-        use Builtin as B;
-        let (b_ty, b) = b;
-        let fit = |this: &mut Self, value, from| if from == ty { value } else { this.splat(value, ty) };
-        match builtin {
-            B::Atan => self.math2(Math::Atan2, a, b),
-            B::Pow => self.math2(Math::Pow, a, b),
-            B::Min | B::Max => {
-                let b = fit(self, b, b_ty);
-                self.math2(if builtin == B::Min { Math::Min } else { Math::Max }, a, b)
+    /// `ty` is the result's.
+    fn operation(&mut self, operation: Operation, ty: TypeId, args: &[Typed]) -> Value {
+        use Operation as O;
+        match (operation, args) {
+            (O::Function(fun), _) => self.function(fun, ty, args),
+            (O::Compare(Binary::NotEqual), &[(_, a), (_, b)]) => {
+                // Not `!=`: naga's is false for NaN.
+                let equal = self.op(Binary::Equal, a, b);
+                self.not(equal)
             }
-            B::Step => {
-                // Zero for NaN on either side, as OpenGL drivers have it; SPIR-V's `Step` may say one.
-                let a = fit(self, a, a_ty);
-                let reached = self.op(Binary::GreaterEqual, b, a);
-                self.add(Op::Convert { value: reached, to: Scalar::Float })
-            }
-            B::Mod => {
+            (O::Compare(op), &[(_, a), (_, b)]) => self.op(op, a, b),
+            (O::Bitcast(to), &[(_, a)]) => self.bitcast(a, to),
+            (O::Derivative(axis), &[(_, a)]) => self.derivative(axis, a),
+            (O::Any, &[(_, a)]) => self.add(Op::Any(a)),
+            (O::All, &[(_, a)]) => self.add(Op::All(a)),
+            (O::Not, &[(_, a)]) => self.not(a),
+            (O::Exponent(op), &[(ty, a)]) => self.exponent_test(op, ty, a),
+            (O::Atan, &[(_, x)]) => self.math(Math::Atan, x),
+            (O::Atan, &[(_, y), (_, x)]) => self.math2(Math::Atan2, y, x),
+            (O::Modulo, &[(_, a), b]) => {
                 // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the
                 // product, and x is left: shaders repeat space along some axes alone by it, so that divisor must stay
                 // in sight.
-                let b = fit(self, b, b_ty);
+                let b = self.splat_to(b.1, b.0, ty);
                 let quotient = self.op(Binary::Divide, a, b);
                 let whole = self.math(Math::Floor, quotient);
                 let multiple = self.op(Binary::Multiply, b, whole);
                 self.op(Binary::Subtract, a, multiple)
             }
-            B::Distance => {
-                let difference = self.op(Binary::Subtract, a, b);
-                self.length(a_ty, difference)
-            }
-            B::Dot => self.dot(a_ty, a, b),
-            B::Cross => self.math2(Math::Cross, a, b),
-            B::Reflect => self.reflect(ty, a, b),
-            B::MatrixCompMult => self.matrix_comp_mult(a_ty, a, b),
-            B::OuterProduct => self.outer_product(ty, b_ty, a, b),
-            B::LessThan => self.op(Binary::Less, a, b),
-            B::LessThanEqual => self.op(Binary::LessEqual, a, b),
-            B::GreaterThan => self.op(Binary::Greater, a, b),
-            B::GreaterThanEqual => self.op(Binary::GreaterEqual, a, b),
-            B::Equal => self.op(Binary::Equal, a, b),
-            B::NotEqual => {
-                // Not `!=`: naga's is false for NaN.
-                let equal = self.op(Binary::Equal, a, b);
-                self.not(equal)
-            }
-            other => unreachable!("{other:?} does not take two arguments"),
-        }
-    }
-
-    fn ternary_builtin(
-        &mut self,
-        builtin: Builtin,
-        ty: TypeId,
-        a: (TypeId, Value),
-        b: Value,
-        c: (TypeId, Value),
-    ) -> Value {
-        use Builtin as B;
-        let ((a_ty, a), (c_ty, c)) = (a, c);
-        match builtin {
-            B::Clamp => {
-                // The limits have one type, that of the first argument or its component's.
-                let spread = c_ty != ty;
-                let (b, c) = if spread { (self.splat(b, ty), self.splat(c, ty)) } else { (b, c) };
-                self.math3(Math::Clamp, a, b, c)
-            }
-            B::Mix => match self.cx.hir.types.scalar(c_ty) {
+            (O::Mix, &[(_, a), (_, b), (c_ty, c)]) => match self.cx.hir.types.scalar(c_ty) {
                 Some(Scalar::Bool) => self.select(c, b, a),
                 _ => {
-                    let c = if c_ty == ty { c } else { self.splat(c, ty) };
+                    let c = self.splat_to(c, c_ty, ty);
                     self.math3(Math::Mix, a, b, c)
                 }
             },
-            B::Smoothstep => {
-                // The edges have one type; the third argument has the result's.
-                let spread = a_ty != ty;
-                let (a, b) = if spread { (self.splat(a, ty), self.splat(b, ty)) } else { (a, b) };
-                self.smoothstep(ty, a, b, c)
+            (O::Step, &[(a_ty, a), (_, b)]) => {
+                // Zero for NaN on either side, as OpenGL drivers have it; SPIR-V's `Step` may say one.
+                let a = self.splat_to(a, a_ty, ty);
+                let reached = self.op(Binary::GreaterEqual, b, a);
+                self.add(Op::Convert { value: reached, to: Scalar::Float })
             }
-            B::FaceForward if ty == TypeId::FLOAT => {
-                let product = self.op(Binary::Multiply, c, b);
+            (O::Smoothstep, &[a, b, (_, x)]) => {
+                let [a, b] = [a, b].map(|(edge_ty, edge)| self.splat_to(edge, edge_ty, ty));
+                self.smoothstep(ty, a, b, x)
+            }
+            (O::Length, &[(ty, a)]) => self.length(ty, a),
+            (O::Distance, &[(ty, a), (_, b)]) => {
+                let difference = self.op(Binary::Subtract, a, b);
+                self.length(ty, difference)
+            }
+            (O::Dot, &[(ty, a), (_, b)]) => self.dot(ty, a, b),
+            // A unit "vector" of one component is its sign.
+            (O::Normalize, &[(TypeId::FLOAT, a)]) => self.math(Math::Sign, a),
+            (O::Normalize, &[(ty, a)]) => self.normalize(ty, a),
+            (O::FaceForward, &[(TypeId::FLOAT, n), (_, i), (_, reference)]) => {
+                let product = self.op(Binary::Multiply, reference, i);
                 let zero = self.float(0.0);
                 let faces = self.op(Binary::Less, product, zero);
                 let minus = self.float(-1.0);
-                let turned = self.op(Binary::Multiply, a, minus);
-                self.select(faces, a, turned)
+                let turned = self.op(Binary::Multiply, n, minus);
+                self.select(faces, n, turned)
             }
-            B::FaceForward => self.math3(Math::FaceForward, a, b, c),
-            B::Refract => self.refract(ty, a, b, c),
-            other => unreachable!("{other:?} does not take three arguments"),
+            (O::FaceForward, &[(_, n), (_, i), (_, reference)]) => self.math3(Math::FaceForward, n, i, reference),
+            (O::Reflect, &[(_, i), (_, n)]) => self.reflect(ty, i, n),
+            (O::Refract, &[(_, i), (_, n), (_, eta)]) => self.refract(ty, i, n, eta),
+            (O::MatrixCompMult, &[(ty, a), (_, b)]) => self.matrix_comp_mult(ty, a, b),
+            (O::OuterProduct, &[(_, a), (b_ty, b)]) => self.outer_product(ty, b_ty, a, b),
+            (O::Determinant, &[(ty, a)]) => self.determinant(ty, a),
+            (O::Inverse, &[(ty, a)]) => self.inverse(ty, a),
+            (other, _) => unreachable!("{other:?} does not take {} arguments", args.len()),
         }
+    }
+
+    /// Adds a function of the intermediate representation.
+    fn function(&mut self, fun: Math, ty: TypeId, args: &[Typed]) -> Value {
+        let mut values = [None; 3];
+        for (value, &(arg_ty, arg)) in values.iter_mut().zip(args) {
+            *value = Some(if fun.is_by_component() { self.splat_to(arg, arg_ty, ty) } else { arg });
+        }
+        let [arg, arg1, arg2] = values;
+        let arg = arg.expect("every built-in has an argument");
+        self.add(Op::Math { fun, arg, arg1, arg2, arg3: None })
     }
 
     /// Adds `isnan` or `isinf` by the bits: a driver that takes all floats for finite folds the tests themselves away.

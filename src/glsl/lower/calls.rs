@@ -8,7 +8,7 @@ use super::{
     access::Place,
     arguments::{Instance, Passed, Specialization, last_effect},
     function::{Builder, Slot},
-    writes,
+    walk as writes,
 };
 use crate::{
     hir::{ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, TypeId},

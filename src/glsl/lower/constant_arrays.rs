@@ -11,7 +11,7 @@
 //! table can stand for a parameter, and then its function has a copy for it ([`super::arguments`]). Behind lowering
 //! each call would copy the array.
 
-use super::writes;
+use super::walk as writes;
 use crate::{
     ast::List,
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},

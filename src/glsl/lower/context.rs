@@ -1,11 +1,8 @@
-//! State of lowering one module.
-
-use rustc_hash::FxHashMap;
+//! Options and state of lowering one module.
 
 use super::{
     arguments::{Arguments, Instance},
     names::{Marks, Names},
-    options::Options,
 };
 use crate::{
     PassSource, Reflection,
@@ -13,6 +10,7 @@ use crate::{
     ir::{self, GlobalKind, layout::Layouts},
     stages::Interface,
 };
+use rustc_hash::FxHashMap;
 
 /// State of lowering one module. What belongs to one function is in [`super::function::Builder`].
 pub(super) struct Lowering<'a> {
@@ -94,4 +92,14 @@ impl Probed {
         let visits = out.add_global(hir::TypeId::INT, GlobalKind::Private(None));
         Self { expr, visit, value, components, visits }
     }
+}
+
+/// The layout of a program, for who comes behind lowering. None of it changes what the program computes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Options {
+    /// The scalars from which on an array or structure is passed by reference; `None`: each is passed by value where it
+    /// can be.
+    pub by_reference: Option<u32>,
+    /// The scalars from which on a constant that is passed by one call alone stands for the parameter.
+    pub table: usize,
 }

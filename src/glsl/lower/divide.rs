@@ -9,7 +9,7 @@
 //!
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
-use super::{function::Builder, operators::Typed};
+use super::{function::Builder, names::Precondition, operators::Typed};
 use crate::{
     hir::{BinaryOp, Scalar, Shape, TypeId},
     ir::{Binary, Math, Op, Value},
@@ -56,6 +56,9 @@ impl Builder<'_, '_> {
                 self.select(bad, one, divisor)
             }
         };
+        if zero {
+            self.note(safe, || Precondition::Divisor(divisor));
+        }
         match op {
             BinaryOp::Rem => self.op(Binary::Modulo, dividend, safe),
             _ => {
@@ -76,7 +79,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Equal, divisor, minus_one)
     }
 
-    fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
+    pub fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
         if from == ty { value } else { self.splat(value, ty) }
     }
 

@@ -33,21 +33,19 @@ mod geometry;
 mod matrix;
 mod names;
 mod operators;
-mod options;
 mod probe;
 mod reachable;
 mod resources;
 mod stage;
 mod texture;
 mod walk;
-mod writes;
 
 use rustc_hash::FxHashMap;
 
+pub use self::names::{Precondition, StatementEvent};
 pub(crate) use self::{
     constant_arrays::arrays_to_constants,
-    names::{FunctionNames, Mark, Marks, Names},
-    options::Options,
+    names::{FunctionNames, Marks, Names},
     reachable::reached,
 };
 use self::{
@@ -60,6 +58,7 @@ use super::{
     plain::{self, Resources},
     stages::Interface,
 };
+pub(crate) use crate::lower::context::Options;
 
 /// The result of lowering.
 pub(crate) struct Lowered {

@@ -1,10 +1,8 @@
 //! Names of the author's, for who shows a program while it runs.
 
-use crate::{
-    ast::Symbol,
-    hir::{LocalId, StmtId},
-    ir,
-};
+use rustc_hash::FxHashMap;
+
+use crate::{ast::Symbol, builtins::Builtin, hir::LocalId, ir};
 
 /// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
 #[derive(Debug, Default)]
@@ -12,6 +10,8 @@ pub(crate) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
     pub globals: Vec<(Symbol, ir::GlobalId)>,
+    /// By function and value: only where they are asked for.
+    pub preconditions: FxHashMap<(ir::FuncId, ir::Value), Precondition>,
     /// The members of each structure, by [`StructId::index`](crate::types::StructId::index).
     pub members: Vec<Vec<Symbol>>,
 }
@@ -28,26 +28,41 @@ pub(crate) struct FunctionNames {
     /// The variables of `locals`, in the same order.
     pub ids: Vec<LocalId>,
     /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
-    pub marks: Vec<(ir::Value, Mark)>,
+    pub marks: Vec<(ir::Value, StatementEvent)>,
 }
 
-/// A part of the text that control comes to.
+/// Operands that GLSL leaves a result undefined for. It is noted of the operation that lowering keeps the device from
+/// them by, or of the result.
+#[derive(Clone, Debug)]
+pub enum Precondition {
+    /// Arguments of a built-in function are in none of its gaps.
+    Call(Builtin, Vec<ir::Value>),
+    /// The divisor of integers is not zero.
+    Divisor(ir::Value),
+    /// The bits that a shift goes by are fewer than there are.
+    Distance(ir::Value),
+    /// An index is below a length.
+    Index(ir::Value, u32),
+}
+
+/// Control comes to a part of a statement, which [`Statements`](crate::statements::Statements) tells of by this number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mark {
-    /// A statement begins.
-    Statement(StmtId),
-    /// A loop begins a turn: with its test, if that stands before its body.
-    Turn(StmtId),
+pub enum StatementEvent {
+    /// It begins.
+    Begin(u32),
+    /// A loop begins an iteration: with its test, if that stands before its body.
+    Iteration(u32),
     /// A loop comes to the test behind its body.
-    Test(StmtId),
-    /// A loop comes to what it does between two turns.
-    Step(StmtId),
+    Test(u32),
+    /// A loop comes to what it does between two iterations.
+    Step(u32),
 }
 
 /// Marks in a program for who walks through it; a device needs none.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Marks {
-    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]).
+    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]), and
+    /// preconditions are noted ([`Names::preconditions`]).
     pub undefined: bool,
     /// The beginning of each statement is marked ([`FunctionNames::marks`]).
     pub statements: bool,

@@ -1,6 +1,6 @@
 //! Operators, assignments, equality.
 
-use super::function::Builder;
+use super::{function::Builder, names::Precondition};
 use crate::{
     hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp},
     ir::{Binary, Op, Unary, Value},
@@ -141,7 +141,9 @@ impl Builder<'_, '_> {
         if !small {
             let size = self.extent(right.0) as u8;
             let mask = self.int_of(TypeId::vector(Scalar::Uint, size), 31);
-            by = self.op(Binary::And, by, mask);
+            let low = self.op(Binary::And, by, mask);
+            self.note(low, || Precondition::Distance(by));
+            by = low;
         }
         if self.extent(right.0) == 1 {
             by = self.splat(by, left.0);

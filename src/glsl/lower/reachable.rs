@@ -8,8 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::{
     arguments::{Arguments, Instance, Passed, Specialization},
-    walk::{Node, parts},
-    writes,
+    walk::{self as writes, Node, parts},
 };
 use crate::{
     ast::List,

@@ -19,11 +19,11 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
         cx.interface.inputs.iter().copied().filter(|(id, _)| reachable.globals[id.index()]).collect();
     cx.reflection.varyings = cx.interface.varyings.clone();
     if cx.source.kind.is_plain() {
-        let [mut told_in, mut told_out] = cx.interface.told.clone();
-        told_in.retain(|variable| inputs.iter().any(|(_, location)| *location == variable.location));
-        told_in.sort_by_key(|variable| variable.location);
-        told_out.sort_by_key(|variable| variable.location);
-        (cx.reflection.shader.inputs, cx.reflection.shader.outputs) = (told_in, told_out);
+        let [mut read, mut written] = cx.interface.variables.clone();
+        read.retain(|variable| inputs.iter().any(|(_, location)| *location == variable.location));
+        read.sort_by_key(|variable| variable.location);
+        written.sort_by_key(|variable| variable.location);
+        (cx.reflection.shader.inputs, cx.reflection.shader.outputs) = (read, written);
     } else if is_vertex {
         let read = |a: &Attribute| inputs.iter().any(|(_, location)| *location == a.location());
         cx.reflection.attributes = Attribute::ALL.into_iter().filter(read).collect();

@@ -2,52 +2,19 @@
 
 use super::function::Builder;
 use crate::{
-    hir::{Builtin, ExprId, ExprKind, SamplerDim, Scalar, Swizzle, TypeId},
+    builtins::{Form, Lod, Operation},
+    hir::{ExprId, ExprKind, SamplerDim, Scalar, Swizzle, TypeId},
     ir::{Binary, Level, Op, Value},
 };
 
-/// The differences between the sampling functions.
-struct Form {
-    /// The coordinate's last component divides.
-    proj: bool,
-    offset: bool,
-    level: LevelForm,
-}
-
-enum LevelForm {
-    /// With or without a bias at the end.
-    Implicit,
-    Lod,
-    Grad,
-}
-
-fn form(builtin: Builtin) -> Form {
-    use Builtin as B;
-    let (proj, offset, level) = match builtin {
-        B::Texture => (false, false, LevelForm::Implicit),
-        B::TextureOffset => (false, true, LevelForm::Implicit),
-        B::TextureProj => (true, false, LevelForm::Implicit),
-        B::TextureProjOffset => (true, true, LevelForm::Implicit),
-        B::TextureLod => (false, false, LevelForm::Lod),
-        B::TextureLodOffset => (false, true, LevelForm::Lod),
-        B::TextureProjLod => (true, false, LevelForm::Lod),
-        B::TextureProjLodOffset => (true, true, LevelForm::Lod),
-        B::TextureGrad => (false, false, LevelForm::Grad),
-        B::TextureGradOffset => (false, true, LevelForm::Grad),
-        B::TextureProjGrad => (true, false, LevelForm::Grad),
-        B::TextureProjGradOffset => (true, true, LevelForm::Grad),
-        other => unreachable!("{other:?} does not sample"),
-    };
-    Form { proj, offset, level }
-}
-
 impl Builder<'_, '_> {
-    pub fn texture(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Value {
+    /// Calls a function whose operation reads a texture.
+    pub fn texture(&mut self, operation: Operation, ty: TypeId, args: &[ExprId]) -> Value {
         let channel = self.channel(args[0]);
-        match builtin {
-            Builtin::TextureSize => self.texture_size(channel, ty, args[1]),
-            Builtin::TexelFetch | Builtin::TexelFetchOffset => self.texel_fetch(channel, args),
-            _ => self.sample(channel, form(builtin), args),
+        match operation {
+            Operation::Sample(form) => self.sample(channel, form, args),
+            Operation::Fetch { .. } => self.texel_fetch(channel, args),
+            _ => self.texture_size(channel, ty, args[1]),
         }
     }
 
@@ -103,21 +70,21 @@ impl Builder<'_, '_> {
         let mut rest = args[2..].iter().copied();
         let mut next = || rest.next();
         let mut coordinate = self.value(args[1]);
-        let mut level = match form.level {
-            LevelForm::Implicit => Level::Auto,
-            LevelForm::Lod => {
+        let mut level = match form.lod {
+            Lod::Implicit => Level::Auto,
+            Lod::Exact => {
                 let lod = next().expect("a level");
                 let is_base = self.literal_bits(lod).is_some_and(|bits| f32::from_bits(bits) == 0.0);
                 self.cx.reflection.channel(channel).mips |= !is_base;
                 Level::Exact(self.value(lod))
             }
-            LevelForm::Grad => {
+            Lod::Gradient => {
                 let (x, y) = (next().expect("a gradient"), next().expect("a gradient"));
                 Level::Gradient { x: self.value(x), y: self.value(y) }
             }
         };
-        let offset = if form.offset { next() } else { None };
-        if let (LevelForm::Implicit, Some(bias)) = (form.level, next()) {
+        let offset = form.offset.and_then(|_| next());
+        if let (Lod::Implicit, Some(bias)) = (form.lod, next()) {
             level = Level::Bias(self.value(bias));
         }
         if self.cx.source.kind.is_vertex() && matches!(level, Level::Auto | Level::Bias(_)) {
@@ -130,7 +97,7 @@ impl Builder<'_, '_> {
             }
             Level::Exact(_) => {}
         }
-        if form.proj {
+        if form.is_projected {
             coordinate = self.divide_by_last(coordinate, hir[args[1]].ty, self.dimensions(channel));
         }
         let offset = offset.map(|offset| self.constant_offset(offset));

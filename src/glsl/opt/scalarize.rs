@@ -28,7 +28,7 @@ impl Rule for Scalarize {
             Op::Binary { op, .. } => {
                 matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide)
             }
-            Op::Math { fun, .. } => is_by_component(fun),
+            Op::Math { fun, .. } => fun.is_by_component() && !is_hyperbolic(fun),
             _ => false,
         };
         if !by_component {
@@ -64,39 +64,8 @@ fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     }
 }
 
-/// Returns whether a function works on each component alone.
-fn is_by_component(fun: Math) -> bool {
+/// Drivers write these out themselves (`spirv_to_nir` in Mesa), so they stay whole.
+fn is_hyperbolic(fun: Math) -> bool {
     use Math::*;
-    matches!(
-        fun,
-        Radians
-            | Degrees
-            | Sin
-            | Cos
-            | Tan
-            | Asin
-            | Acos
-            | Atan
-            | Atan2
-            | Exp
-            | Log
-            | Exp2
-            | Log2
-            | Sqrt
-            | InverseSqrt
-            | Abs
-            | Sign
-            | Floor
-            | Trunc
-            | Round
-            | Ceil
-            | Fract
-            | Pow
-            | Min
-            | Max
-            | Clamp
-            | Saturate
-            | SmoothStep
-            | Mix
-    )
+    matches!(fun, Sinh | Cosh | Tanh | Asinh | Acosh | Atanh)
 }

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 
 use crate::{
     ast::Loc,
-    ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId},
+    ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId, analysis::stores},
     types::{Scalar, Type, TypeId},
 };
 
@@ -222,7 +222,7 @@ impl Unroller<'_> {
                 }
                 let mut op = self.f[value].clone();
                 op.operands_mut(|operand| *operand = copy.value(*operand));
-                let new = self.f.append(op, self.f.ty(value), self.f.loc(value));
+                let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
                 if self.elements.binary_search(&value).is_ok() {
                     self.elements.push(new);
                 }
@@ -298,18 +298,9 @@ fn size(block: &Block) -> usize {
 
 /// Drops what a statement may write.
 fn forget(f: &Function, stmt: &Stmt, known: &mut FxHashMap<VarId, i32>) {
-    let mut drop = |place: Value| {
+    stores(f, std::slice::from_ref(stmt), &mut |place| {
         if let Op::Var(var) = f[f.root(place)] {
             known.remove(&var);
         }
-    };
-    match stmt {
-        Stmt::Store { place, .. } => drop(*place),
-        Stmt::Let(value) => {
-            if let Op::Call { args, .. } = &f[*value] {
-                args.iter().copied().filter(|&arg| f.is_place(arg)).for_each(drop);
-            }
-        }
-        _ => stmt.blocks(|block| block.iter().for_each(|stmt| forget(f, stmt, known))),
-    }
+    });
 }

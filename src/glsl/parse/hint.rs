@@ -1,14 +1,18 @@
 //! Words of other languages (HLSL, WGSL, C++, JavaScript, desktop GLSL).
 
-use crate::ast::BasicType;
+use crate::{ast::BasicType, preprocess::Unit};
 
 /// Returns the mend for a reserved word, where another than a new name.
-pub(super) fn reserved(word: &str) -> Option<&'static str> {
+pub(super) fn reserved(word: &str, unit: Unit) -> Option<&'static str> {
     Some(match word {
         "static" => "remove it: use `const`",
         "inline" | "noinline" => "remove it: the compiler decides",
         "public" | "extern" | "external" | "volatile" => "remove it",
-        "attribute" | "varying" => "GLSL ES 3.00 uses `in` and `out` instead; a pass needs neither",
+        "attribute" | "varying" => match unit {
+            Unit::Pass(kind) if kind.is_vertex() && word == "varying" => "GLSL ES 3.00 uses `out` instead",
+            Unit::Pass(kind) if kind.is_stage() => "GLSL ES 3.00 uses `in` instead",
+            _ => "GLSL ES 3.00 uses `in` and `out` instead; a pass needs neither",
+        },
         "double" | "half" | "fixed" => "GLSL ES has only `float`",
         "long" | "short" => "GLSL ES has only `int` and `uint`",
         "unsigned" => "the unsigned type is `uint`",

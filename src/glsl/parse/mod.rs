@@ -133,17 +133,18 @@ fn read_here(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
         names: &names,
         report: &mut report,
         pieces,
+        unit,
         depth: 0,
         levels: 0,
         expr_stack: Vec::new(),
         stmt_stack: Vec::new(),
         declarators: Vec::new(),
         last_error: is_cut.then_some(end),
-        reserved_told: Vec::new(),
+        reported_reserved: Vec::new(),
         structs,
         body: None,
         adrift: false,
-        too_deep_told: false,
+        reported_too_deep: false,
     };
     parser.ast.exprs.reserve((end - begin) / 2);
     parser.file();

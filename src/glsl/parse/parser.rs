@@ -5,7 +5,7 @@ use crate::{
     ast::{Ast, Declarator, ExprId, ExprKind, Ident, Interner, Loc, MAX_NESTING, Origins, StmtId, Symbol, TokenId},
     lex::Kind,
     pieces::Piece,
-    preprocess::Tok,
+    preprocess::{Tok, Unit},
     report::Report,
 };
 
@@ -23,6 +23,7 @@ pub(super) struct Parser<'p> {
     pub names: &'p Interner,
     pub report: &'p mut Report,
     pub pieces: &'p [Piece<'p>],
+    pub unit: Unit,
     /// Statements around the next token.
     pub depth: u32,
     /// Parentheses, operators and calls around it in its expression.
@@ -35,14 +36,14 @@ pub(super) struct Parser<'p> {
     /// Token of the last error.
     pub last_error: Option<usize>,
     /// Reserved words that were reported.
-    pub reserved_told: Vec<u32>,
+    pub reported_reserved: Vec<u32>,
     /// Says whether a struct has the name, by symbol.
     pub structs: Vec<bool>,
     /// The opening brace of the function that is being read, and its name.
     pub body: Option<(usize, Ident)>,
     /// A brace too many left the parser outside of functions; said once.
     pub adrift: bool,
-    pub too_deep_told: bool,
+    pub reported_too_deep: bool,
 }
 
 /// Section 3.9 leaves the limit open; WebGL 2 has this one.
@@ -122,7 +123,7 @@ impl Parser<'_> {
 
     #[cold]
     pub fn too_deep(&mut self, i: usize, most: u32) -> Failed {
-        if !std::mem::replace(&mut self.too_deep_told, true) {
+        if !std::mem::replace(&mut self.reported_too_deep, true) {
             let message = format!("this is nested more than {most} levels deep");
             self.error(i, message, Some("move a part of it to a variable or a function".into()));
         }
@@ -255,12 +256,12 @@ impl Parser<'_> {
     /// Reports a reserved word, once.
     pub fn reserved(&mut self, i: usize) {
         let symbol = self.tokens[i].value;
-        if self.reserved_told.contains(&symbol) {
+        if self.reported_reserved.contains(&symbol) {
             return;
         }
-        self.reserved_told.push(symbol);
+        self.reported_reserved.push(symbol);
         let word = self.text(i).to_owned();
-        let hint = hint::reserved(&word).map_or_else(|| "choose another name".to_owned(), str::to_owned);
+        let hint = hint::reserved(&word, self.unit).map_or_else(|| "choose another name".to_owned(), str::to_owned);
         self.error(i, format!("`{word}` is a reserved word of GLSL ES"), Some(hint));
     }
 

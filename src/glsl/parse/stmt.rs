@@ -154,7 +154,7 @@ impl Parser<'_> {
                 let hint = semicolon
                     .then(|| "an `if` without braces has one statement, and `;` alone counts as one".to_owned());
                 // What was too deep has left its `else` behind.
-                if !self.too_deep_told {
+                if !self.reported_too_deep {
                     self.error(first, "`else` without an `if` before it", hint);
                 }
                 self.bump();

@@ -2,9 +2,11 @@
 #![cfg(test)]
 
 use super::*;
-use crate::ast::{
-    Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind,
+use crate::{
+    PassKind, Text,
+    ast::{Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind},
 };
+use eddy_diag::SourceId;
 
 fn parse_text(text: &str) -> Parsed {
     parse(&PassSource::image(text), None)
@@ -516,4 +518,17 @@ fn qualifiers_behind_a_type_are_told_of_once_and_taken() {
     }
     // The declaration holds: a size that is `const` is one.
     assert_eq!(messages("int const n = 2;\nfloat a[n];\nS\nconst int m = 1;").len(), 2);
+}
+
+#[test]
+fn words_of_older_shaders_become_those_of_the_stage() {
+    for (kind, text, hint) in [
+        (PassKind::PlainVertex, "attribute vec3 p;", "GLSL ES 3.00 uses `in` instead"),
+        (PassKind::PlainVertex, "varying vec2 uv;", "GLSL ES 3.00 uses `out` instead"),
+        (PassKind::PlainFragment, "varying vec2 uv;", "GLSL ES 3.00 uses `in` instead"),
+        (PassKind::Image, "varying vec2 uv;", "GLSL ES 3.00 uses `in` and `out` instead; a pass needs neither"),
+    ] {
+        let parsed = parse(&PassSource::new(kind, Text { id: SourceId(0), text }), None);
+        assert_eq!(parsed.report.diagnostics[0].hints, [hint], "{text}");
+    }
 }

@@ -14,7 +14,7 @@ mod tests;
 use super::{
     CustomUniform, Include, PassSource, Text, UniformValue,
     ast::Interner,
-    check::{self, Begun},
+    check::{self, Checkpoint},
     parse::{self, Parsed},
     pieces,
 };
@@ -24,7 +24,7 @@ use eddy_diag::Diagnostic;
 pub struct Preamble {
     parsed: Parsed,
     /// `None`: it means something else in each pass.
-    checked: Option<Begun>,
+    checked: Option<Checkpoint>,
     /// By symbol: whether the name stands in the text.
     mentioned: Vec<bool>,
     values: Vec<UniformValue>,
@@ -57,7 +57,7 @@ impl Preamble {
     }
 
     /// Returns the checked declarations, if they are the same in this pass.
-    pub(super) fn checked(&self, source: &PassSource<'_>) -> Option<&Begun> {
+    pub(super) fn checked(&self, source: &PassSource<'_>) -> Option<&Checkpoint> {
         let mut uniforms = source.custom_uniforms.iter();
         let is_same = !source.kind.is_stage()
             && source.values == self.values

@@ -21,14 +21,13 @@ mod misplaced;
 mod preprocessed;
 mod state;
 mod tests;
-mod token;
 mod unit;
 
 #[cfg(test)]
 pub(super) use directive::DIRECTIVES;
 pub(super) use macros::MacroTable;
 pub(super) use preprocessed::Preprocessed;
-pub(super) use token::Tok;
+pub(super) use preprocessed::Tok;
 pub(super) use unit::Unit;
 
 use super::{ast::Interner, pieces::Piece, report::Report};

@@ -1,7 +1,7 @@
-//! The outcome of preprocessing.
+//! The outcome of preprocessing: tokens, and the state that further texts go on from.
 
-use super::{macros::MacroTable, token::Tok};
-use crate::ast::Origins;
+use super::macros::MacroTable;
+use crate::{ast::Origins, lex::Kind};
 
 /// Preprocessed tokens for the parser, and the state of the preprocessor where further texts follow.
 #[derive(Clone, Debug, Default)]
@@ -26,4 +26,12 @@ impl Preprocessed {
         self.tokens.pop();
         self.origins.tokens.pop();
     }
+}
+
+/// A token as the parser reads it. Its place is `Origins::tokens` of the same index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tok {
+    pub kind: Kind,
+    /// Holds the value that [`Kind`] describes; for brackets the parser's index of the partner.
+    pub value: u32,
 }

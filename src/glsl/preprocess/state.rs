@@ -2,8 +2,7 @@
 
 use super::{
     macros::{MacroOrigin, MacroTable},
-    preprocessed::Preprocessed,
-    token::Tok,
+    preprocessed::{Preprocessed, Tok},
     unit::{LineCount, Unit},
 };
 use crate::{

@@ -3,16 +3,17 @@
 use super::{symbols::Symbols, text::Source};
 use crate::{
     ast::{Ident, Interner, Origins, TokenId},
-    check::{self, custom_uniform_type},
+    check::custom_uniform_type,
+    front_end::FrontEnd,
     hir::{Module, TypeId, Uniform},
-    parse,
     preamble::Preamble,
     source::{ChannelKind, PassKind, PassSource},
+    stages::Link,
 };
 use eddy_diag::{SourceId, Span};
 
 /// A place in the texts of a pass: later texts come after earlier ones.
-pub(super) type Place = (usize, u32);
+pub(super) type Position = (usize, u32);
 
 /// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is
 /// neither has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.
@@ -45,10 +46,7 @@ impl Analysis {
 
     /// Does the same with Common read already: the `preamble` is of the pass's own.
     pub fn behind(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
-        let mut parsed = parse::parse(source, preamble.map(Preamble::parsed));
-        let begun = preamble.and_then(|preamble| preamble.checked(source));
-        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
-        let mut module = checked.module;
+        let FrontEnd { mut module, origins, mut names, .. } = FrontEnd::run(source, &Link::default(), preamble);
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
         let mut texts: Vec<_> = source.common.into_iter().collect();
         for text in source.includes.iter().map(|i| i.text).chain([source.code]) {
@@ -58,13 +56,13 @@ impl Analysis {
         }
         let custom_uniforms =
             source.custom_uniforms.iter().map(|k| (k.name.to_owned(), custom_uniform_type(k.kind))).collect();
-        let sources = texts.into_iter().map(|text| Source::new(text, &parsed.origins, &mut parsed.names)).collect();
+        let sources = texts.into_iter().map(|text| Source::new(text, &origins, &mut names)).collect();
         let mut analysis = Self {
             kind: source.kind,
             channels: source.channels,
             sources,
-            origins: parsed.origins,
-            names: parsed.names,
+            origins,
+            names,
             module,
             symbols: Symbols::default(),
             uniform_types,

@@ -104,10 +104,10 @@ impl Analysis {
         if Builtin::from_symbol(token.symbol()).is_some() && text.kind(i + 1) == Kind::LParen {
             return Some(Class::Builtin);
         }
-        if Uniform::from_symbol(token.symbol()).is_some() {
+        if Uniform::from_symbol(token.symbol()).is_some() && !self.kind.is_plain() {
             return Some(Class::Uniform);
         }
-        if token.directive == Directive::Rest {
+        if token.directive == Directive::Body {
             return (text.kind(i + 1) == Kind::LParen).then_some(Class::Function);
         }
         match self.look_up(token.symbol(), (source, token.start), text.kind(i + 1) == Kind::LParen) {

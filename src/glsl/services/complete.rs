@@ -1,7 +1,7 @@
 //! Finds what could stand at the caret.
 
 use super::{
-    analysis::{Analysis, Place},
+    analysis::{Analysis, Position},
     docs,
     infer::Infer,
     rank, show,
@@ -14,6 +14,7 @@ use crate::{
     hir::{Builtin, DeclRef, FuncId, GlobalId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId, Uniform},
     lex::{Kind as Token, words},
     near,
+    source::PassKind,
 };
 use eddy_diag::SourceId;
 use std::{collections::HashSet, ops::Range};
@@ -107,7 +108,7 @@ impl Analysis {
                 return none;
             }
         }
-        let at: Place = (source, start as u32);
+        let at: Position = (source, start as u32);
         let replace = start..offset;
         let before = next.checked_sub(1);
         let in_line = |i: usize| !text.text[text.tokens[i].end as usize..start].contains('\n');
@@ -138,7 +139,7 @@ impl Analysis {
     }
 
     /// Returns whether the word behind a token is a name being declared: `float x`, `Ray r`.
-    fn gives_name(&self, text: &Source, before: usize, at: Place) -> bool {
+    fn gives_name(&self, text: &Source, before: usize, at: Position) -> bool {
         match text.kind(before) {
             Token::Type | Token::Struct => true,
             Token::Ident => {
@@ -151,7 +152,7 @@ impl Analysis {
     }
 
     /// Whatever has a name at a place.
-    pub(super) fn everything_at(&self, at: Place) -> Vec<Completion> {
+    pub(super) fn everything_at(&self, at: Position) -> Vec<Completion> {
         let mut items = Vec::with_capacity(256);
         let mut seen: HashSet<Symbol> = HashSet::new();
         let locals = self.locals_at(at);
@@ -173,7 +174,7 @@ impl Analysis {
             }
         }
         for (i, global) in self.module.globals.iter().enumerate().rev() {
-            let is_before = self.place_of(global.name.token).is_some_and(|place| place < at);
+            let is_before = self.position_of(global.name.token).is_some_and(|place| place < at);
             if is_before && seen.insert(global.name.symbol) {
                 let constant = global.storage == GlobalStorage::Const;
                 let kind = if constant { CompletionKind::Constant } else { CompletionKind::Global };
@@ -182,7 +183,7 @@ impl Analysis {
             }
         }
         for (i, def) in self.module.structs.iter().enumerate() {
-            let Some(name) = def.name.filter(|n| self.place_of(n.token).is_some_and(|place| place < at)) else {
+            let Some(name) = def.name.filter(|n| self.position_of(n.token).is_some_and(|place| place < at)) else {
                 continue;
             };
             if !self.names.get(name.symbol).starts_with("gl_") && seen.insert(name.symbol) {
@@ -196,7 +197,7 @@ impl Analysis {
     }
 
     /// User functions; overloads share an item.
-    fn add_functions(&self, at: Place, seen: &mut HashSet<Symbol>, items: &mut Vec<Completion>) {
+    fn add_functions(&self, at: Position, seen: &mut HashSet<Symbol>, items: &mut Vec<Completion>) {
         let mut overloads: Vec<(Symbol, FuncId)> =
             self.functions_before(at).map(|id| (self.module[id].name.symbol, id)).collect();
         overloads.sort_unstable_by_key(|o| o.0);
@@ -230,18 +231,16 @@ impl Analysis {
             let doc = "Declared by an `#iUniform` line.";
             add(name, CompletionKind::Uniform, line(DeclRef::CustomUniform(i as u16)), doc, 1_100);
         }
-        for (i, name) in env::CHANNELS.into_iter().enumerate() {
+        let channels = env::CHANNELS.into_iter().enumerate().filter(|_| !self.kind.is_plain());
+        for (i, name) in channels {
             let doc = docs::variable(name).unwrap_or_default();
             add(name, CompletionKind::Uniform, line(DeclRef::Channel(i as u8)), doc, 1_499);
         }
-        for &builtin in Builtin::ALL {
-            if builtin == Builtin::StAssert && self.kind != crate::PassKind::Image {
-                continue;
-            }
+        for builtin in Builtin::all().filter(|builtin| !builtin.is_of_image || self.kind == PassKind::Image) {
             let texts = show::builtin_texts(builtin);
             let mut detail = texts.first().cloned().unwrap_or_default();
             more_overloads(&mut detail, texts.len().saturating_sub(1));
-            add(builtin.name(), CompletionKind::Builtin, detail, docs::function(builtin).text, 2_000);
+            add(builtin.name, CompletionKind::Builtin, detail, builtin.text, 2_000);
         }
         for &ty in BasicType::ALL {
             let is_plain =
@@ -283,7 +282,7 @@ impl Analysis {
     }
 
     /// Fields of a struct, components of a vector, `length()` of an array.
-    fn members_before(&self, source: usize, dot: usize, at: Place) -> Vec<Completion> {
+    fn members_before(&self, source: usize, dot: usize, at: Position) -> Vec<Completion> {
         let text = &self.sources[source];
         let item = |label: &str, detail: String, doc: String, order: usize| Completion {
             label: label.to_owned(),
@@ -319,7 +318,7 @@ impl Analysis {
     }
 
     /// Words that fit behind token `before` of a directive.
-    fn in_directive(&self, text: &Source, before: usize, at: Place) -> Vec<Completion> {
+    fn in_directive(&self, text: &Source, before: usize, at: Position) -> Vec<Completion> {
         let word = |label: &str, doc: &str| Completion {
             label: label.to_owned(),
             kind: CompletionKind::Keyword,

@@ -88,7 +88,7 @@ impl Analysis {
         let name = self.text_of(span);
         let declared = self.declaration(target);
         let doc = match target {
-            Target::Decl(DeclRef::Builtin(builtin)) => docs::function(builtin).text.to_owned(),
+            Target::Decl(DeclRef::Builtin(builtin)) => builtin.text.to_owned(),
             _ => {
                 let own = declared.map(|at| self.comment_above(at)).unwrap_or_default();
                 if own.is_empty() { docs::variable(name).unwrap_or_default().to_owned() } else { own }
@@ -130,7 +130,6 @@ impl Analysis {
     /// Returns the overload that a call of a built-in takes, with its types.
     fn exact_builtin(&self, target: Target, span: Span) -> Option<String> {
         let Target::Decl(DeclRef::Builtin(builtin)) = target else { return None };
-        let doc = docs::function(builtin);
         let call = self.module.exprs.iter().find_map(|expr| match expr.kind {
             ExprKind::Builtin { builtin: called, args }
                 if called == builtin && self.spelled(expr.loc.first) == span =>
@@ -142,10 +141,10 @@ impl Analysis {
         let args = &self.module[call.1];
         let param = |(i, &arg): (usize, &ExprId)| {
             let ty = self.type_name(self.module[arg].ty);
-            format!("{ty} {}", doc.param(i, args.len()))
+            format!("{ty} {}", builtin.param(i, args.len()))
         };
         let params: Vec<String> = args.iter().enumerate().map(param).collect();
-        Some(super::show::call_text(&format!("{} {}", self.type_name(call.0), builtin.name()), &params).0)
+        Some(super::show::call_text(&format!("{} {}", self.type_name(call.0), builtin.name), &params).0)
     }
 
     /// Returns the author's comment that ends in the line above a declaration, or stands behind it in its line.

@@ -4,13 +4,13 @@
 //! the checker and reports nothing; what it cannot tell is `None`.
 
 use super::{
-    analysis::{Analysis, Place},
+    analysis::{Analysis, Position},
     symbols::Target,
     text::{Directive, Source},
 };
 use crate::{
     ast::{BasicType, MacroId},
-    check::overloads::{self, Pattern},
+    builtins::Pattern,
     hir::{Builtin, DeclRef, FuncId, Scalar, StructId, Type, TypeId},
     lex::{Kind, words},
 };
@@ -23,12 +23,12 @@ pub(super) struct Infer<'a> {
     a: &'a Analysis,
     text: &'a Source,
     /// Says where names are looked up.
-    at: Place,
+    at: Position,
     depth: u32,
 }
 
 impl<'a> Infer<'a> {
-    pub fn new(a: &'a Analysis, source: usize, at: Place) -> Self {
+    pub fn new(a: &'a Analysis, source: usize, at: Position) -> Self {
         Self { a, text: &a.sources[source], at, depth: 0 }
     }
 
@@ -183,7 +183,7 @@ impl<'a> Infer<'a> {
             start = text.partner(start)? + 1;
         }
         let end = text.first_from(whole.end as usize);
-        let is_list = text.tokens.get(start..end)?.iter().all(|t| t.directive == Directive::Rest);
+        let is_list = text.tokens.get(start..end)?.iter().all(|t| t.directive == Directive::Body);
         if !is_list {
             return None;
         }
@@ -223,7 +223,7 @@ impl<'a> Infer<'a> {
 
     fn builtin(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
         let types = &self.a.module.types;
-        let all = overloads::of(builtin);
+        let all = builtin.overloads;
         if let Some(ty) = all.iter().find_map(|o| o.result_for(args, types)) {
             return Some(ty);
         }

@@ -1,7 +1,7 @@
 //! Says what a name at a place means, where it is declared and where it is used.
 
 use super::{
-    analysis::{Analysis, Place},
+    analysis::{Analysis, Position},
     infer::Infer,
     symbols::Target,
 };
@@ -89,7 +89,7 @@ impl Analysis {
         if word.kind != Kind::Ident || word.is_inactive {
             return None;
         }
-        let at: Place = (source, word.start);
+        let at: Position = (source, word.start);
         if token > 0 && text.kind(token - 1) == Kind::Dot {
             let id = self.struct_of(Infer::new(self, source, at).before(token - 1)?)?;
             let members = &self.module[self.module[id].members];

@@ -4,7 +4,7 @@
 //! their locals, globals) is joined here with the brackets of the text as written.
 
 use super::{
-    analysis::{Analysis, Place},
+    analysis::{Analysis, Position},
     symbols::Target,
     text::Source,
 };
@@ -18,16 +18,16 @@ use crate::{
 
 impl Analysis {
     /// Place of a token as the compiler reads: for what a macro brought in, where the macro is used.
-    pub(super) fn place_of(&self, token: TokenId) -> Option<Place> {
+    pub(super) fn position_of(&self, token: TokenId) -> Option<Position> {
         let span = self.origins.token_span(token);
         Some((self.source_index(span.source)?, span.start))
     }
 
     /// Returns the function whose header or body a place is in.
-    pub(super) fn function_at(&self, at: Place) -> Option<FuncId> {
+    pub(super) fn function_at(&self, at: Position) -> Option<FuncId> {
         let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
         let begun = functions.filter_map(|(i, f)| {
-            let start = self.place_of(f.header.first)?;
+            let start = self.position_of(f.header.first)?;
             (start.0 == at.0 && start.1 <= at.1).then_some((start.1, i))
         });
         begun.max().map(|(_, i)| FuncId::new(i))
@@ -35,16 +35,16 @@ impl Analysis {
 
     /// Locals and parameters that can be named at a place, outermost first; of two of a name the later hides the
     /// earlier.
-    pub(super) fn locals_at(&self, at: Place) -> Vec<LocalId> {
+    pub(super) fn locals_at(&self, at: Position) -> Vec<LocalId> {
         let Some(function) = self.function_at(at) else { return Vec::new() };
         let locals = self.module[function].locals.clone();
         locals.map(|i| LocalId::new(i as usize)).filter(|&id| self.is_visible(id, at)).collect()
     }
 
     /// Returns whether a place lies in the scope of a local of the function around it.
-    fn is_visible(&self, id: LocalId, at: Place) -> bool {
+    fn is_visible(&self, id: LocalId, at: Position) -> bool {
         let Some(name) = self.module[id].name else { return false };
-        let Some((source, start)) = self.place_of(name.token) else { return false };
+        let Some((source, start)) = self.position_of(name.token) else { return false };
         if source != at.0 || start >= at.1 {
             return false;
         }
@@ -58,7 +58,7 @@ impl Analysis {
     }
 
     /// Returns what a name stands for at a place; `called`: it is followed by arguments.
-    pub(super) fn look_up(&self, symbol: Symbol, at: Place, called: bool) -> Option<Target> {
+    pub(super) fn look_up(&self, symbol: Symbol, at: Position, called: bool) -> Option<Target> {
         if let Some(id) = self.macro_at(symbol, at)
             && (called || !self.origins[id].function_like)
         {
@@ -74,7 +74,7 @@ impl Analysis {
         if let Some(id) = local {
             return Some(Target::Decl(DeclRef::Local(id)));
         }
-        let is_before = |token: TokenId| self.place_of(token).is_some_and(|place| place <= at);
+        let is_before = |token: TokenId| self.position_of(token).is_some_and(|place| place <= at);
         let of_structs = self.module.structs.iter().rposition(|s| {
             s.name.is_some_and(|n| n.symbol == symbol && is_before(n.token))
                 && !self.names.get(symbol).starts_with("gl_")
@@ -93,13 +93,13 @@ impl Analysis {
     }
 
     /// User functions of a name that are declared before a place.
-    pub(super) fn overloads_of(&self, symbol: Symbol, at: Place) -> impl Iterator<Item = FuncId> {
+    pub(super) fn overloads_of(&self, symbol: Symbol, at: Position) -> impl Iterator<Item = FuncId> {
         self.functions_before(at).filter(move |&id| self.module[id].name.symbol == symbol)
     }
 
     /// User functions that are declared before a place.
-    pub(super) fn functions_before(&self, at: Place) -> impl Iterator<Item = FuncId> {
-        let is_before = move |token: TokenId| self.place_of(token).is_some_and(|place| place <= at);
+    pub(super) fn functions_before(&self, at: Position) -> impl Iterator<Item = FuncId> {
+        let is_before = move |token: TokenId| self.position_of(token).is_some_and(|place| place <= at);
         let functions = self.module.functions.iter().enumerate();
         functions
             .filter(move |(_, f)| f.declared_at.first().is_some_and(|&token| is_before(token)))
@@ -108,7 +108,7 @@ impl Analysis {
 
     /// Returns the macro of a name that was defined last before a place. An `#undef` in between is passed over: a name
     /// that was a macro once is more likely meant than none.
-    pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::ast::MacroId> {
+    pub(super) fn macro_at(&self, symbol: Symbol, at: Position) -> Option<crate::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
                 && def
@@ -121,7 +121,7 @@ impl Analysis {
     /// Returns what the language or the site declares under a name.
     fn predeclared(&self, symbol: Symbol) -> Option<DeclRef> {
         if let Some(builtin) = Builtin::from_symbol(symbol) {
-            return (builtin != Builtin::StAssert || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
+            return (!builtin.is_of_image || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
         }
         if let Some(uniform) = Uniform::from_symbol(symbol) {
             return Env::Pass(self.kind).has(uniform).then_some(DeclRef::Uniform(uniform));
@@ -130,7 +130,9 @@ impl Analysis {
         if let Some(i) = self.custom_uniforms.iter().position(|k| k.0 == name) {
             return Some(DeclRef::CustomUniform(i as u16));
         }
-        if let Some(i) = env::CHANNELS.iter().position(|c| *c == name) {
+        if !self.kind.is_plain()
+            && let Some(i) = env::CHANNELS.iter().position(|c| *c == name)
+        {
             return Some(DeclRef::Channel(i as u8));
         }
         if self.kind == PassKind::Image

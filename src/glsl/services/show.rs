@@ -1,12 +1,10 @@
 //! Declarations as GLSL writes them: what a tooltip shows and a completion is told apart by.
 
-use super::{analysis::Analysis, docs, symbols::Target};
+use super::{analysis::Analysis, symbols::Target};
 use crate::{
     ast::{BasicType, MacroId, Precision, Symbol},
-    check::{
-        env,
-        overloads::{self, Overload, Pattern},
-    },
+    builtins::{Overload, Pattern},
+    check::env,
     hir::{Builtin, BuiltinVar, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId},
 };
 use std::ops::Range;
@@ -204,19 +202,18 @@ pub(super) fn call_text(head: &str, params: &[String]) -> (String, Vec<Range<usi
 
 /// Returns every overload of a built-in, as the specification writes them.
 pub(super) fn builtin_texts(builtin: Builtin) -> Vec<String> {
-    overloads::of(builtin).iter().map(|o| overload_text(builtin, o).0).collect()
+    builtin.overloads.iter().map(|o| overload_text(builtin, o).0).collect()
 }
 
 pub(super) fn overload_text(builtin: Builtin, overload: &Overload) -> (String, Vec<Range<usize>>) {
     let count = overload.params.len();
-    let doc = docs::function(builtin);
     let params: Vec<String> = (overload.params.iter().enumerate())
         .map(|(i, pattern)| {
-            let out = if builtin == Builtin::Modf && i == 1 { "out " } else { "" };
-            format!("{out}{} {}", pattern_name(*pattern), doc.param(i, count))
+            let out = if builtin.writes == Some(i) { "out " } else { "" };
+            format!("{out}{} {}", pattern_name(*pattern), builtin.param(i, count))
         })
         .collect();
-    call_text(&format!("{} {}", pattern_name(overload.result), builtin.name()), &params)
+    call_text(&format!("{} {}", pattern_name(overload.result), builtin.name), &params)
 }
 
 /// Returns the specification's name for a set of types (section 8).

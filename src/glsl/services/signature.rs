@@ -1,15 +1,14 @@
 //! Says what a call that is being written takes, and which argument the caret is at.
 
 use super::{
-    analysis::{Analysis, Place},
-    docs,
+    analysis::{Analysis, Position},
     infer::Infer,
     show,
     symbols::Target,
     text::Source,
 };
 use crate::{
-    check::overloads,
+    builtins::Overload,
     hir::{DeclRef, FuncId, StructId, Type, TypeId},
     lex::{Kind, words},
 };
@@ -71,7 +70,7 @@ impl Analysis {
         let text = &self.sources[source];
         let name = open.checked_sub(1)?;
         let word = text.tokens[name];
-        let at: Place = (source, word.start);
+        let at: Position = (source, word.start);
         // A header declares its parameters: what stands before the name is a type.
         let declares = name > 0
             && match text.kind(name - 1) {
@@ -114,16 +113,16 @@ impl Analysis {
                     help(signatures.map(|(label, params)| Signature { label, params }).collect(), active, doc)
                 }
                 Target::Decl(DeclRef::Builtin(builtin)) => {
-                    let all = overloads::of(builtin);
+                    let all = builtin.overloads;
                     let types = &self.module.types;
                     // The arguments before the caret's own are whole.
                     let whole = &args[..args.len().min(parameter)];
-                    let takes = |o: &&overloads::Overload| o.params.len() > parameter && o.begins_with(whole, types);
+                    let takes = |o: &&Overload| o.params.len() > parameter && o.begins_with(whole, types);
                     let best = all.iter().position(|o| takes(&o));
                     let active = best.or_else(|| all.iter().position(|o| o.params.len() > parameter)).unwrap_or(0);
                     let signatures = all.iter().map(|o| show::overload_text(builtin, o));
                     let signatures = signatures.map(|(label, params)| Signature { label, params }).collect();
-                    help(signatures, active, docs::function(builtin).text.to_owned())
+                    help(signatures, active, builtin.text.to_owned())
                 }
                 _ => None,
             },

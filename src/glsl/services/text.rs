@@ -39,8 +39,8 @@ pub(super) enum Directive {
     No,
     /// `#` or its word.
     Head,
-    /// The text follows them.
-    Rest,
+    /// The rest of the line.
+    Body,
 }
 
 impl Lexeme {
@@ -186,7 +186,7 @@ impl Source {
                 starts_line: token.has(LINE_START),
             });
             if directive == Directive::Head && token.kind != Kind::Hash {
-                directive = Directive::Rest;
+                directive = Directive::Body;
                 if text.get(start as usize..end as usize) == Some("error") {
                     let (_, rest) = lexer.rest_of_line();
                     before = rest.end as usize;
@@ -227,7 +227,7 @@ impl Source {
         let mut line = Vec::new();
         for i in 0..=self.tokens.len() {
             let token = self.tokens.get(i);
-            if token.is_none_or(|t| t.directive != Directive::Rest) {
+            if token.is_none_or(|t| t.directive != Directive::Body) {
                 self.pair_part(&line);
                 line.clear();
             } else {

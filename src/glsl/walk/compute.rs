@@ -154,7 +154,7 @@ impl<R: Real> State<'_, R> {
                         let largest = |a: Cell<R>, b: Cell<R>| Cell::Float(a.float().binary(Math::Max, b.float()));
                         zip(cells, lanes, out, (first, slot(other)), largest);
                     }
-                    (_, None) if scalar == Scalar::Float && math::is_of_each_component(fun) => {
+                    (_, None) if scalar == Scalar::Float && fun.is_by_component() => {
                         map(cells, lanes, out, first, |cell| Cell::Float(cell.float().unary(fun)));
                     }
                     _ => {

@@ -236,7 +236,7 @@ impl<'a, R: Real> Machine<'a, R> {
                 Stmt::Let(value) => {
                     self.compute(frame, *value, active, lane, observer)?;
                     if is_seen && active != ALL && is_of_neighbours(&self.state.module[frame.function][*value]) {
-                        observer.parted(&View::new(&self.state, frame, lane), *value);
+                        observer.diverged(&View::new(&self.state, frame, lane), *value);
                     }
                     active &= !self.ended;
                     if is_seen {

@@ -113,41 +113,6 @@ pub fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
     }
 }
 
-/// A function of floats takes one number and gives one, component by component.
-pub fn is_of_each_component(fun: Math) -> bool {
-    matches!(
-        fun,
-        Math::Abs
-            | Math::Sign
-            | Math::Floor
-            | Math::Ceil
-            | Math::Trunc
-            | Math::Round
-            | Math::Fract
-            | Math::Saturate
-            | Math::Sqrt
-            | Math::InverseSqrt
-            | Math::Exp
-            | Math::Exp2
-            | Math::Log
-            | Math::Log2
-            | Math::Radians
-            | Math::Degrees
-            | Math::Sin
-            | Math::Cos
-            | Math::Tan
-            | Math::Asin
-            | Math::Acos
-            | Math::Atan
-            | Math::Sinh
-            | Math::Cosh
-            | Math::Tanh
-            | Math::Asinh
-            | Math::Acosh
-            | Math::Atanh
-    )
-}
-
 /// A function of chapter 8; `ty` and `scalar` are those of the first argument.
 pub fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
     let number = |arg: usize, i: usize| args[arg][i].float();

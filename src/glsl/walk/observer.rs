@@ -106,7 +106,7 @@ pub trait Observer<R> {
     fn value(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
     /// A value has been computed of what all four pixels hold, while not all of them came there.
-    fn parted(&mut self, _: &View<'_, '_, R>, _: Value) {}
+    fn diverged(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
     /// A value decides which way is gone.
     fn decide(&mut self, _: &View<'_, '_, R>, _: Value) {}

@@ -60,7 +60,7 @@ impl World for Bare {
 
 fn walkable(code: &str) -> Walkable {
     let source = PassSource::new(PassKind::Buffer, Text { id: SourceId(0), text: code });
-    Walkable::new(&source, &Link::default(), Detail::Values).unwrap_or_else(|errors| panic!("{errors:?}"))
+    Walkable::new(&source, &Link::default(), None, Detail::Values).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 fn draw<R: Real>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {

@@ -5,7 +5,7 @@ use eddy_glsl::{
     ir::{Block, FuncId, GlobalId, GlobalKind, Op, Stmt, Value},
     types::TypeId,
     walk::{Cell, Observer, Real, View},
-    walkable::{Coming, Walkable},
+    walkable::{StatementEvent, Walkable},
 };
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ const MOST_PASSED: usize = 64;
 /// Holds what a value of a function means to who records.
 #[derive(Clone, Debug, Default)]
 struct Role {
-    coming: Option<Coming>,
+    event: Option<StatementEvent>,
     /// Variables of the function that the value is, or the place of.
     variables: Vec<u32>,
     global: Option<u32>,
@@ -97,8 +97,8 @@ impl<'w> HistoryRecorder<'w> {
         let (walkable, statements) = (self.walkable, self.walkable.statements());
         let function = &walkable.program[id];
         let mut roles: HashMap<usize, Role> = HashMap::new();
-        for (value, coming) in walkable.marks(id) {
-            roles.entry(value.index()).or_default().coming = Some(coming);
+        for &(value, event) in walkable.marks(id) {
+            roles.entry(value.index()).or_default().event = Some(event);
         }
         let mut variables = Vec::new();
         for (local, value) in walkable.variables(id) {
@@ -210,14 +210,14 @@ impl<'w> HistoryRecorder<'w> {
         self.writes.push(Write { words, offset: offset as u32, count: cells.len() as u32, previous });
     }
 
-    fn come(&mut self, coming: Coming) {
+    fn event(&mut self, event: StatementEvent) {
         let Some(active) = self.active.last_mut() else { return };
-        let (kind, statement) = match coming {
-            Coming::Begin(statement) => {
+        let (kind, statement) = match event {
+            StatementEvent::Begin(statement) => {
                 active.loops.retain(|(of, _)| *of != statement);
                 (MomentKind::Statement, statement)
             }
-            Coming::Turn(statement) => {
+            StatementEvent::Iteration(statement) => {
                 let turn = match active.loops.iter_mut().find(|(of, _)| *of == statement) {
                     Some((_, turns)) => {
                         *turns += 1;
@@ -230,8 +230,8 @@ impl<'w> HistoryRecorder<'w> {
                 };
                 (MomentKind::Turn(turn), statement)
             }
-            Coming::Test(statement) => (MomentKind::Test, statement),
-            Coming::Step(statement) => (MomentKind::Step, statement),
+            StatementEvent::Test(statement) => (MomentKind::Test, statement),
+            StatementEvent::Step(statement) => (MomentKind::Step, statement),
         };
         self.moment(kind, statement);
     }
@@ -335,8 +335,8 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
     fn value(&mut self, view: &View<'_, '_, R>, value: Value) {
         let id = view.function_id();
         if let Some(role) = self.role(id, value) {
-            if let Some(coming) = role.coming {
-                return self.come(coming);
+            if let Some(event) = role.event {
+                return self.event(event);
             }
             if let Some(call) = self.call().filter(|_| !view.function().is_place(value)) {
                 for variable in role.variables.clone() {

@@ -4,8 +4,7 @@
 use crate::{
     ast::List,
     hir::{
-        BinaryOp, Builtin, ExprFlags, ExprId, ExprKind, GlobalStorage, LocalKind, Module, Shape, StmtId, StmtKind,
-        Type, TypeId,
+        BinaryOp, ExprFlags, ExprId, ExprKind, GlobalStorage, LocalKind, Module, Shape, StmtId, StmtKind, Type, TypeId,
     },
 };
 
@@ -267,7 +266,7 @@ impl Walk<'_> {
                 module[args].to_vec()
             }
             ExprKind::Builtin { builtin, args } => {
-                if builtin == Builtin::Modf {
+                if builtin.writes.is_some() {
                     place(module[args][1]);
                 }
                 module[args].to_vec()

@@ -10,6 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::ir::{
     Binary, Block, Function, GlobalId, Module, Op, Stmt, Unary, Value, VarId,
+    analysis::stores,
     rewrite::{self, Rewriter, Rule},
 };
 
@@ -64,9 +65,7 @@ impl Limits {
                 }
             }
             if let Stmt::Loop { body, continuing, break_if } = stmt {
-                let mut written = Written::default();
-                written.block(f, body);
-                written.block(f, continuing);
+                let written = Written::of(f, [body, continuing]);
                 if let Some(condition) = break_if {
                     self.followed.clear();
                     self.compared(f, *condition, false, &written);
@@ -140,28 +139,27 @@ impl Root {
 }
 
 impl Written {
-    fn block(&mut self, f: &Function, block: &Block) {
-        for stmt in block {
-            match stmt {
-                Stmt::Store { place, .. } => {
-                    self.roots.extend(Root::of(f, *place));
-                }
-                Stmt::Let(value) => {
-                    if let Op::Call { args, .. } = &f[*value] {
-                        self.has_call = true;
-                        let places = args.iter().filter(|arg| f.is_place(**arg));
-                        self.roots.extend(places.filter_map(|place| Root::of(f, *place)));
-                    }
-                }
-                _ => stmt.blocks(|block| self.block(f, block)),
-            }
+    fn of(f: &Function, blocks: [&Block; 2]) -> Self {
+        let mut written = Self::default();
+        for block in blocks {
+            stores(f, block, &mut |place| written.roots.extend(Root::of(f, place)));
+            written.has_call |= has_call(f, block);
         }
+        written
     }
 
     fn contains(&self, f: &Function, place: Value) -> bool {
         Root::of(f, place)
             .is_some_and(|root| self.has_call && matches!(root, Root::Global(_)) || self.roots.contains(&root))
     }
+}
+
+fn has_call(f: &Function, block: &Block) -> bool {
+    block.iter().any(|stmt| {
+        let mut found = matches!(stmt, Stmt::Let(value) if matches!(f[*value], Op::Call { .. }));
+        stmt.blocks(|block| found |= has_call(f, block));
+        found
+    })
 }
 
 /// Returns whether a value is read from a variable that the loop writes, or has just been stepped.

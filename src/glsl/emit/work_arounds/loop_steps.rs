@@ -4,7 +4,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::ir::{Block, Function, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, Module, Op, Stmt, Value, analysis::leaves};
 
 /// Statements of a step that is repeated.
 const LONGEST: usize = 16;
@@ -26,7 +26,7 @@ fn block(f: &mut Function, stmts: &mut Block) {
         {
             let step = std::mem::take(continuing);
             before_continues(f, body, &step);
-            if !matches!(body.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard)) {
+            if !leaves(body) {
                 body.extend(step);
             }
         }
@@ -74,7 +74,7 @@ fn copy(f: &mut Function, step: &Block, out: &mut Block) {
         if let Stmt::Let(value) = &mut stmt {
             let mut op = f[*value].clone();
             op.operands_mut(|operand| *operand = new.get(operand).copied().unwrap_or(*operand));
-            let made = f.append(op, f.ty(*value), f.loc(*value));
+            let made = f.append(op, f.ty(*value), f.origin(*value));
             new.insert(*value, made);
             *value = made;
         }

@@ -6,7 +6,6 @@ mod angles;
 mod counters;
 mod discard_exits;
 mod discards;
-mod edges;
 mod filtering;
 mod limits;
 mod loop_exits;
@@ -25,7 +24,6 @@ pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     }
     loop_steps::run(program);
     zero_divisors::run(program);
-    edges::run(program);
     if driver.nan_angle {
         angles::run(program);
     }

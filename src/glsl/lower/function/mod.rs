@@ -10,11 +10,12 @@ pub(super) use constants::Part as PartOf;
 use super::{
     arguments::{Instance, Specialization},
     context::{Lowering, const_id},
-    names::{FunctionNames, Mark},
+    names::{FunctionNames, Precondition, StatementEvent},
 };
 use crate::{
     ast::{List, Loc},
-    hir::{FuncId, LocalId, LocalKind, TypeId},
+    builtins::Builtin,
+    hir::{FuncId, LocalId, LocalKind, StmtId, TypeId},
     ir::{self, Block, Op, Param, Stmt, Value},
 };
 use rustc_hash::FxHashMap;
@@ -40,6 +41,8 @@ pub(super) struct Builder<'m, 'a> {
     block: Block,
     /// The part of the text that the code at hand is lowered from.
     pub loc: Loc,
+    /// The built-in function that the code at hand is written out for.
+    pub builtin: Option<Builtin>,
     /// Control cannot reach the end of the block: nothing more belongs into it.
     pub ended: bool,
     first_local: usize,
@@ -59,7 +62,7 @@ pub(super) struct Builder<'m, 'a> {
     pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
     pub undefined: Vec<Value>,
-    pub(super) marks: Vec<(Value, Mark)>,
+    pub(super) marks: Vec<(Value, StatementEvent)>,
 }
 
 /// Lowers one copy of a user function.
@@ -97,6 +100,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             f: ir::Function::new(TypeId::VOID),
             block: Block::new(),
             loc: Loc::default(),
+            builtin: None,
             ended: false,
             first_local,
             slots: vec![Slot::Unset; count],
@@ -163,16 +167,24 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     /// Adds an operation of this type, computed here.
     pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
-        let value = self.f.append(op, ty, self.loc);
+        let value = self.f.append(op, ty, ir::Origin { loc: self.loc, builtin: self.builtin });
         self.block.push(Stmt::Let(value));
         value
     }
 
+    /// Notes a precondition of an operation, where somebody asks for them.
+    pub fn note(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
+        if self.cx.marks.undefined {
+            let function = ir::FuncId::new(self.cx.out.functions.len());
+            self.cx.names.preconditions.insert((function, value), precondition());
+        }
+    }
+
     /// Marks that control comes to a part of the text, where statements are marked.
-    pub fn mark(&mut self, mark: Mark) {
+    pub fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
-            self.marks.push((value, mark));
+            self.marks.push((value, event(stmt.index() as u32)));
         }
     }
 

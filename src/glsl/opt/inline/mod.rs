@@ -10,14 +10,13 @@
 //! `Break`.
 
 mod choose;
-mod returns;
 
 use crate::{
     ast::Loc,
     ir::{Block, Case, Function, Module, Op, Stmt, Value, Var, VarId},
     types::{Scalar, TypeId},
 };
-use returns::{always_leaves, needs_flag, returns};
+use choose::{always_leaves, needs_flag, returns};
 
 pub(super) fn run(module: &mut Module) {
     let inlined = choose::inlined(module);
@@ -198,7 +197,7 @@ impl Inliner<'_> {
                     op
                 }
             };
-            self.f.append(op, site.callee.ty(value), site.callee.loc(value));
+            self.f.append(op, site.callee.ty(value), site.callee.origin(value));
         }
     }
 

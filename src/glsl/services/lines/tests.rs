@@ -113,8 +113,8 @@ fn every_word_of_the_language_has_a_class() {
     for word in crate::lex::words::keywords() {
         assert_eq!(kind_of(word, word), Class::Keyword, "{word}");
     }
-    for builtin in crate::hir::Builtin::ALL {
-        assert_eq!(kind_of(builtin.name(), builtin.name()), Class::Builtin, "{}", builtin.name());
+    for builtin in crate::hir::Builtin::all() {
+        assert_eq!(kind_of(builtin.name, builtin.name), Class::Builtin, "{}", builtin.name);
     }
     // One of them is a member of a struct.
     for uniform in crate::hir::Uniform::ALL.iter().filter(|u| !u.name().contains('.')) {

@@ -1,7 +1,11 @@
 //! Completion: what is proposed where, and in which order.
 
 use super::Marked;
-use crate::services::{CompletionKind, Completions};
+use crate::{
+    PassSource,
+    services::{Analysis, CompletionKind, Completions},
+};
+use eddy_diag::SourceId;
 
 fn at(m: &Marked) -> (Completions, String) {
     let found = m.analysis().completions(m.at.0, m.at.1);
@@ -137,4 +141,16 @@ fn proposals_say_what_they_are() {
     assert!(item("iMouse").doc.contains("z > 0 while it is held"));
     assert_eq!(item("vec3").kind, CompletionKind::Type);
     assert!(found.items.iter().all(|i| i.label != "iTimeOffset"), "Image has no such uniform");
+}
+
+#[test]
+fn plain_shaders_have_no_names_of_the_site() {
+    let text = "#version 300 es\nprecision highp float;\nout vec4 color;\nvoid main() { color = vec4(i";
+    let analysis = Analysis::new(&PassSource::fragment(text));
+    let labels: Vec<String> =
+        analysis.completions(SourceId(0), text.len()).items.into_iter().map(|item| item.label).collect();
+    let of_site =
+        |label: &&String| ["iTime", "iResolution", "iChannel", "iCh0"].iter().any(|name| label.starts_with(name));
+    assert_eq!(labels.iter().find(of_site), None);
+    assert!(labels.iter().any(|label| label == "gl_FragCoord") && labels.iter().any(|label| label == "inversesqrt"));
 }

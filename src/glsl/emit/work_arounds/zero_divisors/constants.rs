@@ -9,16 +9,17 @@
 //! structures have one interval, that of all their parts.
 
 use super::{
-    exposed::{exposed, leaves},
-    known::Known,
     same::is_same,
     state::{
-        Held,
+        Merged,
         State::{self, Unknown, Unseen},
     },
 };
 use crate::{
-    ir::{Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value},
+    ir::{
+        Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value,
+        analysis::{Interval, exposed, leaves, stores},
+    },
     types::{Scalar, Type},
 };
 
@@ -35,8 +36,8 @@ pub(super) struct Constants {
     /// By function and [`Value::index`].
     values: Vec<Vec<State>>,
     /// The arguments of all calls that pass known ones, and what is stored to those that refer to variables.
-    params: Vec<Vec<Held>>,
-    globals: Vec<Held>,
+    params: Vec<Vec<Merged>>,
+    globals: Vec<Merged>,
     results: Vec<State>,
     /// By function: those that call it.
     callers: Vec<Vec<usize>>,
@@ -62,8 +63,8 @@ impl Constants {
         });
         let mut constants = Constants {
             values: program.functions.iter().map(|f| vec![Unseen; f.len()]).collect(),
-            params: program.functions.iter().map(|f| vec![Held::default(); f.params.len()]).collect(),
-            globals: first.map(|state| Held { state, grown: 0 }).collect(),
+            params: program.functions.iter().map(|f| vec![Merged::default(); f.params.len()]).collect(),
+            globals: first.map(|state| Merged { state, grown: 0 }).collect(),
             results: vec![Unknown; count],
             callers: vec![Vec::new(); count],
             readers: vec![Vec::new(); program.globals.len()],
@@ -87,8 +88,8 @@ impl Constants {
             }
         }
         // Any value may be a zero: that costs an instruction a division.
-        constants.values.iter_mut().for_each(|values| values.fill(State::Known(Known::ANY)));
-        let any = Held { state: State::Known(Known::ANY), grown: 0 };
+        constants.values.iter_mut().for_each(|values| values.fill(State::Range(Interval::ANY)));
+        let any = Merged { state: State::Range(Interval::ANY), grown: 0 };
         constants.params.iter_mut().for_each(|params| params.fill(any));
         constants
     }
@@ -117,7 +118,7 @@ impl Constants {
     /// Drops the divisions of a function, by [`Value::index`], that divide by a zero in none of its calls: numbers that
     /// come together are told apart from those of another call, as a driver does that inlines the function.
     pub(super) fn look_at_each_call(&mut self, program: &Module, function: usize, divisions: &mut [bool]) {
-        let differs = |held: &Held| matches!(held.state, State::Known(known) if !known.is_exact());
+        let differs = |held: &Merged| matches!(held.state, State::Range(known) if !known.is_exact());
         if !self.is_found || !self.params[function].iter().any(differs) {
             return;
         }
@@ -164,7 +165,7 @@ impl Constants {
         match f[value] {
             Op::Const(id) => match program.types.get(program[id].ty) {
                 Type::Vector { scalar, .. } => {
-                    program[id].words.iter().map(|&word| State::Known(Known::literal(scalar, word))).collect()
+                    program[id].words.iter().map(|&word| State::Range(Interval::literal(scalar, word))).collect()
                 }
                 _ => Vec::new(),
             },
@@ -176,13 +177,13 @@ impl Constants {
     }
 
     pub(super) fn may_be_zero(&self, program: &Module, function: usize, value: Value) -> bool {
-        matches!(self.state(program, function, value), State::Known(known) if known.zero)
+        matches!(self.state(program, function, value), State::Range(known) if known.zero)
     }
 
     fn state(&self, program: &Module, function: usize, value: Value) -> State {
         match program.functions[function][value] {
-            Op::Literal(scalar, bits) => State::Known(Known::literal(scalar, bits)),
-            Op::Zero(_) => State::Known(Known::literal(Scalar::Int, 0)),
+            Op::Literal(scalar, bits) => State::Range(Interval::literal(scalar, bits)),
+            Op::Zero(_) => State::Range(Interval::literal(Scalar::Int, 0)),
             Op::Const(id) => of_const(program, id),
             Op::Param(param) => self.params[function][param as usize].state(),
             _ => self.values[function][value.index()],
@@ -191,7 +192,7 @@ impl Constants {
 
     /// Adds a known number to those that a parameter has, or that are where it refers to.
     fn pass(&mut self, program: &Module, function: usize, param: usize, state: State) {
-        if !self.is_found && matches!(state, State::Known(_)) && self.params[function][param].add(state) {
+        if !self.is_found && matches!(state, State::Range(_)) && self.params[function][param].add(state) {
             self.stale[function] = true;
             // Callers read what it has left there.
             if program.functions[function].params[param].by_reference {
@@ -201,7 +202,7 @@ impl Constants {
     }
 
     fn store(&mut self, global: GlobalId, state: State) {
-        if !self.is_found && matches!(state, State::Known(_)) && self.globals[global.index()].add(state) {
+        if !self.is_found && matches!(state, State::Range(_)) && self.globals[global.index()].add(state) {
             mark(&self.readers[global.index()], &mut self.stale);
         }
     }
@@ -213,7 +214,7 @@ impl Constants {
             program,
             f,
             values: std::mem::take(&mut self.values[index]),
-            stored: vec![Held::default(); f.vars.len()],
+            stored: vec![Merged::default(); f.vars.len()],
             growths: 0,
             held: Vec::new(),
             trail: Vec::new(),
@@ -253,7 +254,7 @@ struct Walk<'a> {
     /// The variables that have been set on the way, and what was known of them before.
     trail: Vec<(usize, State)>,
     /// All that is stored to a variable in loops.
-    stored: Vec<Held>,
+    stored: Vec<Merged>,
     /// The number of times that `stored` has grown.
     growths: usize,
     result: State,
@@ -269,8 +270,8 @@ struct Walk<'a> {
 impl Walk<'_> {
     fn state(&self, value: Value) -> State {
         match self.f[value] {
-            Op::Literal(scalar, bits) => State::Known(Known::literal(scalar, bits)),
-            Op::Zero(_) => State::Known(Known::literal(Scalar::Int, 0)),
+            Op::Literal(scalar, bits) => State::Range(Interval::literal(scalar, bits)),
+            Op::Zero(_) => State::Range(Interval::literal(Scalar::Int, 0)),
             Op::Const(id) => of_const(self.program, id),
             Op::Param(param) => self.constants.params[self.index][param as usize].state(),
             Op::Global(global) => self.constants.globals[global.index()].state(),
@@ -279,7 +280,7 @@ impl Walk<'_> {
             // Places are named by no statement.
             Op::Part { base, .. } if self.f.is_place(value) => self.state(base),
             Op::Element { base, index } if self.f.is_place(value) => match self.state(index) {
-                State::Known(_) => self.state(base),
+                State::Range(_) => self.state(base),
                 state => state,
             },
             _ => self.values[value.index()],
@@ -297,7 +298,7 @@ impl Walk<'_> {
             Stmt::Let(value) => self.values[value.index()] = self.compute(*value),
             Stmt::Store { place, value } => self.store(*place, self.state(*value)),
             Stmt::If { condition, accept, reject } => {
-                let is_known = matches!(self.state(*condition), State::Known(_));
+                let is_known = matches!(self.state(*condition), State::Range(_));
                 self.uncertain += u32::from(!is_known);
                 let accepted = self.branch(&Changes::new(), is_known, accept);
                 let rejected = self.branch(&Changes::new(), is_known, reject);
@@ -310,7 +311,7 @@ impl Walk<'_> {
                 changes.into_iter().for_each(|(var, state)| self.set(var, state));
             }
             Stmt::Switch { selector, cases } => {
-                let is_known = matches!(self.state(*selector), State::Known(_));
+                let is_known = matches!(self.state(*selector), State::Range(_));
                 self.uncertain += u32::from(!is_known);
                 let mut changes = Changes::new();
                 for case in cases {
@@ -326,9 +327,7 @@ impl Walk<'_> {
             }
             Stmt::Loop { body, continuing, break_if } => {
                 let around = (self.uncertain, self.leaves);
-                let mut written = Vec::new();
-                collect(self.f, body, &mut written);
-                collect(self.f, continuing, &mut written);
+                let written = self.written(&[body, continuing]);
                 for &var in &written {
                     self.note(var, self.held[var]);
                 }
@@ -352,7 +351,7 @@ impl Walk<'_> {
                 }
                 self.loops -= 1;
                 let is_left =
-                    self.leaves || break_if.is_some_and(|condition| !matches!(self.state(condition), State::Known(_)));
+                    self.leaves || break_if.is_some_and(|condition| !matches!(self.state(condition), State::Range(_)));
                 for &var in &written {
                     self.set(var, if is_left { Unknown } else { self.stored[var].state });
                 }
@@ -371,6 +370,20 @@ impl Walk<'_> {
             }
             Stmt::Discard | Stmt::Output(_) => {}
         }
+    }
+
+    /// Returns the variables that blocks write.
+    fn written(&self, blocks: &[&Block]) -> Vec<usize> {
+        let mut written = Vec::new();
+        let mut add = |place: Value| {
+            if let Op::Var(var) = self.f[self.f.root(place)] {
+                written.push(var.index());
+            }
+        };
+        blocks.iter().for_each(|block| stores(self.f, block, &mut add));
+        written.sort_unstable();
+        written.dedup();
+        written
     }
 
     fn set(&mut self, var: usize, state: State) {
@@ -437,7 +450,7 @@ impl Walk<'_> {
         match f[value] {
             Op::Part { base, index } => match f[base] {
                 Op::Const(id) if matches!(self.program.types.get(self.program[id].ty), Type::Vector { .. }) => {
-                    State::Known(Known::literal(scalar(base), self.program[id].words[index as usize]))
+                    State::Range(Interval::literal(scalar(base), self.program[id].words[index as usize]))
                 }
                 Op::Param(param) => {
                     let components = self.constants.components.get(param as usize);
@@ -452,15 +465,15 @@ impl Walk<'_> {
             }
             Op::Unary { op, operand } => self.state(operand).map(|known| known.unary(op, scalar(value))),
             Op::Convert { value: of, to } => self.state(of).map(|known| known.converted(to)),
-            Op::Bitcast { value: of, .. } | Op::All(of) | Op::Any(of) => self.state(of).map(|_| Known::ANY),
+            Op::Bitcast { value: of, .. } | Op::All(of) | Op::Any(of) => self.state(of).map(|_| Interval::ANY),
             // Of the same expression, though it is not known.
             Op::Binary { op: Binary::Subtract, left, right } if is_same(f, left, right) => State::ZERO,
             Op::Binary { op, left, right } => {
                 let scalar = scalar(left);
                 match (self.state(left), self.state(right)) {
                     // What a zero is multiplied or divided by need not be known.
-                    (Unknown, State::Known(known)) if known.zero && is_zero_of_zero(op).1 => State::ZERO,
-                    (State::Known(known), Unknown) if known.zero && is_zero_of_zero(op).0 => State::ZERO,
+                    (Unknown, State::Range(known)) if known.zero && is_zero_of_zero(op).1 => State::ZERO,
+                    (State::Range(known), Unknown) if known.zero && is_zero_of_zero(op).0 => State::ZERO,
                     (left, right) => left.zip(right, |l, r| l.binary(op, r, scalar)),
                 }
             }
@@ -475,11 +488,13 @@ impl Walk<'_> {
                         .zip(high, |x, y| x.function(Math::Min, Some(y), scalar)),
                     // Which mix of both it is need not be known where they are one number.
                     [Some(second), Some(Unknown), None] if fun == Math::Mix => first.met(second),
-                    others => others.into_iter().flatten().fold(first, |all, other| all.zip(other, |_, _| Known::ANY)),
+                    others => {
+                        others.into_iter().flatten().fold(first, |all, other| all.zip(other, |_, _| Interval::ANY))
+                    }
                 }
             }
             Op::Select { condition, accept, reject } => {
-                let is_known = matches!(self.state(condition), State::Known(_));
+                let is_known = matches!(self.state(condition), State::Range(_));
                 self.state(accept).join(self.state(reject), is_known)
             }
             Op::Call { function, ref args } => self.call(function, args),
@@ -524,10 +539,10 @@ fn begin(program: &Module, global: &Global) -> State {
 fn of_const(program: &Module, id: ConstId) -> State {
     let words = &program[id].words;
     let known = match program.types.scalar(program[id].ty) {
-        Some(scalar) => words.iter().map(|&word| Known::literal(scalar, word)).reduce(Known::or),
-        None => Some(Known::any_but(words.iter().any(|word| word << 1 == 0))),
+        Some(scalar) => words.iter().map(|&word| Interval::literal(scalar, word)).reduce(Interval::or),
+        None => Some(Interval::any_but(words.iter().any(|word| word << 1 == 0))),
     };
-    known.map_or(Unknown, State::Known)
+    known.map_or(Unknown, State::Range)
 }
 
 /// Says whether an operation is 0 where its left side is, and where its right side is.
@@ -536,30 +551,5 @@ fn is_zero_of_zero(op: Binary) -> (bool, bool) {
         Binary::Multiply | Binary::And => (true, true),
         Binary::Divide | Binary::Modulo | Binary::ShiftLeft | Binary::ShiftRight => (true, false),
         _ => (false, false),
-    }
-}
-
-/// Variables that a block writes.
-fn collect(f: &Function, block: &Block, out: &mut Vec<usize>) {
-    let mut add = |place: Value| {
-        if let Op::Var(var) = f[f.root(place)]
-            && !out.contains(&var.index())
-        {
-            out.push(var.index());
-        }
-    };
-    for stmt in block {
-        match stmt {
-            Stmt::Store { place, .. } => add(*place),
-            Stmt::Let(value) => {
-                if let Op::Call { args, .. } = &f[*value] {
-                    args.iter().copied().filter(|&arg| f.is_place(arg)).for_each(&mut add);
-                }
-            }
-            _ => {}
-        }
-    }
-    for stmt in block {
-        stmt.blocks(|block| collect(f, block, out));
     }
 }

@@ -6,15 +6,19 @@
 //! constants. So what may be such a zero is kept out of its sight: one that is written, or that comes of other constants
 //! ([`constants`]), as `1.0 - k` with `k = 1.0`, or `float(i)` in a loop that counts through zero. What is hidden is not
 //! folded into its quotient any more, which may change a last bit: so no more is hidden than may be a zero.
+//!
+//! Shaders also use `smoothstep` as a step, with edges that are equal: the quotient is then infinite, and is clamped to 0
+//! or 1. Mesa's `nir_opt_algebraic.py` makes a zero of `b - a` once it sees that the two are one value. Which edges become
+//! equal is not known here, so the width of each `smoothstep` that lowering wrote out is hidden; where edges are constants
+//! that differ, lowering leaves `smoothstep` to the driver.
 
 mod constants;
-mod exposed;
-mod known;
 mod same;
 mod state;
 
 use self::constants::Constants;
 use crate::{
+    builtins::Operation,
     ir::{
         Binary, Function, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
@@ -36,6 +40,8 @@ pub(super) fn run(program: &mut Module) {
         if divisions.contains(&true) {
             constants.look_at_each_call(program, index, &mut divisions);
         }
+        let is_width = |division| divisor(program, f, division).is_some() && is_of_smoothstep(f, division.0);
+        divisions.iter_mut().zip(f.values()).for_each(|(hides, division)| *hides |= is_width(division));
         if divisions.contains(&true) {
             rewrite::function(program, index, &mut HiddenDivisors(divisions));
         }
@@ -48,6 +54,10 @@ fn divisor(program: &Module, f: &Function, (value, op): (Value, &Op)) -> Option<
     let is_of_floats = program.types.scalar(f.ty(value)) == Some(Scalar::Float);
     let is_number = matches!(f[right], Op::Literal(_, bits) if bits << 1 != 0);
     (is_of_floats && !is_number).then_some(right)
+}
+
+fn is_of_smoothstep(f: &Function, value: Value) -> bool {
+    f.origin(value).builtin.is_some_and(|builtin| builtin.operation == Operation::Smoothstep)
 }
 
 /// Divisions whose divisor is hidden, by [`Value::index`].

@@ -1,7 +1,8 @@
 //! Knowledge of a value, and of something that is written in several places.
 
-use super::known::Known;
 use State::{Unknown, Unseen};
+
+use crate::ir::analysis::Interval;
 
 /// The knowledge of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -10,18 +11,18 @@ pub(super) enum State {
     #[default]
     Unseen,
     /// It is one number of an interval: a driver may know which.
-    Known(Known),
+    Range(Interval),
     Unknown,
 }
 
 impl State {
-    pub const ZERO: State = State::Known(Known::ZERO);
+    pub const ZERO: State = State::Range(Interval::ZERO);
 
     /// Returns what holds of both, where a driver knows which of the two it is.
     pub fn or(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
-            (State::Known(a), State::Known(b)) => State::Known(a.or(b)),
+            (State::Range(a), State::Range(b)) => State::Range(a.or(b)),
             _ => Unknown,
         }
     }
@@ -30,7 +31,7 @@ impl State {
     pub fn met(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
-            (State::Known(a), State::Known(b)) if a == b && a.is_exact() => self,
+            (State::Range(a), State::Range(b)) if a == b && a.is_exact() => self,
             _ => Unknown,
         }
     }
@@ -40,16 +41,16 @@ impl State {
         if is_known { self.or(other) } else { self.met(other) }
     }
 
-    pub fn map(self, f: impl FnOnce(Known) -> Known) -> State {
+    pub fn map(self, f: impl FnOnce(Interval) -> Interval) -> State {
         match self {
-            State::Known(known) => State::Known(f(known)),
+            State::Range(range) => State::Range(f(range)),
             state => state,
         }
     }
 
-    pub fn zip(self, other: State, f: impl FnOnce(Known, Known) -> Known) -> State {
+    pub fn zip(self, other: State, f: impl FnOnce(Interval, Interval) -> Interval) -> State {
         match (self, other) {
-            (State::Known(a), State::Known(b)) => State::Known(f(a, b)),
+            (State::Range(a), State::Range(b)) => State::Range(f(a, b)),
             (Unknown, _) | (_, Unknown) => Unknown,
             _ => Unseen,
         }
@@ -58,13 +59,13 @@ impl State {
 
 /// The knowledge of something that is written in several places.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Held {
+pub(super) struct Merged {
     pub state: State,
     /// The number of times that its interval has grown.
     pub grown: u8,
 }
 
-impl Held {
+impl Merged {
     /// The number of times that an interval grows by as much as it must. What calls count up would grow for ever.
     const MOST_GROWN: u8 = 3;
 
@@ -92,10 +93,10 @@ impl Held {
         if after == before {
             return false;
         }
-        if let (State::Known(old), State::Known(new)) = (before, after) {
+        if let (State::Range(old), State::Range(new)) = (before, after) {
             self.grown = self.grown.saturating_add(1);
             if self.grown > most_grown {
-                after = State::Known(new.widened(old));
+                after = State::Range(new.widened(old));
             }
         }
         self.state = after;

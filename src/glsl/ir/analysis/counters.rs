@@ -9,7 +9,7 @@ use crate::{
 
 /// The stores to a variable.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Written {
+pub enum Definition {
     /// In ways that are not told apart.
     Unknown,
     /// By one store, before everything that reads it.
@@ -21,14 +21,14 @@ pub(super) enum Written {
 
 /// The amount that a round adds.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
+pub enum Step {
     Int(i64),
     Float { start: f32, by: f32 },
 }
 
-pub(super) struct Counters {
+pub struct Counters {
     /// By [`VarId::index`](crate::ir::VarId::index).
-    pub vars: Vec<Written>,
+    pub vars: Vec<Definition>,
     /// The test of each counter's loop: the comparison that holds for another round, and the value that the counter is
     /// compared with.
     tests: FxHashMap<usize, (Binary, Value)>,
@@ -49,8 +49,8 @@ impl Counters {
         };
         walk.block(&f.body);
         let mut tests = FxHashMap::default();
-        let written = (0..f.vars.len()).map(|var| walk.written(var, &mut tests));
-        let vars = written.collect();
+        let definitions = (0..f.vars.len()).map(|var| walk.definition(var, &mut tests));
+        let vars = definitions.collect();
         Counters { vars, tests }
     }
 
@@ -149,11 +149,11 @@ impl Walk<'_> {
         }
     }
 
-    fn written(&self, var: usize, tests: &mut FxHashMap<usize, (Binary, Value)>) -> Written {
+    fn definition(&self, var: usize, tests: &mut FxHashMap<usize, (Binary, Value)>) -> Definition {
         let seen = &self.vars[var];
         match &seen.stores[..] {
-            _ if seen.is_bad => Written::Unknown,
-            [_] => Written::Once,
+            _ if seen.is_bad => Definition::Unknown,
+            [_] => Definition::Once,
             [(start, around), (next, loops)] => {
                 let counted = || {
                     let number = *loops.last().filter(|number| !around.contains(number))?;
@@ -163,12 +163,12 @@ impl Walk<'_> {
                 match counted() {
                     Some((number, by, test)) => {
                         tests.insert(var, test);
-                        Written::Counted { number, ty: self.f.ty(*start), by }
+                        Definition::Counted { number, ty: self.f.ty(*start), by }
                     }
-                    None => Written::Unknown,
+                    None => Definition::Unknown,
                 }
             }
-            _ => Written::Unknown,
+            _ => Definition::Unknown,
         }
     }
 

@@ -3,10 +3,11 @@
 //! Most are set at the beginning of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
 //! sees that the zero that such a variable begins with gets nowhere.
 
+use super::leaves;
 use crate::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
 
 /// Returns for each variable of the module whether something may read it before it is written as a whole.
-pub(super) fn exposed(program: &Module) -> Vec<bool> {
+pub fn exposed(program: &Module) -> Vec<bool> {
     let mut functions: Vec<Summary> = Vec::with_capacity(program.functions.len());
     for f in &program.functions {
         let mut walk = Walk { program, f, functions: &functions, exposed: none(program), returned: None };
@@ -109,9 +110,4 @@ impl Walk<'_> {
             }
         }
     }
-}
-
-/// Says whether no way leads behind a block.
-pub(super) fn leaves(block: &Block) -> bool {
-    matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))
 }

@@ -19,7 +19,7 @@ use rustc_hash::FxHashMap;
 pub(super) type Precisions = [Option<Precision>; BasicType::ALL.len()];
 
 #[derive(Clone)]
-pub(crate) struct Begun {
+pub(crate) struct Checkpoint {
     /// The number of [`super::Ast::items`] that were checked.
     pub(super) items: usize,
     pub(super) module: Module,
@@ -37,7 +37,7 @@ pub(crate) struct Begun {
     pub(super) depth_range: Option<ConstId>,
 }
 
-impl Begun {
+impl Checkpoint {
     /// Nothing is checked, and nothing in scope.
     pub(super) fn nothing() -> Self {
         let module = Module::default();

@@ -1,8 +1,37 @@
-//! Says what the site's uniforms, the variables of chapter 7 and the entry points are.
+//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its
+//! unit.
+//!
+//! Owns the texts and nothing else; signatures come from the checker's tables, so they cannot disagree with it.
+
+/// Returns a uniform, channel, `gl_` variable or constant, entry point, or macro of the header.
+pub(super) fn variable(name: &str) -> Option<&'static str> {
+    find(VARIABLES, name)
+}
+
+pub(super) fn keyword(name: &str) -> Option<&'static str> {
+    find(KEYWORDS, name)
+}
+
+pub(super) fn directive(name: &str) -> Option<&'static str> {
+    find(DIRECTIVES, name)
+}
+
+/// Name, type and text of each member of `iCh0` to `iCh3`.
+pub(super) fn channel_members() -> &'static [(&'static str, &'static str, &'static str)] {
+    CHANNEL_MEMBERS
+}
+
+pub(super) fn directives() -> impl Iterator<Item = &'static str> {
+    DIRECTIVES.iter().map(|d| d.0)
+}
+
+fn find(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
+    table.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
 
 /// Name and text.
 #[rustfmt::skip]
-pub(super) const VARIABLES: &[(&str, &str)] = &[
+const VARIABLES: &[(&str, &str)] = &[
     // The site's uniforms.
     ("iResolution", "Resolution of this pass in pixels; z is the pixel aspect ratio, always 1. A cubemap pass has \
                      1024 x 1024."),
@@ -93,7 +122,7 @@ pub(super) const VARIABLES: &[(&str, &str)] = &[
 ];
 
 /// Members of `iCh0` to `iCh3`.
-pub(super) const CHANNEL_MEMBERS: &[(&str, &str, &str)] = &[
+const CHANNEL_MEMBERS: &[(&str, &str, &str)] = &[
     ("sampler", "sampler", "The texture, as `iChannelN`."),
     ("size", "vec3", "Its size in texels, as `iChannelResolution[N]`."),
     ("time", "float", "Playback time of its video or music in seconds, as `iChannelTime[N]`."),
@@ -102,7 +131,7 @@ pub(super) const CHANNEL_MEMBERS: &[(&str, &str, &str)] = &[
 
 /// Keywords that a newcomer may look up.
 #[rustfmt::skip]
-pub(super) const KEYWORDS: &[(&str, &str)] = &[
+const KEYWORDS: &[(&str, &str)] = &[
     ("const", "A constant; it needs an initial value. As a parameter: the function cannot change it."),
     ("in", "A parameter copied in; changes stay inside the function. The default without in, out or inout."),
     ("out", "A parameter the function writes: copied to the argument when it returns. On entry it is zero here, \
@@ -130,7 +159,7 @@ pub(super) const KEYWORDS: &[(&str, &str)] = &[
 ];
 
 /// Directives of the preprocessor.
-pub(super) const DIRECTIVES: &[(&str, &str)] = &[
+const DIRECTIVES: &[(&str, &str)] = &[
     ("define", "Defines a macro: `#define NAME text`, or `#define NAME(a, b) text`."),
     ("undef", "Removes the definition of a macro."),
     ("if", "Compiles the lines up to `#endif` only if a constant condition holds."),
@@ -143,3 +172,31 @@ pub(super) const DIRECTIVES: &[(&str, &str)] = &[
     ("pragma", "A hint to the compiler; none has an effect here."),
     ("line", "Changes what `__LINE__` says. Messages do not follow it."),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{check, hir::Uniform};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_variable_has_a_text_and_every_text_a_variable() {
+        let given: BTreeSet<&str> = check::env::names()
+            .chain(Uniform::ALL.iter().filter(|u| **u != Uniform::ChannelLoaded).map(|u| u.name()))
+            .chain(["HW_PERFORMANCE", "GL_ES", "__VERSION__", "__LINE__", "__FILE__"])
+            .collect();
+        let told: BTreeSet<&str> = VARIABLES.iter().map(|v| v.0).collect();
+        assert_eq!(told.len(), VARIABLES.len(), "a name stands twice");
+        assert_eq!(told, given);
+        for (name, text) in VARIABLES.iter().chain(KEYWORDS).chain(DIRECTIVES) {
+            assert!(text.ends_with('.') && text.len() > 12, "{name}: {text}");
+        }
+    }
+
+    #[test]
+    fn the_directives_are_those_the_preprocessor_knows() {
+        for name in directives() {
+            assert!(crate::preprocess::DIRECTIVES.contains(&name), "{name}");
+        }
+    }
+}

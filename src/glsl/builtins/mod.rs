@@ -1,0 +1,92 @@
+//! Says what the language and the site bring along: built-in functions, uniforms, variables.
+//!
+//! A function is a [`Row`] of a table, which holds everything about it: its overloads, the operation that a call becomes,
+//! its value on constants, where it is undefined, and its words for the editor. The checker, lowering, the audit and the
+//! editor services ask the row; none of them knows a function by its name.
+
+mod constant;
+mod numbers;
+mod overloads;
+mod row;
+mod textures;
+mod uniforms;
+mod variables;
+mod vectors;
+
+use super::ast::Symbol;
+use std::{fmt, ops::Deref};
+
+pub use constant::Arg;
+pub use overloads::{Overload, Pattern};
+pub use row::{Form, Lod, Operation, Row};
+pub use uniforms::Uniform;
+pub use variables::BuiltinVar;
+
+const FAMILIES: [&[Row]; 3] = [numbers::ROWS, vectors::ROWS, textures::ROWS];
+
+const COUNT: usize = FAMILIES[0].len() + FAMILIES[1].len() + FAMILIES[2].len();
+
+/// The rows, by [`Builtin`].
+static TABLE: [&Row; COUNT] = {
+    let mut table = [&FAMILIES[0][0]; COUNT];
+    let (mut family, mut first, mut index) = (0, 0, 0);
+    while index < COUNT {
+        while index - first == FAMILIES[family].len() {
+            (family, first) = (family + 1, index);
+        }
+        table[index] = &FAMILIES[family][index - first];
+        index += 1;
+    }
+    table
+};
+
+/// A function of chapter 8, one a name, or of the site: the number of its [`Row`]. ESSL 3.00 lets nobody redefine or
+/// overload them (section 6.1), but a variable or struct of the name hides them.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Builtin(u8);
+
+impl Builtin {
+    pub const COUNT: usize = COUNT;
+
+    /// Returns what is known of it.
+    #[inline]
+    pub fn row(self) -> &'static Row {
+        TABLE[usize::from(self.0)]
+    }
+
+    /// All, in order of their symbols.
+    pub fn all() -> impl Iterator<Item = Builtin> {
+        (0..COUNT).map(|index| Builtin(index as u8))
+    }
+
+    /// Returns what a symbol names, by the order of the interner's seed ([`super::ast::Interner`] says how it must
+    /// begin).
+    #[inline]
+    pub fn from_symbol(symbol: Symbol) -> Option<Self> {
+        ((symbol.0 as usize) < COUNT).then_some(Builtin(symbol.0 as u8))
+    }
+
+    /// The opposite of `from_symbol`.
+    #[inline]
+    pub fn symbol(self) -> Symbol {
+        Symbol(self.0.into())
+    }
+}
+
+impl Deref for Builtin {
+    type Target = Row;
+
+    #[inline]
+    fn deref(&self) -> &Row {
+        self.row()
+    }
+}
+
+impl fmt::Debug for Builtin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! Overloads as patterns over sizes, and finding the one that takes given types.
+
+use crate::{
+    ast::BasicType,
+    types::{SamplerDim, Scalar, Type, TypeId, TypeTable},
+};
+
+/// A parameter's or result's type in an overload. Sizes and matrices agree within one overload.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// `genType`, `genIType`, `genUType`, `genBType`: a scalar or vector.
+    Gen(Scalar),
+    /// `vec`, `ivec`, `uvec`, `bvec`: a vector.
+    Vector(Scalar),
+    /// `mat`: any matrix.
+    Matrix,
+    /// Any square matrix.
+    Square,
+    /// As a result: the transpose of the matrix.
+    Transposed,
+    /// A sampler of floats, ints or uints; those that compare give floats.
+    Sampler(SamplerDim, bool),
+    /// As a result: `gvec4`, of the sampler's components.
+    Texel,
+    Exactly(TypeId),
+}
+
+#[derive(Debug)]
+pub struct Overload {
+    pub result: Pattern,
+    pub params: &'static [Pattern],
+}
+
+/// Returns an overload: its result, and its parameters.
+pub(super) const fn sig(result: Pattern, params: &'static [Pattern]) -> Overload {
+    Overload { result, params }
+}
+
+/// Short names of the patterns, for the rows.
+pub(super) mod patterns {
+    use super::{Overload, Pattern, sig};
+    use crate::types::{SamplerDim, Scalar, TypeId};
+
+    pub const MAT: Pattern = Pattern::Matrix;
+    pub const SQUARE: Pattern = Pattern::Square;
+    pub const TRANSPOSED: Pattern = Pattern::Transposed;
+    pub const G4: Pattern = Pattern::Texel;
+    pub const F: Pattern = Pattern::Gen(Scalar::Float);
+    pub const I: Pattern = Pattern::Gen(Scalar::Int);
+    pub const U: Pattern = Pattern::Gen(Scalar::Uint);
+    pub const B: Pattern = Pattern::Gen(Scalar::Bool);
+    pub const VF: Pattern = Pattern::Vector(Scalar::Float);
+    pub const VI: Pattern = Pattern::Vector(Scalar::Int);
+    pub const VU: Pattern = Pattern::Vector(Scalar::Uint);
+    pub const VB: Pattern = Pattern::Vector(Scalar::Bool);
+    pub const VOID: Pattern = Pattern::Exactly(TypeId::VOID);
+    pub const BOOL: Pattern = Pattern::Exactly(TypeId::BOOL);
+    pub const F1: Pattern = Pattern::Exactly(TypeId::FLOAT);
+    pub const F2: Pattern = Pattern::Exactly(TypeId::VEC2);
+    pub const F3: Pattern = Pattern::Exactly(TypeId::VEC3);
+    pub const F4: Pattern = Pattern::Exactly(TypeId::VEC4);
+    pub const I1: Pattern = Pattern::Exactly(TypeId::INT);
+    pub const I2: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 2));
+    pub const I3: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 3));
+    pub const U1: Pattern = Pattern::Exactly(TypeId::UINT);
+    pub const S2: Pattern = Pattern::Sampler(SamplerDim::D2, false);
+    pub const S3: Pattern = Pattern::Sampler(SamplerDim::D3, false);
+    pub const SC: Pattern = Pattern::Sampler(SamplerDim::Cube, false);
+    pub const SA: Pattern = Pattern::Sampler(SamplerDim::D2Array, false);
+    pub const D2: Pattern = Pattern::Sampler(SamplerDim::D2, true);
+    pub const DC: Pattern = Pattern::Sampler(SamplerDim::Cube, true);
+    pub const DA: Pattern = Pattern::Sampler(SamplerDim::D2Array, true);
+
+    pub const fn mat(columns: u8, rows: u8) -> Pattern {
+        Pattern::Exactly(TypeId::matrix(columns, rows))
+    }
+
+    /// `genType f(genType)`.
+    pub const FLOAT: &[Overload] = &[sig(F, &[F])];
+    /// `genType f(genType, genType)`.
+    pub const FLOATS: &[Overload] = &[sig(F, &[F, F])];
+}
+
+/// Holds what the patterns of one overload have been bound to by the arguments so far.
+#[derive(Clone, Copy)]
+struct Bound {
+    size: u8,
+    matrix: TypeId,
+    texel: Scalar,
+}
+
+impl Overload {
+    /// The result's type if the overload takes these arguments.
+    pub fn result_for(&self, args: &[TypeId], types: &TypeTable) -> Option<TypeId> {
+        if args.len() != self.params.len() {
+            return None;
+        }
+        let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
+        let fits = self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types));
+        fits.then(|| instance(self.result, bound, types))
+    }
+
+    /// Returns whether these can be the first arguments.
+    pub fn begins_with(&self, args: &[TypeId], types: &TypeTable) -> bool {
+        let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
+        args.len() <= self.params.len()
+            && self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types))
+    }
+
+    /// The parameters' types where generic ones have `size` components; samplers and matrices as the arguments have
+    /// them.
+    pub fn params_at(&self, size: u8, given: &[TypeId], types: &TypeTable) -> Option<Vec<TypeId>> {
+        if given.len() != self.params.len() {
+            return None;
+        }
+        let at = |(&pattern, &given): (&Pattern, &TypeId)| match pattern {
+            Pattern::Exactly(ty) => Some(ty),
+            Pattern::Gen(scalar) => Some(TypeId::vector(scalar, size)),
+            Pattern::Vector(scalar) if size > 1 => Some(TypeId::vector(scalar, size)),
+            Pattern::Vector(_) | Pattern::Transposed | Pattern::Texel => None,
+            Pattern::Matrix | Pattern::Square => matches!(types.get(given), Type::Matrix { .. }).then_some(given),
+            Pattern::Sampler(dim, shadow) => match types.get(given) {
+                Type::Sampler { dim: d, shadow: s, .. } => (d == dim && s == shadow).then_some(given),
+                _ => None,
+            },
+        };
+        self.params.iter().zip(given).map(at).collect()
+    }
+
+    /// Types to show for a pattern where the arguments have `size` components.
+    pub fn shown(&self, pattern: Pattern, size: u8) -> String {
+        let size = size.max(1);
+        let prefix = |scalar| match scalar {
+            Scalar::Float => "",
+            Scalar::Int => "i",
+            Scalar::Uint => "u",
+            Scalar::Bool => "b",
+        };
+        match pattern {
+            Pattern::Gen(scalar) => name(TypeId::vector(scalar, size)),
+            Pattern::Vector(scalar) if size > 1 => name(TypeId::vector(scalar, size)),
+            Pattern::Vector(scalar) => format!("{}vecN", prefix(scalar)),
+            Pattern::Matrix => "matCxR".to_owned(),
+            Pattern::Square => "matN".to_owned(),
+            Pattern::Transposed => "matRxC".to_owned(),
+            Pattern::Texel => "vec4".to_owned(),
+            Pattern::Sampler(dim, shadow) => {
+                let dim = dim.name();
+                format!("sampler{dim}{}", if shadow { "Shadow" } else { "" })
+            }
+            Pattern::Exactly(ty) => name(ty),
+        }
+    }
+}
+
+fn name(ty: TypeId) -> String {
+    ty.as_basic().map_or("?", BasicType::name).to_owned()
+}
+
+#[inline]
+fn bind(pattern: Pattern, arg: TypeId, bound: &mut Bound, types: &TypeTable) -> bool {
+    match pattern {
+        Pattern::Exactly(ty) => ty == arg,
+        Pattern::Gen(wanted) | Pattern::Vector(wanted) => {
+            let (scalar, size) = match types.get(arg) {
+                Type::Scalar(scalar) if pattern == Pattern::Gen(wanted) => (scalar, 1),
+                Type::Vector { scalar, size } => (scalar, size),
+                _ => return false,
+            };
+            let fits = scalar == wanted && (bound.size == 0 || bound.size == size);
+            bound.size = size;
+            fits
+        }
+        Pattern::Matrix | Pattern::Square => {
+            let Type::Matrix { columns, rows } = types.get(arg) else { return false };
+            let fits = (pattern == Pattern::Matrix || columns == rows)
+                && (bound.matrix == TypeId::ERROR || bound.matrix == arg);
+            bound.matrix = arg;
+            fits
+        }
+        Pattern::Sampler(wanted, compares) => {
+            let Type::Sampler { dim, scalar, shadow } = types.get(arg) else { return false };
+            bound.texel = scalar;
+            dim == wanted && shadow == compares
+        }
+        Pattern::Transposed | Pattern::Texel => false,
+    }
+}
+
+fn instance(pattern: Pattern, bound: Bound, types: &TypeTable) -> TypeId {
+    match pattern {
+        Pattern::Exactly(ty) => ty,
+        Pattern::Gen(scalar) | Pattern::Vector(scalar) => TypeId::vector(scalar, bound.size),
+        Pattern::Texel => TypeId::vector(bound.texel, 4),
+        Pattern::Matrix | Pattern::Square => bound.matrix,
+        Pattern::Transposed => match types.get(bound.matrix) {
+            Type::Matrix { columns, rows } => TypeId::matrix(rows, columns),
+            _ => TypeId::ERROR,
+        },
+        Pattern::Sampler(..) => unreachable!("no built-in returns a sampler"),
+    }
+}

@@ -1,0 +1,57 @@
+//! The front end: a pass from its texts to a checked program, for whoever asks for one.
+
+use super::{
+    ast::{Interner, Origins},
+    check, dialects, hir, parse,
+    preamble::Preamble,
+    report::Report,
+    source::PassSource,
+    stages::{self, Interface, Link},
+};
+use eddy_diag::{Diagnostic, Span};
+
+/// A pass that was read and checked, with everything that is wrong with it.
+pub(super) struct FrontEnd {
+    pub module: hir::Module,
+    pub interface: Interface,
+    pub origins: Origins,
+    pub names: Interner,
+    /// As the author reads the text.
+    pub diagnostics: Vec<Diagnostic>,
+    pub faults: Vec<check::Fault>,
+    /// See [`check::Checked::bulk`].
+    pub bulk: Option<Span>,
+}
+
+impl FrontEnd {
+    /// Reads and checks a pass. The `preamble` is of its own Common; it saves time and changes nothing.
+    pub fn run(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Self {
+        let preamble = preamble.filter(|_| source.common.is_some());
+        let parsed = parse::parse(source, preamble.map(Preamble::parsed));
+        let checkpoint = preamble.and_then(|preamble| preamble.checked(source));
+        let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, checkpoint);
+        let interface =
+            stages::interface(&checked.module, &parsed.names, &parsed.origins, source, link, &mut checked.diagnostics);
+        let mut all = Report::default();
+        parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
+        all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
+        if all.has_errors()
+            && let Some(named) = dialects::name(source, &all.diagnostics)
+        {
+            all.diagnostics = vec![named];
+        }
+        Self {
+            module: checked.module,
+            interface,
+            origins: parsed.origins,
+            names: parsed.names,
+            diagnostics: all.diagnostics,
+            faults: checked.faults,
+            bulk: checked.bulk,
+        }
+    }
+
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+}

@@ -1,0 +1,312 @@
+//! Intervals of numbers, of which something is known before a program runs.
+
+use crate::{
+    ir::{Binary, Math, Unary},
+    types::{Scalar, TypeId},
+};
+
+/// The interval in which the numbers lie that a value has, or its components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    pub least: f64,
+    pub most: f64,
+    /// The number may be a zero. No interval without 0 has one, but not each interval with 0 has one.
+    pub zero: bool,
+}
+
+impl Interval {
+    /// Any number.
+    pub const ANY: Interval = Interval { least: f64::NEG_INFINITY, most: f64::INFINITY, zero: true };
+    pub const ZERO: Interval = Interval { least: 0.0, most: 0.0, zero: true };
+    pub const BOOL: Interval = Interval { least: 0.0, most: 1.0, zero: true };
+
+    fn exact(number: f64) -> Interval {
+        Interval::between(number, number)
+    }
+
+    /// All numbers of an interval; any number where a bound is NaN.
+    pub fn between(least: f64, most: f64) -> Interval {
+        if least.is_nan() || most.is_nan() {
+            return Interval::ANY;
+        }
+        Interval { least, most, zero: least <= 0.0 && most >= 0.0 }
+    }
+
+    /// A scalar by its bits.
+    pub fn literal(scalar: Scalar, bits: u32) -> Interval {
+        Interval::exact(match scalar {
+            Scalar::Float => f32::from_bits(bits).into(),
+            Scalar::Int => (bits as i32).into(),
+            Scalar::Uint | Scalar::Bool => bits.into(),
+        })
+    }
+
+    /// The least and the greatest number of an int or a uint; none of other types.
+    pub fn of_type(ty: TypeId) -> Option<Interval> {
+        match ty {
+            TypeId::INT => Some(Interval::between(i32::MIN.into(), i32::MAX.into())),
+            TypeId::UINT => Some(Interval::between(0.0, u32::MAX.into())),
+            _ => None,
+        }
+    }
+
+    /// Any number, which is a zero only where `zero` says so.
+    pub fn any_but(zero: bool) -> Interval {
+        Interval { zero, ..Interval::ANY }
+    }
+
+    pub fn or(self, other: Interval) -> Interval {
+        Interval { least: self.least.min(other.least), most: self.most.max(other.most), zero: self.zero || other.zero }
+    }
+
+    /// `self`, which `before` has grown to, with the bounds that have grown taken to infinity.
+    pub fn widened(self, before: Interval) -> Interval {
+        let least = if self.least < before.least { f64::NEG_INFINITY } else { self.least };
+        let most = if self.most > before.most { f64::INFINITY } else { self.most };
+        Interval { least, most, zero: self.zero }
+    }
+
+    /// Returns the intersection with an interval that it meets.
+    pub fn within(self, other: Interval) -> Interval {
+        Interval { least: self.least.max(other.least), most: self.most.min(other.most), zero: self.zero && other.zero }
+    }
+
+    pub fn is_exact(self) -> bool {
+        self.least == self.most
+    }
+
+    /// The least interval around what `f` makes of the bounds of both, for an `f` that is monotonic in either.
+    fn corners(self, other: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
+        let (l, r) = (self, other);
+        let all = [f(l.least, r.least), f(l.least, r.most), f(l.most, r.least), f(l.most, r.most)];
+        if all.iter().any(|number| number.is_nan()) {
+            return Interval::ANY;
+        }
+        Interval::between(
+            all.into_iter().fold(f64::INFINITY, f64::min),
+            all.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
+    }
+
+    /// Returns what the device computes in this type: floats are rounded, and integers wrap.
+    fn as_type(self, scalar: Scalar) -> Interval {
+        let (least, most) = match scalar {
+            // The same as a single rounding: a double has more than twice the bits of a float.
+            Scalar::Float => {
+                let (least, most) = (f64::from(self.least as f32), f64::from(self.most as f32));
+                return Interval { least, most, zero: self.zero || (self.is_exact() && least == 0.0) };
+            }
+            Scalar::Int => (i32::MIN.into(), i32::MAX.into()),
+            Scalar::Uint => (0.0, u32::MAX.into()),
+            Scalar::Bool => (0.0, 1.0),
+        };
+        // No loop is unrolled until its counter wraps: a bound that was taken to infinity stays there.
+        let wraps = |bound: f64| bound.is_finite() && !(least..=most).contains(&bound);
+        if wraps(self.least) || wraps(self.most) { Interval::between(least, most) } else { self }
+    }
+
+    pub fn unary(self, op: Unary, scalar: Scalar) -> Interval {
+        match op {
+            Unary::Negate => Interval { least: -self.most, most: -self.least, zero: self.zero }.as_type(scalar),
+            Unary::LogicalNot => Interval::BOOL,
+            Unary::BitwiseNot => Interval::ANY,
+        }
+    }
+
+    /// An operation on numbers of the type `scalar`.
+    pub fn binary(self, op: Binary, other: Interval, scalar: Scalar) -> Interval {
+        let (l, r) = (self, other);
+        // A product or a quotient of two intervals with 0 between their bounds need not be 0.
+        let with_zero =
+            |interval: Interval, zero| Interval { zero: zero || (interval.is_exact() && interval.zero), ..interval };
+        let result = match op {
+            Binary::Add => l.corners(r, |l, r| l + r),
+            Binary::Subtract => l.corners(r, |l, r| l - r),
+            Binary::Multiply => with_zero(l.corners(r, |l, r| l * r), l.zero || r.zero),
+            Binary::Divide if r.least > 0.0 || r.most < 0.0 => match scalar {
+                Scalar::Float => with_zero(l.corners(r, |l, r| l / r), l.zero),
+                _ => l.corners(r, |l, r| (l / r).trunc()),
+            },
+            Binary::And if l.least >= 0.0 || r.least >= 0.0 => {
+                // Of a negative number any bit may be set.
+                let most = |side: Interval| if side.least >= 0.0 { side.most } else { f64::INFINITY };
+                Interval::between(0.0, most(l).min(most(r)))
+            }
+            // It has the divisor's sign.
+            Binary::Modulo if r.least > 0.0 => Interval::between(0.0, r.most - 1.0),
+            Binary::ShiftRight if r.is_exact() && (0.0..32.0).contains(&r.least) => {
+                let shifted = |number: f64| (number / r.least.exp2()).floor();
+                Interval::between(shifted(l.least), shifted(l.most))
+            }
+            _ if op.is_comparison() => return Interval::BOOL,
+            _ => return Interval::ANY,
+        };
+        result.as_type(scalar)
+    }
+
+    /// Returns the result of a comparison, if it is the same for all numbers of both.
+    pub fn compare(self, op: Binary, other: Interval) -> Option<bool> {
+        let (l, r) = (self, other);
+        let (is_below, is_above) = (l.most < r.least, l.least > r.most);
+        let is_same = l.is_exact() && l.least == r.least && l.most == r.most;
+        let (all, none) = match op {
+            Binary::Less => (is_below, l.least >= r.most),
+            Binary::LessEqual => (l.most <= r.least, is_above),
+            Binary::Greater => (is_above, l.most <= r.least),
+            Binary::GreaterEqual => (l.least >= r.most, is_below),
+            Binary::Equal => (is_same, is_below || is_above),
+            Binary::NotEqual => (is_below || is_above, is_same),
+            _ => return None,
+        };
+        (all || none).then_some(all)
+    }
+
+    /// A function of one number, or of two. Of an interval, those whose results hardly anybody divides by have any result.
+    pub fn function(self, fun: Math, other: Option<Interval>, scalar: Scalar) -> Interval {
+        let x = self;
+        if let (true, Some(y)) = (x.is_exact(), other.map_or(Some(0.0), |y| y.is_exact().then_some(y.least)))
+            && let Some(result) = of_numbers(fun, x.least, y)
+        {
+            return Interval::exact(result).as_type(scalar);
+        }
+        let both = |f: fn(f64, f64) -> f64, y: Interval| {
+            let (least, most) = (f(x.least, y.least), f(x.most, y.most));
+            Interval { least, most, zero: least <= 0.0 && most >= 0.0 && (x.zero || y.zero) }
+        };
+        let result = match (fun, other) {
+            (Math::Abs, None) => {
+                let (least, most) = (x.least.abs(), x.most.abs());
+                let has_both_signs = x.least < 0.0 && x.most > 0.0;
+                Interval {
+                    least: if has_both_signs { 0.0 } else { least.min(most) },
+                    most: least.max(most),
+                    zero: x.zero,
+                }
+            }
+            (Math::Min, Some(y)) => both(f64::min, y),
+            (Math::Max, Some(y)) => both(f64::max, y),
+            (Math::Sqrt, None) if x.least >= 0.0 => {
+                Interval { least: x.least.sqrt(), most: x.most.sqrt(), zero: x.zero }
+            }
+            // Less would underflow.
+            (Math::Exp | Math::Exp2, None) if x.least > -80.0 => {
+                Interval { least: 0.0, most: f64::INFINITY, zero: false }
+            }
+            _ => return Interval::ANY,
+        };
+        result.as_type(scalar)
+    }
+
+    /// A conversion to another type.
+    pub fn converted(self, to: Scalar) -> Interval {
+        match to {
+            Scalar::Float => self.as_type(to),
+            Scalar::Int | Scalar::Uint => Interval::between(self.least.trunc(), self.most.trunc()).as_type(to),
+            Scalar::Bool => Interval::BOOL,
+        }
+    }
+}
+
+/// A function of numbers, where it is that of the standard library: a zero of the one is a zero of the other.
+fn of_numbers(fun: Math, x: f64, y: f64) -> Option<f64> {
+    Some(match fun {
+        Math::Abs => x.abs(),
+        Math::Floor => x.floor(),
+        Math::Ceil => x.ceil(),
+        Math::Trunc => x.trunc(),
+        Math::Min => x.min(y),
+        Math::Max => x.max(y),
+        Math::Sqrt => x.sqrt(),
+        Math::InverseSqrt => x.sqrt().recip(),
+        Math::Pow => x.powf(y),
+        Math::Exp => x.exp(),
+        Math::Exp2 => x.exp2(),
+        Math::Log => x.ln(),
+        Math::Log2 => x.log2(),
+        Math::Radians => x.to_radians(),
+        Math::Degrees => x.to_degrees(),
+        Math::Sin => x.sin(),
+        Math::Cos => x.cos(),
+        Math::Tan => x.tan(),
+        Math::Asin => x.asin(),
+        Math::Acos => x.acos(),
+        Math::Atan => x.atan(),
+        Math::Atan2 => x.atan2(y),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn float(number: f32) -> Interval {
+        Interval::literal(Scalar::Float, number.to_bits())
+    }
+
+    fn binary(l: Interval, op: Binary, r: Interval) -> Interval {
+        l.binary(op, r, Scalar::Float)
+    }
+
+    #[test]
+    fn differences_of_equal_numbers_are_zeros() {
+        assert!(binary(float(1.0), Binary::Subtract, float(1.0)).zero);
+        assert!(!binary(float(1.0), Binary::Subtract, float(0.5)).zero);
+        // In floats, this is 1 - 1.
+        let nearly = binary(float(1.0), Binary::Add, float(1e-9));
+        assert!(binary(float(1.0), Binary::Subtract, nearly).zero);
+        assert!(binary(float(1e-30), Binary::Multiply, float(1e-30)).zero, "it underflows");
+    }
+
+    #[test]
+    fn counters_that_grow_from_one_are_never_zero() {
+        let grown = float(1.0).or(float(2.0)).widened(float(1.0));
+        assert!(!grown.zero);
+        assert!(!binary(grown, Binary::Add, float(1.0)).zero);
+        assert!(!grown.converted(Scalar::Float).zero);
+        let counter = |number: i32| Interval::literal(Scalar::Int, number as u32);
+        let counted = counter(0).or(counter(1)).widened(counter(0));
+        assert!(!counted.binary(Binary::Add, counter(1), Scalar::Int).zero);
+        assert!(binary(grown, Binary::Subtract, float(3.0)).zero);
+        let from_below = float(-2.0).or(float(-1.0)).widened(float(-2.0));
+        assert!(binary(from_below, Binary::Add, float(1.0)).zero);
+    }
+
+    #[test]
+    fn a_product_is_zero_where_a_factor_is() {
+        let signs = float(-1.0).or(float(1.0));
+        assert!(!signs.zero, "neither is 0");
+        assert!(!binary(signs, Binary::Multiply, float(3.0)).zero);
+        assert!(binary(signs, Binary::Multiply, float(0.0)).zero);
+        assert!(binary(signs, Binary::Add, float(0.5)).zero, "which of them it is, is not known");
+    }
+
+    #[test]
+    fn integers_wrap_and_are_cut_off() {
+        let most = Interval::literal(Scalar::Int, i32::MAX as u32);
+        assert!(most.binary(Binary::Add, Interval::literal(Scalar::Int, 1), Scalar::Int).zero);
+        assert!(float(0.7).converted(Scalar::Int).zero);
+        assert!(!float(-1.2).converted(Scalar::Int).zero);
+    }
+
+    #[test]
+    fn bits_and_remainders_are_bounded() {
+        let int = Interval::of_type(TypeId::INT).unwrap();
+        let number = |number: i32| Interval::literal(Scalar::Int, number as u32);
+        let bounds = |interval: Interval| (interval.least, interval.most);
+        assert_eq!(bounds(int.binary(Binary::And, number(7), Scalar::Int)), (0.0, 7.0));
+        assert_eq!(int.binary(Binary::And, number(-2), Scalar::Int), Interval::ANY);
+        assert_eq!(bounds(int.binary(Binary::Modulo, number(5), Scalar::Int)), (0.0, 4.0));
+        assert_eq!(bounds(number(-5).binary(Binary::ShiftRight, number(1), Scalar::Int)), (-3.0, -3.0));
+        assert_eq!(bounds(int.binary(Binary::Add, number(1), Scalar::Int)), bounds(int), "it wraps");
+        assert_eq!(number(3).compare(Binary::Less, number(4)), Some(true));
+        assert_eq!(int.compare(Binary::Less, number(4)), None);
+    }
+
+    #[test]
+    fn what_is_not_a_number_may_be_any() {
+        assert_eq!(float(f32::NAN), Interval::ANY);
+        let infinite = binary(float(f32::MAX), Binary::Multiply, float(f32::MAX));
+        assert_eq!(binary(infinite, Binary::Subtract, infinite), Interval::ANY);
+    }
+}
