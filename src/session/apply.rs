@@ -5,7 +5,7 @@ use super::{
     Session,
     command::Command,
     state::CanvasSize,
-    tracing::TracedPixel,
+    trace::TracedPixel,
     view::{About, Level},
 };
 use eddy_media::Keyboard;
@@ -133,7 +133,7 @@ impl Session {
             Command::StopReplay => self.end_replay("the picture continues live from there"),
             Command::Audit => self.ask_audit(),
             Command::HideAudit => self.auditing.map = None,
-            Command::FindDivergence => self.tracing.find_divergence(),
+            Command::FindDivergence => self.want_divergence(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
                 if self.probing.want(place, self.documents.current()) {

@@ -7,6 +7,7 @@ use super::{
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
+use eddy_background::Control;
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources};
 use eddy_glsl::Driver;
@@ -77,7 +78,7 @@ pub(super) fn work(
     device: Device,
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,
-) -> impl FnMut(Job) -> Done + Send + use<> {
+) -> impl FnMut(Job, &Control<()>) -> Result<Done, String> + Send + use<> {
     let media_dir = options.media_dir.clone();
     let trial = options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), jobs));
     let mut media = Media { dir: media_dir, ..Media::default() };
@@ -89,14 +90,14 @@ pub(super) fn work(
         };
         builder.build(project, media, options)
     };
-    move |mut job| {
+    move |mut job, _| {
         if job.include_edit.is_some() {
             job.project.read_includes();
         }
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
         if job.is_look {
-            return Done { files, is_changed: media.of != Some(named), includes: None, compiled: None };
+            return Ok(Done { files, is_changed: media.of != Some(named), includes: None, compiled: None });
         }
         let mut found = media.update(&job, named);
         let trial = trial.clone();
@@ -127,7 +128,7 @@ pub(super) fn work(
         let includes = job.include_edit.map(|edit| (edit, job.project.includes.clone()));
         let Job { project, is_fallback, .. } = job;
         let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe };
-        Done { files, is_changed: false, includes, compiled: Some(compiled) }
+        Ok(Done { files, is_changed: false, includes, compiled: Some(compiled) })
     }
 }
 

@@ -1,23 +1,15 @@
 //! A session hands the engine its jobs, and takes what comes back.
-//! Decides what is read behind a frame: pictures, numbers, and what a walk or a comparison needs.
 
 use super::{
     Session,
     clock::FrameTime,
-    drawing::{Capture, Done, DrawnFrame, Job, Reads, TileLimit},
-    tracing::{self, Taken},
+    drawing::{Done, DrawnFrame, Job, Tasks, TileLimit},
     view::{About, Level},
 };
-use eddy_debugger::{divergence::DivergenceJob, nonfinite::SearchJob};
-use eddy_engine::{EngineError, FrameInputs, Pixels};
+use eddy_engine::{EngineError, FrameInputs};
 use eddy_gpu::{Gpu, GpuError};
-use eddy_playback::{
-    capture,
-    comparing::Order,
-    date,
-    run::{Replay, ReplayFrom, Run},
-};
-use std::{mem::take, sync::Arc, time::Duration};
+use eddy_playback::date;
+use std::time::Duration;
 
 impl Session {
     /// Takes what the engine has done since. Says whether a frame was drawn.
@@ -42,11 +34,11 @@ impl Session {
             }
             let frame = self.next_frame(&mut has_run);
             let again = frame.is_none() && self.take_again();
-            let reads = self.due_reads(frame.is_some() || again);
-            if frame.is_none() && !again && reads.is_empty() && self.drawing.wanted.is_empty() {
+            let tasks = self.due_tasks(frame.is_some() || again);
+            if frame.is_none() && !again && tasks.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, again, reads);
+            self.hand_in(frame, again, tasks);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -102,7 +94,7 @@ impl Session {
     }
 
     /// `again`: the frame that is shown is drawn again.
-    fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
+    pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
         let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
         // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
@@ -113,12 +105,12 @@ impl Session {
         }
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
-        let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
+        let may_wait = self.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
         if self.drawing.wanted.program.is_some() {
             self.mark_new_code();
         }
         self.drawing.submit(self.now, may_wait, |job: &mut Job| {
-            (job.frame, job.stays, job.again, job.reads) = (frame, stays, again, reads);
+            (job.frame, job.stays, job.again, job.tasks) = (frame, stays, again, tasks);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
     }
@@ -134,14 +126,12 @@ impl Session {
     }
 
     fn drew(&mut self, done: Done) -> bool {
-        for (capture, pixels) in done.captured {
-            self.write_capture(&capture, pixels);
-        }
+        self.write_captures();
         if let Some(why) = done.gave_up {
             self.engine_is_gone(&why);
             return false;
         }
-        if let Some(picture) = done.shown {
+        if let Some(Ok(picture)) = self.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
         self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
@@ -159,24 +149,7 @@ impl Session {
         if let Some(travelled) = done.travelled {
             self.travelled(travelled);
         }
-        self.changed |= !done.miniatures.is_empty();
-        self.run.miniatures.drew(has_frame, done.miniatures, done.miniatures_took);
-        self.changed |= self.run.buffers.drew(has_frame, done.buffers);
-        self.changed |= self.run.measuring.drew(has_frame, done.measured);
-        match done.replay {
-            Some((ReplayFrom::Oldest, replay)) => self.look_through(replay),
-            Some((ReplayFrom::Newest, replay)) => self.find_divergence(replay),
-            None => {}
-        }
-        if let Some(run) = done.run {
-            self.compare(run);
-        }
-        let has_numbers = done.numbers.is_some();
-        self.probing.drew(has_frame, done.numbers);
-        if has_numbers {
-            self.changed = true;
-            self.look_anew();
-        }
+        self.take_outputs(has_frame);
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
@@ -193,20 +166,6 @@ impl Session {
                 self.refused(&e);
                 return false;
             }
-            None => {}
-        }
-        match done.inspected {
-            Some(Ok(taken)) => {
-                if let Some(taken) = self.audit(taken) {
-                    self.walk(taken);
-                }
-            }
-            Some(Err(e)) if self.audit_failed(&e.to_string()) => {}
-            Some(Err(e)) => {
-                self.tracing.failed(e.to_string());
-                self.changed = true;
-            }
-            None if has_frame => self.tracing.drew(),
             None => {}
         }
         self.run.is_again_due |= done.custom_uniforms_changed && !has_frame;
@@ -232,88 +191,6 @@ impl Session {
                 false
             }
         }
-    }
-
-    /// Hands on the frames among which the first NaN is looked for.
-    fn look_through(&mut self, replay: Option<Replay>) {
-        self.changed = true;
-        let (Some(replay), Some(project)) = (replay, self.drawing.project().cloned()) else {
-            self.searching
-                .failed("no earlier frames are kept: reset and play again; very large buffers are never kept");
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.searching.failed(&e.to_string()),
-            Ok(gpu) => self.searching.submit(SearchJob {
-                gpu,
-                project,
-                shown: self.run.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
-                snapshot: replay.snapshot,
-                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
-            }),
-        }
-    }
-
-    /// Hands on the frames that lead to the traced one.
-    fn find_divergence(&mut self, replay: Option<Replay>) {
-        self.changed = true;
-        let Some(traced) = self.tracing.finding.of() else { return };
-        let Some(replay) = replay else {
-            let why = "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers \
-                       are never kept";
-            self.tracing.finding.failed(why);
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.tracing.finding.failed(&e.to_string()),
-            Ok(gpu) => self.tracing.finding.submit(DivergenceJob {
-                gpu,
-                traced,
-                shown: self.run.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
-                snapshot: replay.snapshot,
-                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
-            }),
-        }
-    }
-
-    /// Hands on the frames that both projects of a comparison draw.
-    fn compare(&mut self, run: Run) {
-        self.changed = true;
-        let Some(project) = self.drawing.project().cloned() else {
-            self.comparing.failed("nothing has been drawn yet");
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.comparing.failed(&e.to_string()),
-            Ok(gpu) => self.comparing.submit(Order {
-                gpu,
-                project,
-                saved: self.documents.saved().clone(),
-                revision: self.documents.revision(),
-                shown: self.run.shown.clone(),
-                media_dir: self.options.media_dir.clone(),
-                trial: self
-                    .options
-                    .trials
-                    .as_ref()
-                    .map(|trials| trials.trial(self.options.media_dir.clone(), Arc::default())),
-                run,
-            }),
-        }
-    }
-
-    /// Hands on what the traced pass read.
-    fn walk(&mut self, taken: Taken) {
-        let (Some(place), Some(project)) = (self.tracing.place().cloned(), self.drawing.project().cloned()) else {
-            return;
-        };
-        let frame = (self.run.clock.next_frame_number() - 1).max(0);
-        self.tracing.submit(tracing::Job { project, place, frame, taken });
-        self.changed = true;
     }
 
     /// Tells the engine how a probe is shown, if that is another way than before.
@@ -394,93 +271,5 @@ impl Session {
         self.pictures_shown += 1;
         self.changed = true;
         Ok(())
-    }
-
-    /// Writes the shown pass to a new file, as soon as the engine has time.
-    pub(super) fn capture(&mut self, format: capture::Format) {
-        if !self.drawing.has_program() {
-            self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
-            return;
-        }
-        let project = self.documents.current();
-        self.drawing.captures.push(Capture {
-            pass: self.pictured(),
-            format,
-            folder: capture::folder_for(project, &self.options.pictures),
-            stem: capture::stem_for(project, &self.run.shown),
-        });
-        if !self.drawing.is_apart() {
-            let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, false, Reads { captures, ..Reads::default() });
-            self.take_drawn(false);
-        }
-    }
-
-    fn write_capture(&mut self, capture: &Capture, pixels: Result<Pixels, EngineError>) {
-        let pixels = match pixels {
-            Ok(pixels) => pixels,
-            Err(e) => {
-                self.notice_about(About::Capture, Level::Error, format!("cannot save the screenshot: {e}"));
-                return;
-            }
-        };
-        match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
-            Ok(path) => {
-                let text = format!("saved {}", path.display());
-                self.notice_with_path(About::Capture, Level::Info, text, path);
-            }
-            Err(e) => self.notice_about(About::Capture, Level::Error, e.to_string()),
-        }
-    }
-}
-
-impl Session {
-    /// Returns what is due to be read now, behind the frame that is due, if one is.
-    pub(super) fn due_reads(&mut self, is_frame: bool) -> Reads {
-        let is_playing = self.run.clock.is_playing() && !self.run.is_covered;
-        // Another project's engine says that it has no program.
-        let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
-        let mut reads = Reads::default();
-        // A canvas between two pictures has none.
-        let is_between = self.drawing.wanted.size.is_some() || self.run.is_again_due;
-        if is_between && !is_frame && is_there && self.halting.halt.is_none() {
-            return reads;
-        }
-        if is_frame || is_there || self.drawing.wanted.restart {
-            self.read_pictures(is_frame, is_playing, &mut reads);
-        }
-        if is_there && !self.is_compile_under_way() {
-            self.read_inputs(is_playing, &mut reads);
-        }
-        reads
-    }
-
-    /// Adds pictures and numbers, which are of the newest program, after the frame that is due.
-    fn read_pictures(&mut self, is_frame: bool, is_playing: bool, reads: &mut Reads) {
-        reads.captures = take(&mut self.drawing.captures);
-        reads.wants_picture = self.last_pictures.take_due() && self.is_picture_of_project();
-        reads.miniatures = self.run.miniatures.take_due(self.now, is_playing);
-        reads.buffers = self.run.buffers.take_due(self.now, is_playing);
-        let is_busy = is_playing || self.run.seeking.is_seeking();
-        reads.measures = self.run.measuring.take_due(self.now, is_frame, is_busy);
-        reads.numbers = self.probing.take_due(self.now, is_playing);
-    }
-
-    /// Adds what the newest program was drawn with. An audit goes before a trace, which waits until nothing more is to
-    /// be drawn.
-    fn read_inputs(&mut self, is_playing: bool, reads: &mut Reads) {
-        // For one at a time.
-        reads.wants_replay = if take(&mut self.searching.is_due) {
-            Some(ReplayFrom::Oldest)
-        } else {
-            self.tracing.finding.take_due().then_some(ReplayFrom::Newest)
-        };
-        reads.wants_run = take(&mut self.comparing.is_due);
-        reads.inspect = self.auditing.take_due(&self.run.shown);
-        let is_settled = !is_playing && !self.run.is_frame_due && !self.run.is_again_due && self.run.steps == 0;
-        if is_settled && reads.inspect.is_none() && self.tracing.is_due {
-            reads.inspect = self.tracing.place().map(|place| place.pass.clone());
-            self.tracing.is_due = reads.inspect.is_none();
-        }
     }
 }

@@ -10,7 +10,7 @@ use super::{
     pace::Pace,
     view::{About, Halt, Level, TabDiagnostic},
 };
-use eddy_background::Worker;
+use eddy_background::Background;
 use eddy_project::Project;
 use std::{
     path::PathBuf,
@@ -125,7 +125,7 @@ impl Session {
             return;
         }
         let work = compile::work(self.drawing.device(), &self.options, self.compile.jobs.clone());
-        match Worker::new("compile", self.wake.clone(), work) {
+        match Background::new("compile", "the compiler", self.wake.clone(), work) {
             // The old one may wait for the device.
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),
             Err(e) => {
@@ -134,6 +134,11 @@ impl Session {
             }
         }
         self.compile.newest_since = None;
+        self.captures.retry();
+        self.searching.background.renew_request();
+        self.comparing.background.renew_request();
+        self.auditing.renew_request();
+        self.tracing.renew_request();
         // Its buffers begin anew, and so must what they go by.
         self.end_replay("the GPU device was replaced");
         self.run.seeking.cancel();
@@ -366,7 +371,7 @@ impl Session {
     /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
     /// process ends them.
     pub fn end(&mut self) -> bool {
-        let has_lost = !self.comparing.rest(FAREWELL);
+        let has_lost = !self.comparing.background.end(FAREWELL);
         !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0 || has_lost
     }
 }
@@ -374,7 +379,7 @@ impl Session {
 impl Drop for Session {
     /// Nobody waits long for a frame, and not at all for a device that does not come back.
     fn drop(&mut self) {
-        self.comparing.rest(FAREWELL);
+        self.comparing.background.end(FAREWELL);
         if !self.drawing.rest(FAREWELL) {
             self.compiler.leave();
             return;

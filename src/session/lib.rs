@@ -7,10 +7,12 @@
 
 mod analysis;
 mod apply;
-mod auditing;
+mod audit;
 pub mod buffers;
+mod captures;
 pub mod clock;
 pub mod command;
+mod compare;
 mod compile;
 mod costs;
 mod debounce;
@@ -30,14 +32,15 @@ mod measures;
 pub mod measuring;
 mod miniatures;
 mod next_project;
+mod nonfinite;
 mod notices;
 mod options;
 mod pace;
 mod pass_history;
 mod passes;
-mod picture_check;
 pub mod probe;
 mod queries;
+mod read_back;
 mod recent;
 mod record;
 mod recover;
@@ -53,16 +56,17 @@ mod state;
 mod still;
 mod structure;
 mod template;
-mod tracing;
+mod trace;
 mod uniform_names;
 mod uniforms_of_texts;
 pub mod view;
 mod watch;
 
 pub use analysis::TabAnalysis;
-pub use auditing::{AuditMap, WorstPixel};
+pub use audit::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use costs::{PassCosts, TimedPass};
+pub use eddy_background::{Count, Status};
 pub use export::directive_errors;
 pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;
@@ -71,7 +75,7 @@ pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use replay::ReplayView;
 pub use seek::TimeRange;
 pub use state::Session;
-pub use tracing::TraceView;
+pub use trace::TraceView;
 pub use view::{
     About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, TabDiagnostic, TabEdit, TabFix, TabLabel, Tick,
     Transport,

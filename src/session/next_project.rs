@@ -12,9 +12,10 @@ use super::{
     costs::Costs,
     debounce::Debounce,
     documents::Documents,
+    drawing::Ticket,
     fps::FpsMeter,
     options::SessionOptions,
-    probe::Probing,
+    read_back::ReadBack,
     replay::Replay,
     seek::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
@@ -24,6 +25,7 @@ use super::{
 use eddy_media::Keyboard;
 use eddy_playback::mouse::Mouse;
 use eddy_project::PassId;
+use std::mem::take;
 
 impl Session {
     /// Another project takes the place of this one, from where its time stood when it was open last.
@@ -43,12 +45,14 @@ impl Session {
         self.dialog.begin_next_project();
         self.run.begin_next_project();
         // A compile of the project that goes may end before the new one's begins.
-        self.compiler.forget();
-        self.probing = Probing::default();
-        self.tracing.forget();
-        self.auditing.forget();
-        self.searching.forget();
-        self.comparing.forget();
+        self.compiler.clear();
+        self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
+        self.probing.begin_next_project();
+        self.last_pictures.ticket = Ticket::default();
+        self.tracing.want(None);
+        self.auditing.begin_next_project();
+        self.searching.want(false);
+        self.comparing.begin_next_project();
         self.take_time_up();
         self.halt_for_new_project();
         self.disk_is_known();
@@ -134,9 +138,9 @@ impl Run {
             fps: FpsMeter::default(),
             cpu_micros: 0.0,
             costs: Costs::watched(self.costs.is_watched()),
-            miniatures: self.miniatures.of_next_project(),
-            buffers: self.buffers.of_next_project(),
-            measuring: self.measuring.of_next_project(),
+            miniatures: take(&mut self.miniatures),
+            buffers: take(&mut self.buffers),
+            measuring: take(&mut self.measuring),
             recorder: None,
             replay: Replay::default(),
         };

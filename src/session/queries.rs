@@ -1,7 +1,7 @@
 //! A front end reads here what it shows of a [`Session`]. Nothing is changed.
 
 use super::{
-    Session, TraceView,
+    Session,
     buffers::BufferRead,
     command::Question,
     costs::PassCosts,
@@ -9,10 +9,8 @@ use super::{
     recent::RecentProject,
     view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
 };
-use eddy_debugger::nonfinite::SearchView;
 use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
 use eddy_gpu::Gpu;
-use eddy_playback::comparing::{Compared, ComparisonView};
 use eddy_project::{CustomUniform, PassId, Project, Tab};
 use std::{
     path::{Path, PathBuf},
@@ -190,30 +188,10 @@ impl Session {
         self.run.buffers.under()
     }
 
-    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)).
-    pub fn search(&self) -> SearchView<'_> {
-        self.searching.view()
-    }
-
-    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)).
-    pub fn comparison(&self) -> ComparisonView<'_> {
-        self.comparing.view()
-    }
-
-    /// The newest comparison is not of the project as it stands now.
-    pub fn is_comparison_old(&self) -> bool {
-        matches!(self.comparing.view(), Some(Compared::Ended(Ok(done))) if done.revision != self.documents.revision())
-    }
-
     /// Returns what is drawn instead of the picture, while somebody has asked for it: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
         self.probing.view()
-    }
-
-    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
-    pub fn trace(&self) -> TraceView<'_> {
-        self.tracing.view()
     }
 
     /// Returns what the display shows: the shown pass, or a value of the code.

@@ -8,8 +8,9 @@
 use super::{
     Session,
     clock::Clock,
-    drawing::{Done, Job},
+    drawing::{RenderTask, Tasks},
     kept_files,
+    read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
     seek::Goal,
     state::CanvasSize,
@@ -85,8 +86,7 @@ impl Session {
             return;
         }
         let end = Instant::now() + PATIENCE;
-        let done = self.ask_engine(end, |job: &mut Job| job.reads.wants_picture = true);
-        if let Some(picture) = done.and_then(|done| done.shown) {
+        if let Some(Ok(picture)) = self.ask_engine(end, ReadPicture) {
             self.picture_is_read(&picture);
         }
     }
@@ -109,19 +109,21 @@ impl Session {
 
     /// Asks the engine for the run, and waits for it, but not for long.
     fn take_run(&mut self) -> Option<Run> {
-        self.ask_engine(Instant::now() + PATIENCE, |job: &mut Job| job.reads.wants_run = true)?.run
+        self.ask_engine(Instant::now() + PATIENCE, TakeRun)
     }
 
     /// Asks the engine for something that it has, and waits for it until then.
-    fn ask_engine(&mut self, end: Instant, ask: impl FnOnce(&mut Job)) -> Option<Done> {
+    fn ask_engine<T: RenderTask>(&mut self, end: Instant, task: T) -> Option<T::Output> {
         self.rest_until(end)?;
+        let mut tasks = Tasks::default();
+        let mut ticket = tasks.add(task);
         // What else is wanted is done later, if the project stays.
         let wanted = std::mem::take(&mut self.drawing.wanted);
-        self.drawing.submit(self.now, false, ask);
+        self.drawing.submit(self.now, false, |job| job.tasks = tasks);
         self.drawing.wanted = wanted;
         loop {
-            if let Some(done) = self.drawing.take(true) {
-                return Some(done);
+            if self.drawing.take(true).is_some() {
+                return ticket.take().map(|finished| finished.output);
             }
             if Instant::now() >= end {
                 return None;

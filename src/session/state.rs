@@ -4,10 +4,12 @@
 use super::{
     SessionError, SessionOptions,
     analysis::Analyst,
-    auditing::Auditing,
+    audit::Auditing,
     buffers::Watching,
+    captures::Captures,
     clock::Clock,
     command::{PendingAction, Question, Request},
+    compare::Comparing,
     compile,
     costs::Costs,
     debounce::Debounce,
@@ -18,6 +20,7 @@ use super::{
     last_pictures::LastPictures,
     measuring::Measuring,
     miniatures::Miniatures,
+    nonfinite::Searching,
     pass_history::PassHistory,
     probe::Probing,
     recent::Recent,
@@ -26,16 +29,15 @@ use super::{
     replay::Replay,
     runs::Runs,
     seek::Seeking,
-    tracing::Tracing,
+    trace::Tracing,
     uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::{About, CompileState, Level, Notice, TabDiagnostic},
     watch::Watch,
 };
-use eddy_background::Worker;
-use eddy_debugger::nonfinite::Searching;
+use eddy_background::Background;
 use eddy_gpu::Gpu;
 use eddy_media::Keyboard;
-use eddy_playback::{comparing::Comparing, mouse::Mouse};
+use eddy_playback::mouse::Mouse;
 use eddy_project::{PassId, Project};
 use std::{
     collections::VecDeque,
@@ -49,7 +51,7 @@ pub struct Session {
     pub(super) options: SessionOptions,
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     // Before the drawing: its thread uses the device until it has ended.
-    pub(super) compiler: Worker<compile::Job, compile::Done>,
+    pub(super) compiler: Background<compile::Job, (), compile::Done>,
     pub(super) analyst: Analyst,
     pub(super) drawing: Drawing,
     pub(super) halting: Halting,
@@ -62,6 +64,7 @@ pub struct Session {
     pub(super) recent: Recent,
     pub(super) runs: Runs,
     pub(super) last_pictures: LastPictures,
+    pub(super) captures: Captures,
     pub(super) run: Run,
     pub(super) probing: Probing,
     pub(super) tracing: Tracing,
@@ -239,7 +242,7 @@ impl Session {
         };
         let jobs = Arc::new(AtomicU64::new(0));
         let work = compile::work(drawing.device(), &options, jobs.clone());
-        let compiler = Worker::new("compile", wake.clone(), work).map_err(SessionError::Thread)?;
+        let compiler = Background::new("compile", "the compiler", wake.clone(), work).map_err(SessionError::Thread)?;
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
@@ -296,6 +299,7 @@ impl Session {
             recent,
             runs: Runs::new(options.state_dir.as_deref()),
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
+            captures: Captures::default(),
             run: Run {
                 clock: Clock::default(),
                 mouse: Mouse::default(),

@@ -1,5 +1,4 @@
-//! The search that a person asks for of the pixel that is traced: its frame is drawn again beside the picture, on a
-//! thread of its own.
+//! The search for the first difference in a traced pixel: its frame is drawn again beside the picture.
 
 use super::{
     assignment::assignments,
@@ -7,7 +6,7 @@ use super::{
     search::{DivergenceFound, search},
 };
 use crate::trace::{Extent, STEPS, Traced};
-use eddy_background::{Panicked, Worker};
+use eddy_background::Control;
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot, Sources};
 use eddy_gpu::Gpu;
 use eddy_media as media;
@@ -18,13 +17,6 @@ use std::{path::PathBuf, sync::Arc};
 pub const MOST: usize = 48;
 /// Steps of the walk that are looked at: half a minute of a person's time is not enough for more.
 pub const STEPS_KEPT: usize = 200_000;
-
-/// Says how a search for the place where the device parts stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DivergenceView<'s> {
-    UnderWay,
-    Ended(&'s Result<DivergenceFound, String>),
-}
 
 /// A traced pixel, and the frames that lead to it.
 pub struct DivergenceJob {
@@ -39,75 +31,8 @@ pub struct DivergenceJob {
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
-/// A search, if somebody has asked for one.
-pub struct Finding {
-    worker: Worker<DivergenceJob, (Arc<Traced>, Result<DivergenceFound, String>)>,
-    /// The frames are to be handed out.
-    is_due: bool,
-    /// Holds what the search is of.
-    of: Option<Arc<Traced>>,
-    end: Option<Result<DivergenceFound, String>>,
-}
-
-impl Finding {
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let worker = Worker::new("divergence", wake, |job: DivergenceJob| (job.traced.clone(), found(job)))?;
-        Ok(Self { worker, is_due: false, of: None, end: None })
-    }
-
-    /// Begins a search for a traced pixel.
-    pub fn want(&mut self, traced: Option<&Arc<Traced>>) {
-        (self.of, self.end) = (traced.cloned(), None);
-        self.is_due = traced.is_some();
-    }
-
-    /// Another project is open.
-    pub fn forget(&mut self) {
-        self.want(None);
-        self.worker.forget();
-    }
-
-    /// The frames are to be handed out now.
-    pub fn take_due(&mut self) -> bool {
-        std::mem::take(&mut self.is_due)
-    }
-
-    /// The pixel that the search is of.
-    pub fn of(&self) -> Option<Arc<Traced>> {
-        self.of.clone()
-    }
-
-    pub fn submit(&mut self, job: DivergenceJob) {
-        self.worker.submit(job);
-    }
-
-    pub fn failed(&mut self, why: &str) {
-        self.end = Some(Err(why.to_owned()));
-    }
-
-    /// Takes a search that has ended. Says whether one has.
-    pub fn take(&mut self) -> bool {
-        match self.worker.take() {
-            None => return false,
-            Some(Ok((traced, end))) => {
-                // Another one may be asked for by now.
-                if self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, &traced)) {
-                    self.end = Some(end);
-                }
-            }
-            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search failed ({why})")),
-        }
-        true
-    }
-
-    /// The search for a traced pixel; `None`: nobody has asked for one.
-    pub fn view(&self, traced: &Arc<Traced>) -> Option<DivergenceView<'_>> {
-        self.of.as_ref().filter(|of| Arc::ptr_eq(of, traced))?;
-        Some(self.end.as_ref().map_or(DivergenceView::UnderWay, DivergenceView::Ended))
-    }
-}
-
-fn found(job: DivergenceJob) -> Result<DivergenceFound, String> {
+/// Draws the frame of a traced pixel again by an engine of its own, and finds the first assignment that differs there.
+pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound, String> {
     let DivergenceJob { gpu, traced, shown, size, media_dir, snapshot, mut frames } = job;
     let (project, pass) = (&traced.project, &traced.pass);
     let Some((inputs, values)) = frames.pop().filter(|(inputs, _)| inputs.frame == traced.frame) else {
@@ -124,6 +49,7 @@ fn found(job: DivergenceJob) -> Result<DivergenceFound, String> {
         return Err("the kept frames belong to another program: draw a frame and trace the pixel again".into());
     }
     for (inputs, values) in &frames {
+        control.check()?;
         engine.set_custom_uniforms(values);
         engine.draw(inputs).map_err(|e| e.to_string())?;
     }

@@ -2,11 +2,8 @@
 
 use super::{debugger::Debugger, moment::words};
 use crate::{
-    debugger::{
-        divergence::DivergenceView,
-        trace::{Printed, Watched},
-    },
-    session::Session,
+    debugger::trace::{Printed, Watched},
+    session::{Session, Status},
 };
 use serde_json::{Map, Value, json};
 
@@ -66,9 +63,9 @@ impl Debugger {
 fn parted(session: &Session) -> Value {
     match session.divergence() {
         None => Value::Null,
-        Some(DivergenceView::UnderWay) => json!("under way"),
-        Some(DivergenceView::Ended(Err(why))) => json!({ "trouble": why }),
-        Some(DivergenceView::Ended(Ok(parted))) => json!({
+        Some(Status::UnderWay(())) => json!("under way"),
+        Some(Status::Ended(Err(why))) => json!({ "trouble": why }),
+        Some(Status::Ended(Ok(parted))) => json!({
             "compared": parted.compared,
             "name": parted.first.as_ref().map(|first| &first.assignment.name),
             "ulps": parted.first.as_ref().map(|first| &first.ulps),

@@ -2,10 +2,6 @@
 
 use eddy_engine::Pixels;
 use eddy_project::PassId;
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, AtomicUsize},
-};
 
 /// Names what the open project is compared with.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,26 +42,4 @@ pub struct Comparison {
     pub is_cut: bool,
     /// The revision of the project that was compared.
     pub revision: u64,
-}
-
-/// A comparison, from its begin on.
-#[derive(Clone, Copy, Debug)]
-pub enum Compared<'s> {
-    /// So many frames are drawn, of so many.
-    UnderWay {
-        done: usize,
-        of: usize,
-    },
-    Ended(Result<&'s Arc<Comparison>, &'s str>),
-}
-
-/// The state that a front end shows of it; `None` before the first.
-pub type ComparisonView<'s> = Option<Compared<'s>>;
-
-#[derive(Default)]
-pub(super) struct Progress {
-    pub done: AtomicUsize,
-    pub of: AtomicUsize,
-    /// Nobody wants it any more.
-    pub is_over: AtomicBool,
 }

@@ -2,9 +2,7 @@
 //! picture, which goes on.
 
 mod comparison;
-mod order;
 mod work;
 
-pub use comparison::{Baseline, Compared, Comparison, ComparisonView};
-
-pub use order::{Comparing, Order};
+pub use comparison::{Baseline, Comparison};
+pub use work::{CompareJob, compare};

@@ -1,18 +1,18 @@
 //! The two projects at work.
 
-use super::comparison::{Baseline, Comparison, Progress};
+use super::comparison::{Baseline, Comparison};
 use crate::{
     revision,
     run::{Frame, Run},
 };
+use eddy_background::{Control, Count};
 use eddy_diag as diag;
 use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial};
 use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media as media;
-use eddy_project::{self as project, PassId, Project};
+use eddy_project::{self as project, Origin, PassId, Project};
 use std::{
     path::{Path, PathBuf},
-    sync::atomic::Ordering,
     time::{Duration, Instant},
 };
 
@@ -23,41 +23,37 @@ const TURNS: usize = 12;
 const LEAST_TURNS: usize = 3;
 const PATIENCE: Duration = Duration::from_secs(2);
 
-pub struct Job {
+/// Holds the projects that are to be compared, and the frames that both draw.
+pub struct CompareJob {
     pub gpu: Gpu,
     pub project: Project,
+    /// The open project as it is on disk.
+    pub saved: Project,
     pub against: Baseline,
-    pub reference: Reference,
     pub revision: u64,
     pub shown: PassId,
     pub media_dir: Option<PathBuf>,
+    /// The other project may be one that the driver takes minutes for.
     pub trial: Option<Trial>,
     pub run: Run,
 }
 
-/// Says where the other project comes from.
-pub enum Reference {
-    Project(Box<Project>),
-    Load(String),
-    /// The folder of the open one, and a revision of it.
-    Revision(PathBuf, String),
-}
-
-/// `None`: nobody wants it any more. Fails where there is no other project, or one of both cannot be drawn.
-pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<Comparison>, String> {
-    let Job { gpu, project, against, reference, revision, shown, media_dir, trial, run } = job;
+/// Compares two projects; counts frames. Fails where there is no other project, or one of both cannot be drawn.
+pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, String> {
+    let CompareJob { gpu, project, saved, against, revision, shown, media_dir, trial, run } = job;
     let Run { mut frames, is_whole } = run;
     let last = frames.last().cloned().ok_or("no frame has been drawn yet")?;
     // Files of a revision are there for as long as they are read.
     let copy;
-    let other = match reference {
-        Reference::Project(project) => *project,
-        Reference::Load(spec) => load(&spec, &spec)?,
-        Reference::Revision(path, name) => {
-            copy = revision::at(&path.to_string_lossy(), &name).map_err(|e| e.to_string())?;
+    let other = match (&against, &project.origin) {
+        (Baseline::LastSave, _) => saved,
+        (Baseline::Project(spec), _) => load(spec, spec)?,
+        (Baseline::Revision(name), Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) => {
+            copy = revision::at(&path.to_string_lossy(), name).map_err(|e| e.to_string())?;
             let loaded = load(&copy.project.to_string_lossy(), &against.name());
             loaded.map_err(|why| [vec![why], copy.notes()].concat().join("\n"))?
         }
+        (Baseline::Revision(_), _) => return Err("only a project saved in a git repository has revisions".into()),
     };
     let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassId::Image };
     // What a frame leaves nothing to the next is drawn alone.
@@ -69,20 +65,17 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
     // A project that nobody has drawn yet may lose its device: it is not the one that draws the picture, where there is
     // another.
     let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
-    progress.of.store(frames.len(), Ordering::Relaxed);
     let side = |project: &Project, name: &str| {
         let made = Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size, trial.clone());
         made.map_err(|why| format!("{name}: {why}"))
     };
     let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
-    for frame in &frames {
-        if progress.is_over.load(Ordering::Relaxed) {
-            return Ok(None);
-        }
+    for (index, frame) in frames.iter().enumerate() {
+        control.check()?;
+        control.report(Count { done: index, of: frames.len() });
         ours.draw(frame).and_then(|()| theirs.draw(frame)).map_err(|e| e.to_string())?;
-        progress.done.fetch_add(1, Ordering::Relaxed);
-        tell();
     }
+    control.report(Count { done: frames.len(), of: frames.len() });
     let read = |side: &mut Side| side.engine.read(&pass).map_err(|e| e.to_string());
     let (a, b) = (read(&mut ours)?, read(&mut theirs)?);
     if (a.width, a.height) != (b.width, b.height) {
@@ -96,9 +89,9 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
             against.name()
         ));
     }
-    let turns = take_turns(&mut ours, &mut theirs, &last.inputs, progress).map_err(|e| e.to_string())?;
+    let turns = take_turns(&mut ours, &mut theirs, &last.inputs, control).map_err(|e| e.to_string())?;
     let (frame, frames) = (last.inputs.frame, frames.len());
-    Ok(Some(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_cut, revision }))
+    Ok(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_cut, revision })
 }
 
 fn load(spec: &str, name: &str) -> Result<Project, String> {
@@ -159,14 +152,14 @@ fn take_turns(
     ours: &mut Side,
     theirs: &mut Side,
     last: &FrameInputs,
-    progress: &Progress,
+    control: &Control<Count>,
 ) -> Result<Vec<(f64, f64)>, EngineError> {
     // Drivers compile for the machine when a pipeline is first used.
     ours.turn(last, 0)?;
     theirs.turn(last, 0)?;
     let began = Instant::now();
     let mut turns = Vec::new();
-    while turns.len() < TURNS && !progress.is_over.load(Ordering::Relaxed) {
+    while turns.len() < TURNS && !control.is_cancelled() {
         if turns.len() >= LEAST_TURNS && began.elapsed() > PATIENCE {
             break;
         }

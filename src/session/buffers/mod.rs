@@ -9,6 +9,6 @@ mod watching;
 
 pub use look::BufferLook;
 pub use reason::reason;
-pub use watching::{BufferRead, BufferWatch, BuffersRead, BuffersWanted, Target};
+pub use watching::{BufferRead, BufferWatch, Target};
 
 pub(super) use watching::Watching;

@@ -1,7 +1,11 @@
 //! Keeps what is looked at, when it is due, and the newest of it.
 
 use super::BufferLook;
-use crate::probe::Statistics;
+use crate::{
+    drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
+    probe::Statistics,
+    read_back::{Moment, ReadBack},
+};
 use eddy_debugger::nonfinite::NonfiniteTexels;
 use eddy_engine::{Picture, Pixels, TexelAt};
 use eddy_project::PassId;
@@ -29,9 +33,6 @@ pub struct BufferWatch {
     pub under: Option<[f32; 2]>,
 }
 
-/// The part of it that is asked for with a job.
-pub type BuffersWanted = BufferWatch;
-
 /// A target at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BufferRead {
@@ -53,6 +54,27 @@ pub struct BuffersRead {
     pub under: Option<Vec<TexelAt>>,
 }
 
+/// Reads what somebody looks at closely. A target that is not drawn has nothing.
+impl RenderTask for BufferWatch {
+    type Output = BuffersRead;
+
+    fn run(self, renderer: &mut Renderer) -> BuffersRead {
+        let engine = renderer.engine_mut();
+        let shown = self.shown.and_then(|(target, look)| {
+            let (pass, index) = &target;
+            let components = engine.format(pass, *index)?.components();
+            let pixels = engine.read_target(pass, *index).ok()?;
+            let statistics = Statistics::new(&pixels, components as u8, look.range, false);
+            let values = look.values(components as u8, &statistics);
+            let picture = engine.picture_of_values(pass, *index, &values).ok()?;
+            let nonfinite = NonfiniteTexels::find(&pixels, components);
+            Some(BufferRead { target, components: components as u8, pixels, picture, statistics, nonfinite })
+        });
+        let under = self.under.and_then(|at| engine.texels_at(at).ok());
+        BuffersRead { shown, under }
+    }
+}
+
 /// Keeps what is looked at, if anything is.
 #[derive(Default)]
 pub(crate) struct Watching {
@@ -68,6 +90,7 @@ pub(crate) struct Watching {
     place_at: Option<Instant>,
     /// The time that this took.
     took: Duration,
+    ticket: Ticket<BuffersRead>,
 }
 
 impl Watching {
@@ -85,11 +108,6 @@ impl Watching {
         self.watch = watch;
     }
 
-    /// Nothing of another project is looked at yet.
-    pub fn of_next_project(&self) -> Self {
-        Self { generation: self.generation, ..Self::default() }
-    }
-
     /// The newest of the target that is looked at, and a number that grows with each new one.
     pub fn shown(&self) -> Option<(&Arc<BufferRead>, u64)> {
         self.shown.as_ref().map(|(read, generation)| (read, *generation))
@@ -101,7 +119,7 @@ impl Watching {
     }
 
     /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
-    pub fn take_due(&mut self, now: Instant, is_running: bool) -> Option<BuffersWanted> {
+    fn due(&mut self, now: Instant, is_running: bool) -> Option<BufferWatch> {
         let is_early = |at: Option<Instant>, every: Duration| {
             is_running && at.is_some_and(|at| now.saturating_duration_since(at) < every)
         };
@@ -117,10 +135,17 @@ impl Watching {
         }
         (shown.is_some() || under.is_some()).then_some(BufferWatch { shown, under })
     }
+}
 
-    /// Takes what has come back, with a frame or without one. Says whether there is something new to see.
-    pub fn drew(&mut self, has_frame: bool, read: Option<(BuffersRead, Duration)>) -> bool {
-        let Some((BuffersRead { shown, under }, took)) = read else {
+impl ReadBack for Watching {
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
+        if let Some(task) = self.due(at.now, at.is_playing) {
+            self.ticket = tasks.add(task);
+        }
+    }
+
+    fn receive(&mut self, has_frame: bool) -> bool {
+        let Some(Finished { output: BuffersRead { shown, under }, took }) = self.ticket.take() else {
             self.is_shown_due |= has_frame;
             self.is_place_due |= has_frame;
             return false;
@@ -138,6 +163,10 @@ impl Watching {
             self.under = under;
         }
         is_new
+    }
+    fn begin_next_project(&mut self) {
+        // Nothing of another project is looked at yet.
+        *self = Self { generation: self.generation, ..Self::default() };
     }
 }
 
@@ -161,23 +190,24 @@ mod tests {
     #[test]
     fn nothing_is_read_while_nobody_looks_or_nothing_has_changed() {
         let (mut watching, now) = (Watching::default(), Instant::now());
-        watching.drew(true, None);
-        assert_eq!(watching.take_due(now, true), None);
+        watching.receive(true);
+        assert_eq!(watching.due(now, true), None);
         let shown = Some(((PassId::Image, 0), BufferLook::default()));
         let watch = BufferWatch { shown, under: Some([0.5, 0.5]) };
         watching.watch(watch.clone());
-        assert_eq!(watching.take_due(now, false), Some(watch.clone()));
-        assert!(watching.drew(true, Some((read(), Duration::from_millis(20)))));
-        assert_eq!(watching.take_due(now + EVERY, false), None, "paused, it rests");
+        assert_eq!(watching.due(now, false), Some(watch.clone()));
+        watching.ticket = Ticket::finished(read(), Duration::from_millis(20));
+        assert!(watching.receive(true));
+        assert_eq!(watching.due(now + EVERY, false), None, "paused, it rests");
         let moved = BufferWatch { under: Some([0.1, 0.5]), ..watch.clone() };
         watching.watch(moved.clone());
         let place = BufferWatch { shown: None, ..moved };
-        assert_eq!(watching.take_due(now, false), Some(place), "only the place is another");
-        assert!(!watching.drew(true, None));
-        assert_eq!(watching.take_due(now + EVERY, true).unwrap().shown, None, "reading takes a part of the time");
-        assert!(watching.take_due(now + 5 * EVERY, true).unwrap().shown.is_some());
+        assert_eq!(watching.due(now, false), Some(place), "only the place is another");
+        assert!(!watching.receive(true));
+        assert_eq!(watching.due(now + EVERY, true).unwrap().shown, None, "reading takes a part of the time");
+        assert!(watching.due(now + 5 * EVERY, true).unwrap().shown.is_some());
         watching.watch(BufferWatch::default());
-        watching.drew(true, None);
-        assert!(watching.shown().is_none() && watching.take_due(now + 90 * EVERY, true).is_none());
+        watching.receive(true);
+        assert!(watching.shown().is_none() && watching.due(now + 90 * EVERY, true).is_none());
     }
 }

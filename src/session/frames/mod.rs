@@ -6,7 +6,6 @@ use super::{
     drawing::{FrameControl, PendingProgram},
     view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
 };
-use eddy_background::Panicked;
 use eddy_diag::Severity;
 use eddy_engine::EngineError;
 use eddy_gpu::GpuError;
@@ -35,9 +34,9 @@ impl Session {
         self.take_compiled();
         self.analyse();
         self.take_analysed();
-        self.changed |= self.tracing.take();
+        self.changed |= self.tracing.poll();
         self.take_audited();
-        self.changed |= self.searching.take() | self.comparing.take();
+        self.changed |= self.searching.background.poll() | self.comparing.background.poll();
         self.fit_canvas();
         self.keep_unsaved();
         self.follow_measures();
@@ -145,7 +144,7 @@ impl Session {
             self.changed = true;
         }
         self.compile.jobs.fetch_add(1, Ordering::Relaxed);
-        self.compiler.submit(Job {
+        self.compiler.start(Job {
             is_fallback,
             project: fallback.unwrap_or_else(|| self.documents.current().clone()),
             shown: self.run.shown.clone(),
@@ -182,16 +181,15 @@ impl Session {
                 self.compile.newest_since = None;
                 Ok(compiled)
             }
-            Err(panicked) => {
+            Err(why) => {
                 self.compile.newest_since = None;
-                Err(panicked)
+                Err(why)
             }
         };
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
         match done {
-            Err(Panicked(reason)) => {
-                let what = format!("this is a bug in Eddy: the compiler failed ({reason})");
+            Err(what) => {
                 self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
                 self.auditing.map = None;
                 self.compile.state.last = Some(self.failed());

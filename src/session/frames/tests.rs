@@ -1,12 +1,8 @@
 //! Tests of a session whose workers give up.
 
-use super::super::{
-    Command, SessionOptions,
-    compile::{Done, Job},
-    drawing::Drawing,
-};
+use super::super::{Command, SessionOptions, compile::Job, drawing::Drawing};
 use super::*;
-use eddy_background::Worker;
+use eddy_background::Background;
 use eddy_gpu::{Gpu, testing};
 use eddy_project::{PassId, Tab};
 use std::{
@@ -32,7 +28,8 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
     let options = SessionOptions { edit_debounce: Duration::ZERO, ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
-    let planted = Worker::new("compile", Arc::new(|| ()), |_: Job| -> Done { panic!("planted") }).unwrap();
+    let work = |_: Job, _: &_| panic!("planted");
+    let planted = Background::new("compile", "the compiler", Arc::new(|| ()), work).unwrap();
     let healthy = std::mem::replace(&mut session.compiler, planted);
     let tab = Tab::Pass(PassId::Image);
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";

@@ -8,7 +8,7 @@ mod record;
 mod watching;
 
 pub use record::{Cell, MOST, Record, Sample};
-pub use watching::{Measure, Measured, MeasuresWanted};
+pub use watching::Measure;
 
 pub(super) use csv::write as write_csv;
 pub(super) use watching::Measuring;

@@ -1,5 +1,5 @@
-use super::*;
-use crate::template;
+use super::{watching::Measured, *};
+use crate::{drawing::Ticket, read_back::ReadBack, template};
 use eddy_project::{PassId, Project, Tab};
 use std::time::{Duration, Instant};
 
@@ -144,12 +144,14 @@ fn told(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
 /// A frame is drawn, and what is due of it measured.
 fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
     measuring.begin_frame(frame);
-    let wanted = measuring.take_due(now, true, is_running);
-    let values = |wanted: &MeasuresWanted| wanted.iter().map(|(serial, _)| (*serial, Some(0.5))).collect();
-    let measured = wanted.as_ref().map(|wanted| Measured { frame, time_secs: 0.0, values: values(wanted) });
-    let count = wanted.map(|wanted| wanted.len());
-    measuring.drew(true, measured.map(|measured| (measured, Duration::from_millis(2))));
-    count
+    let wanted = measuring.due(now, true, is_running).map(|wanted| wanted.0);
+    if let Some(wanted) = &wanted {
+        let values = wanted.iter().map(|(serial, _)| (*serial, Some(0.5))).collect();
+        let measured = Measured { frame, time_secs: 0.0, values };
+        measuring.ticket = Ticket::finished(Some(measured), Duration::from_millis(2));
+    }
+    measuring.receive(true);
+    wanted.map(|wanted| wanted.len())
 }
 
 #[test]
@@ -169,7 +171,7 @@ fn a_comment_keeps_its_record_until_its_text_changes() {
     );
     measuring.follow(&project("//@probe max(image.y)\n//@probe min(image)\n"), (1, 3));
     assert_eq!(told(&measuring), [(4, "max(image.y)", 1, false), (2, "min(image)", 2, true)]);
-    measuring = measuring.of_next_project();
+    measuring.begin_next_project();
     measuring.follow(&project("//@probe min(image)\n"), (2, 3));
     assert_eq!(told(&measuring), [(5, "min(image)", 1, false)]);
 }
@@ -184,10 +186,10 @@ fn what_cannot_be_measured_says_why_and_is_not_asked_for() {
     assert!(why(1).why.contains("no pass buffer_q") && why(1).mend.contains("are image"), "{:?}", why(1));
     assert!(why(2).why.contains("no target 2"), "{:?}", why(2));
     measuring.watch(vec![1, 2, 3, 4]);
-    assert_eq!(measuring.take_due(now, false, false).map(|wanted| wanted.len()), Some(1));
+    assert_eq!(measuring.due(now, false, false).map(|wanted| wanted.0.len()), Some(1));
     measuring.watch(vec![1, 2, 3]);
-    measuring.drew(true, None);
-    assert_eq!(measuring.take_due(now, false, false), None);
+    measuring.receive(true);
+    assert_eq!(measuring.due(now, false, false), None);
 }
 
 #[test]
@@ -201,7 +203,7 @@ fn only_what_is_looked_at_is_measured_and_it_takes_a_part_of_the_time() {
     assert_eq!(draw(&mut measuring, 2, millis(39), true), None, "2 ms of 40");
     assert_eq!(draw(&mut measuring, 3, millis(40), true), Some(1));
     assert_eq!(draw(&mut measuring, 4, millis(41), false), Some(1), "paused, each frame");
-    assert_eq!(measuring.take_due(millis(500), false, false), None, "and once");
+    assert_eq!(measuring.due(millis(500), false, false), None, "and once");
     measuring.watch(vec![]);
     assert_eq!(draw(&mut measuring, 5, millis(900), false), None);
     assert_eq!(measuring.count(), 3);
@@ -226,7 +228,7 @@ fn time_that_begins_anew_or_goes_back_takes_the_record_with_it() {
     // A frame that is not measured counts too.
     measuring.begin_frame(0);
     assert!(frames(&measuring).is_empty());
-    measuring.drew(true, None);
+    measuring.receive(true);
     draw(&mut measuring, 1, now, false);
     assert_eq!(frames(&measuring), [1]);
     measuring.clear();
@@ -238,12 +240,13 @@ fn a_table_has_a_row_for_each_frame() {
     let mut measuring = Measuring::default();
     let text = "//@probe max(image.x)\n//@probe total(image)\n//@probe min(image)\n//@probe min(image)\n";
     measuring.follow(&project(text), (1, 1));
-    let measured = |frame: i32, values: &[(u64, Option<f64>)]| {
+    let mut measured = |frame: i32, values: &[(u64, Option<f64>)]| {
         let measured = Measured { frame, time_secs: f64::from(frame) / 4.0, values: values.to_vec() };
-        Some((measured, Duration::ZERO))
+        measuring.ticket = Ticket::finished(Some(measured), Duration::ZERO);
+        measuring.receive(true);
     };
-    measuring.drew(true, measured(1, &[(1, Some(0.1)), (3, Some(f64::NAN))]));
-    measuring.drew(true, measured(2, &[(1, None), (3, Some(1e300)), (4, Some(f64::NEG_INFINITY))]));
+    measured(1, &[(1, Some(0.1)), (3, Some(f64::NAN))]);
+    measured(2, &[(1, None), (3, Some(1e300)), (4, Some(f64::NEG_INFINITY))]);
     let mut table = Vec::new();
     write_csv(&mut table, measuring.measures()).unwrap();
     let rows = "frame,time,max(image.x),min(image) Image:3,min(image) Image:4\n1,0.25,0.1,NaN,\n2,0.5,,1e300,-inf\n";

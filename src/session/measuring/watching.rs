@@ -1,10 +1,17 @@
 //! The comments, which of them is looked at, when they are due, and what was measured.
 
 use super::record::{Record, Sample};
+use crate::{
+    drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
+    read_back::{Moment, ReadBack},
+};
+use eddy_engine::Pixels;
 use eddy_playback::reduction::{self, Quantity, Unmeasured};
-use eddy_project::Project;
-use eddy_project::TextLocation;
-use std::time::{Duration, Instant};
+use eddy_project::{PassId, Project, TextLocation};
+use std::{
+    collections::HashMap,
+    time::{Duration, Instant},
+};
 
 /// Measuring takes this part of the time at most: each time waits for the device.
 const SHARE: u32 = 20;
@@ -30,8 +37,31 @@ impl Measure {
     }
 }
 
-/// The quantities that are asked for with a job, by the serial of their comment.
-pub type MeasuresWanted = Vec<(u64, Quantity)>;
+/// Measures quantities of what the targets hold, by the serial of their comment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasureQuantities(pub Vec<(u64, Quantity)>);
+
+impl RenderTask for MeasureQuantities {
+    /// Nothing has a number before the first frame.
+    type Output = Option<Measured>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let (frame, time_secs) = renderer.shown()?;
+        let engine = renderer.engine_mut();
+        // Each target is read once.
+        let mut read: HashMap<(PassId, usize), Option<(Pixels, usize)>> = HashMap::new();
+        let mut value = |quantity: &Quantity| {
+            let target = (quantity.pass.clone(), quantity.target);
+            let texels = read.entry(target).or_insert_with_key(|(pass, index)| {
+                let stored = engine.format(pass, *index)?.components();
+                Some((engine.read_target(pass, *index).ok()?, stored))
+            });
+            texels.as_ref().map(|(pixels, stored)| quantity.of(pixels, *stored))
+        };
+        let values = self.0.iter().map(|(serial, quantity)| (*serial, value(quantity))).collect();
+        Some(Measured { frame, time_secs, values })
+    }
+}
 
 /// Holds what came back of a frame. A quantity whose target is not drawn has no value.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +88,7 @@ pub(crate) struct Measuring {
     frame: Option<i32>,
     /// The number of frames that have been measured.
     count: u64,
+    pub(super) ticket: Ticket<Option<Measured>>,
 }
 
 impl Measuring {
@@ -89,11 +120,6 @@ impl Measuring {
             self.measures.push(measure);
         }
         true
-    }
-
-    /// Another project's comments may have the same texts.
-    pub fn of_next_project(&self) -> Self {
-        Self { next_serial: self.next_serial, count: self.count, ..Self::default() }
     }
 
     /// Every record begins anew.
@@ -144,7 +170,7 @@ impl Measuring {
 
     /// Returns what is to be measured now, of the frame that is to be drawn if there is one. While time runs, another
     /// comes anyway, and it waits for its turn.
-    pub fn take_due(&mut self, now: Instant, has_frame: bool, is_running: bool) -> Option<MeasuresWanted> {
+    pub(super) fn due(&mut self, now: Instant, has_frame: bool, is_running: bool) -> Option<MeasureQuantities> {
         self.is_due |= has_frame;
         let is_early = self.asked_at.is_some_and(|at| now.saturating_duration_since(at) < SHARE * self.took);
         if !self.is_due || self.seen.is_empty() || (is_running && is_early) {
@@ -152,14 +178,21 @@ impl Measuring {
         }
         let is_seen = |measure: &&Measure| self.seen.contains(&measure.serial);
         let one = |measure: &Measure| Some((measure.serial, measure.quantity.clone().ok()?));
-        let wanted: MeasuresWanted = self.measures.iter().filter(is_seen).filter_map(one).collect();
+        let wanted: Vec<(u64, Quantity)> = self.measures.iter().filter(is_seen).filter_map(one).collect();
         (self.is_due, self.asked_at) = (false, Some(now));
-        (!wanted.is_empty()).then_some(wanted)
+        (!wanted.is_empty()).then_some(MeasureQuantities(wanted))
+    }
+}
+
+impl ReadBack for Measuring {
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
+        if let Some(task) = self.due(at.now, at.has_frame, at.is_playing || at.is_seeking) {
+            self.ticket = tasks.add(task);
+        }
     }
 
-    /// Takes what has come back, with a frame or without one. Says whether there is something new to see.
-    pub fn drew(&mut self, has_frame: bool, measured: Option<(Measured, Duration)>) -> bool {
-        let Some((measured, took)) = measured else {
+    fn receive(&mut self, has_frame: bool) -> bool {
+        let Some(Finished { output: Some(measured), took }) = self.ticket.take() else {
             self.is_due |= has_frame;
             return false;
         };
@@ -176,5 +209,9 @@ impl Measuring {
             }
         }
         true
+    }
+    fn begin_next_project(&mut self) {
+        // Another project's comments may have the same texts.
+        *self = Self { next_serial: self.next_serial, count: self.count, ..Self::default() };
     }
 }
