@@ -8,8 +8,7 @@ use super::{
     trace::TracedPixel,
     view::{About, Level},
 };
-use eddy_media::Keyboard;
-use eddy_playback::capture;
+use eddy_playback::{capture, mouse::Mouse};
 use eddy_project::{self as project, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names};
 
 impl Session {
@@ -55,12 +54,8 @@ impl Session {
             Command::TogglePlay if self.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
             Command::Cover(is_covered) => {
-                if is_covered && !self.run.is_covered {
+                if self.playback.cover(is_covered) {
                     self.last_pictures.want();
-                }
-                if std::mem::replace(&mut self.run.is_covered, is_covered) && !is_covered {
-                    self.run.clock.rebase();
-                    self.run.fps.restart();
                 }
             }
             Command::Hold => self.hold(),
@@ -70,10 +65,10 @@ impl Session {
             Command::Step => self.step_forward(),
             Command::StepBack(by) => self.step_back(by),
             Command::Seek(secs) => self.seek(secs),
-            Command::SetSpeed(speed) => self.run.clock.set_speed(speed),
-            Command::SetFixedRate(rate) => self.run.clock.set_fixed_rate(rate),
-            Command::SetTimeRange(range) => self.run.seeking.range = range,
-            Command::SetKeepInputs(on) => self.run.seeking.keeps_inputs = on,
+            Command::SetSpeed(speed) => self.playback.clock.set_speed(speed),
+            Command::SetFixedRate(rate) => self.playback.clock.set_fixed_rate(rate),
+            Command::SetTimeRange(range) => self.playback.seeking.range = range,
+            Command::SetKeepInputs(on) => self.playback.seeking.keeps_inputs = on,
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
@@ -117,17 +112,19 @@ impl Session {
             | Command::MouseUp
             | Command::KeyDown(_)
             | Command::KeyUp(_)
-                if self.is_replaying() => {}
-            Command::MouseDown { x, y } => self.input(|run| run.mouse.press(x, y)),
-            Command::MouseMove { x, y } if self.run.mouse.is_down() => self.input(|run| run.mouse.move_to(x, y)),
+                if self.playback.is_replaying() => {}
+            Command::MouseDown { x, y } => self.playback.move_mouse(|mouse| mouse.press(x, y)),
+            Command::MouseMove { x, y } if self.playback.mouse.is_down() => {
+                self.playback.move_mouse(|mouse| mouse.move_to(x, y))
+            }
             Command::MouseMove { .. } => {}
-            Command::MouseUp => self.input(|run| run.mouse.release()),
-            Command::KeyDown(code) if self.run.keyboard.is_held(code) => {}
-            Command::KeyDown(code) => self.key(code, |keyboard| keyboard.press(code)),
-            Command::KeyUp(code) => self.key(code, |keyboard| keyboard.release(code)),
+            Command::MouseUp => self.playback.move_mouse(Mouse::release),
+            Command::KeyDown(code) if self.playback.keyboard.is_held(code) => {}
+            Command::KeyDown(code) => self.playback.press_key(code, |keyboard| keyboard.press(code)),
+            Command::KeyUp(code) => self.playback.press_key(code, |keyboard| keyboard.release(code)),
             Command::Focus(focused) => self.focus(focused),
-            Command::Screenshot => self.capture(eddy_playback::capture::Format::Png),
-            Command::SaveTexels => self.capture(eddy_playback::capture::Format::Npy),
+            Command::Screenshot => self.capture(capture::Format::Png),
+            Command::SaveTexels => self.capture(capture::Format::Npy),
             Command::Record => self.record(),
             Command::PlayRecording(file) => self.play_recording(file),
             Command::StopReplay => self.end_replay("the picture continues live from there"),
@@ -258,8 +255,8 @@ impl Session {
 
     /// The values go to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_turned(&mut self) {
-        let played = self.run.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.run.replay.has_values = played.is_some();
+        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
+        self.playback.replay.has_values = played.is_some();
         let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
         self.drawing.wanted.custom_uniforms = Some(values);
@@ -271,33 +268,6 @@ impl Session {
         let mut project = self.project().clone();
         project::declare_channels(&mut project);
         project.pass(id).map(|p| p.channels.clone())
-    }
-
-    pub(super) fn play(&mut self) {
-        self.settled(About::Seeking);
-        self.override_halt();
-        self.run.seeking.cancel();
-        self.run.clock.play();
-        self.run.fps.restart();
-    }
-
-    pub(super) fn pause(&mut self) {
-        self.halting.resumes = false;
-        self.run.seeking.cancel();
-        self.run.clock.pause();
-    }
-
-    pub(super) fn reset(&mut self) {
-        self.settled(About::Seeking);
-        self.end_replay("the picture was reset");
-        self.canvas.replayed = None;
-        self.take_values_back();
-        self.drawing.wanted.reset = true;
-        self.run.seeking.cancel();
-        self.run.clock.reset();
-        self.run.fps.restart();
-        self.run.steps = 0;
-        self.run.is_frame_due = true;
     }
 
     fn set_scale(&mut self, scale: f32) {
@@ -320,29 +290,14 @@ impl Session {
         self.canvas.refused = None;
     }
 
-    /// Input forces a frame while paused.
-    fn input(&mut self, change: impl FnOnce(&mut super::state::Run)) {
-        change(&mut self.run);
-        self.run.is_frame_due = true;
-    }
-
-    /// A key forces a frame too, unless it is half of a shortcut: stepping with Alt held must step by one.
-    fn key(&mut self, code: u8, change: impl FnOnce(&mut Keyboard)) {
-        change(&mut self.run.keyboard);
-        const MODIFIERS: [u8; 7] = [16, 17, 18, 91, 92, 93, 224];
-        self.run.is_frame_due |= !MODIFIERS.contains(&code);
-    }
-
     fn focus(&mut self, focused: bool) {
         if focused {
-            self.run.clock.rebase();
-            self.run.fps.restart();
+            self.playback.rebase();
             // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
             // look.
             self.disk.is_check_wanted = true;
-        } else if self.run.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
-            // The key-up of a key held now will go to another window.
-            self.input(|run| run.keyboard.release_all());
+        } else {
+            self.playback.release_keys();
         }
     }
 

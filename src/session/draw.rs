@@ -2,13 +2,11 @@
 
 use super::{
     Session,
-    clock::FrameTime,
     drawing::{Done, DrawnFrame, Job, Tasks, TileLimit},
     view::{About, Level},
 };
 use eddy_engine::{EngineError, FrameInputs};
 use eddy_gpu::{Gpu, GpuError};
-use eddy_playback::date;
 use std::time::Duration;
 
 impl Session {
@@ -25,7 +23,7 @@ impl Session {
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
         while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
-            if !self.is_replaying() {
+            if !self.playback.is_replaying() {
                 self.loop_range();
             }
             if self.travel() {
@@ -51,57 +49,27 @@ impl Session {
         if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
             return None;
         }
-        let is_step = self.is_step_due() || {
-            let steps = self.run.steps;
-            self.run.steps = steps.saturating_sub(1);
-            steps > 0
-        };
-        if self.is_replaying() {
+        let is_step = self.playback.take_step();
+        if self.playback.is_replaying() {
             return self.next_replayed(is_step);
         }
-        let time = if is_step {
-            self.run.clock.step_frame()
-        } else if self.run.clock.is_playing() && !self.run.is_covered {
-            // The first frame of a new program does not wait for the next tick.
-            let is_over = std::mem::replace(has_run, true) && !self.run.is_program_new;
-            if is_over || self.gives_way() {
-                return None;
-            }
-            self.run.clock.running_frame(self.now)
-        } else if self.run.is_frame_due || (self.run.is_again_due && self.run.clock.next_frame_number() == 0) {
-            self.run.clock.forced_frame()
-        } else {
-            return None;
-        };
-        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
+        // The first frame of a new program does not wait for the next tick.
+        let may_run = (!*has_run || self.run.is_program_new) && !self.gives_way();
+        *has_run |= !is_step && self.playback.is_running();
+        let inputs = self.playback.next_frame(self.now, is_step, may_run)?;
         self.take_values_back();
-        Some(self.inputs(time))
-    }
-
-    fn inputs(&mut self, time: FrameTime) -> FrameInputs {
-        let inputs = FrameInputs {
-            frame: time.frame,
-            time_secs: time.time_secs,
-            time_delta_secs: time.time_delta_secs,
-            frame_rate: time.frame_rate,
-            mouse: self.run.mouse.next_frame(),
-            drag: self.run.mouse.dragged(),
-            date: date::i_date(date::now()),
-            keyboard: self.run.keyboard.clone(),
-        };
-        self.run.keyboard.frame_painted();
-        inputs
+        Some(inputs)
     }
 
     /// `again`: the frame that is shown is drawn again.
     pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
-        let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
+        let stays = self.stays() && !std::mem::take(&mut self.playback.replay.follows);
         // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
         } else if again {
-            self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
+            self.run.measuring.draw_again(self.playback.frame());
         }
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
@@ -118,7 +86,7 @@ impl Session {
     /// The next frame is followed by others like it. The first one of a program is seen however fast another follows, and
     /// so is one that is drawn while time stands.
     pub(super) fn is_one_of_many(&self) -> bool {
-        self.run.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty()
+        self.playback.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
@@ -154,7 +122,7 @@ impl Session {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
                 self.halting.pace.begin();
-                self.run.is_again_due |= !has_frame;
+                self.playback.is_again_due |= !has_frame;
                 self.changed = true;
             }
             Some((size, Err(e))) => self.size_refused(size, &e),
@@ -168,7 +136,7 @@ impl Session {
             }
             None => {}
         }
-        self.run.is_again_due |= done.custom_uniforms_changed && !has_frame;
+        self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
         self.changed |= self.run.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
@@ -211,18 +179,14 @@ impl Session {
         if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
             self.programs_drawn += 1;
         }
-        if self.run.clock.is_playing() {
-            self.changed |= self.run.fps.frame(self.now);
-        } else {
-            self.changed = true;
-        }
+        self.changed |= self.playback.frame_is_drawn(self.now);
         self.frame_took(took);
     }
 
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.run.is_again_due = true;
-        self.run.seeking.awaits_program = false;
+        self.playback.is_again_due = true;
+        self.playback.seeking.awaits_program = false;
         self.run.is_program_new = true;
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
@@ -248,9 +212,9 @@ impl Session {
             self.engine_is_gone(&error.to_string());
             return;
         }
-        self.run.clock.pause();
+        self.playback.clock.pause();
         self.end_replay("a frame could not be drawn");
-        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
+        self.playback.forget_due_frames();
         if !is_lost {
             self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
         } else if !std::mem::replace(&mut self.run.is_device_lost, true) {

@@ -141,8 +141,7 @@ impl Session {
         self.tracing.renew_request();
         // Its buffers begin anew, and so must what they go by.
         self.end_replay("the GPU device was replaced");
-        self.run.seeking.cancel();
-        self.run.clock.reset();
+        self.playback.change_device();
         self.run.costs.forget();
         self.changed = true;
     }
@@ -155,7 +154,7 @@ impl Session {
         });
         self.halting.lost_at = Some(self.now);
         if is_again {
-            self.run.clock.pause();
+            self.playback.clock.pause();
             self.run.is_device_lost = true;
             self.notice(
                 Level::Error,
@@ -174,8 +173,8 @@ impl Session {
     }
 
     fn halt_with(&mut self, halt: Halt) {
-        self.halting.resumes |= self.run.clock.is_playing();
-        self.run.clock.pause();
+        self.halting.resumes |= self.playback.clock.is_playing();
+        self.playback.clock.pause();
         self.halting.halt = Some(halt);
         if let Some(project) = self.drawing.project() {
             self.halting.marker.set(project);
@@ -188,7 +187,7 @@ impl Session {
         let Some(halt) = self.halting.halt.take() else { return };
         self.changed = true;
         match halt {
-            Halt::Forecast { .. } => self.run.is_again_due = true,
+            Halt::Forecast { .. } => self.playback.is_again_due = true,
             Halt::Opened { .. } => self.compile.state.compiling = self.is_compile_under_way(),
             Halt::Drawing { .. } | Halt::Drawn { .. } => {}
         }
@@ -205,8 +204,7 @@ impl Session {
     /// Goes on as it was before the halt.
     fn resume(&mut self) {
         if std::mem::take(&mut self.halting.resumes) {
-            self.run.clock.play();
-            self.run.fps.restart();
+            self.playback.resume();
         }
     }
 
@@ -362,8 +360,8 @@ impl Session {
     }
 
     fn hold_after(&mut self, after_trouble: bool) {
-        self.halting.resumes = self.run.clock.is_playing();
-        self.run.clock.pause();
+        self.halting.resumes = self.playback.clock.is_playing();
+        self.playback.clock.pause();
         self.halting.halt = Some(Halt::Opened { after_trouble });
         self.changed = true;
     }

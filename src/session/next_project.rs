@@ -7,23 +7,17 @@
 
 use super::{
     Session,
-    clock::Clock,
     command::{Question, Request},
     costs::Costs,
     debounce::Debounce,
     documents::Documents,
     drawing::Ticket,
-    fps::FpsMeter,
     options::SessionOptions,
     read_back::ReadBack,
-    replay::Replay,
-    seek::Seeking,
     state::{Canvas, Compile, Dialog, Disk, Run},
     uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::CompileState,
 };
-use eddy_media::Keyboard;
-use eddy_playback::mouse::Mouse;
 use eddy_project::PassId;
 use std::mem::take;
 
@@ -43,6 +37,7 @@ impl Session {
         self.compile = self.compile.of_next_project(&self.options);
         self.disk.begin_next_project(&self.options);
         self.dialog.begin_next_project();
+        self.playback.begin_next_project();
         self.run.begin_next_project();
         // A compile of the project that goes may end before the new one's begins.
         self.compiler.clear();
@@ -122,27 +117,16 @@ impl Dialog {
 impl Run {
     fn begin_next_project(&mut self) {
         *self = Run {
-            clock: Clock::default(),
-            mouse: Mouse::default(),
-            keyboard: Keyboard::default(),
             shown: PassId::Image,
-            is_frame_due: false,
-            is_again_due: false,
             is_program_new: false,
             is_picture_new: self.is_picture_new,
             waits_for_painting: self.waits_for_painting,
-            steps: 0,
-            seeking: Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() },
-            is_covered: self.is_covered,
             is_device_lost: self.is_device_lost,
-            fps: FpsMeter::default(),
             cpu_micros: 0.0,
             costs: Costs::watched(self.costs.is_watched()),
             miniatures: take(&mut self.miniatures),
             buffers: take(&mut self.buffers),
             measuring: take(&mut self.measuring),
-            recorder: None,
-            replay: Replay::default(),
         };
     }
 }

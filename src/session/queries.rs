@@ -140,22 +140,22 @@ impl Session {
 
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
-        let playing = self.run.clock.is_playing() || self.run.seeking.resumes;
+        let playing = self.playback.is_playing();
         // Nothing is measured of what is not drawn.
-        let is_drawn = playing && self.drawing.has_program() && self.run.clock.next_frame_number() > 0;
+        let is_drawn = playing && self.drawing.has_program() && self.playback.has_drawn();
         Transport {
             playing,
-            time_secs: self.run.clock.time_secs(),
-            frame: (self.run.clock.next_frame_number() - 1).max(0),
-            fps: Some(self.run.fps.fps).filter(|fps| is_drawn && *fps > 0.0),
+            time_secs: self.playback.clock.time_secs(),
+            frame: self.playback.frame(),
+            fps: self.playback.fps().filter(|_| is_drawn),
             gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
             cpu_micros: is_drawn.then_some(self.run.cpu_micros),
             resolution: self.drawing.size(),
             scale: self.canvas.asked.scale,
             fixed_size: self.canvas.asked.fixed,
-            speed: self.run.clock.speed(),
-            fixed_rate: self.run.clock.fixed_rate(),
-            is_seeking: self.run.seeking.is_seeking(),
+            speed: self.playback.clock.speed(),
+            fixed_rate: self.playback.clock.fixed_rate(),
+            is_seeking: self.playback.is_seeking(),
         }
     }
 

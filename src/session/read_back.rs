@@ -40,12 +40,12 @@ impl Session {
 
     /// Returns what is due to be read now, behind the frame that is due, if one is.
     pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
-        let is_playing = self.run.clock.is_playing() && !self.run.is_covered;
+        let is_playing = self.playback.is_running();
         // Another project's engine says that it has no program.
         let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
         let mut tasks = Tasks::default();
         // A canvas between two pictures has none.
-        let is_between = self.drawing.wanted.size.is_some() || self.run.is_again_due;
+        let is_between = self.drawing.wanted.size.is_some() || self.playback.is_again_due;
         if is_between && !has_frame && is_there && self.halting.halt.is_none() {
             return tasks;
         }
@@ -53,7 +53,7 @@ impl Session {
             self.request_pictures(has_frame, is_playing, &mut tasks);
         }
         if is_there && !self.is_compile_under_way() {
-            self.request_inputs(is_playing, &mut tasks);
+            self.request_inputs(&mut tasks);
         }
         tasks
     }
@@ -63,19 +63,18 @@ impl Session {
         self.captures.request(tasks);
         let is_of_project = self.is_picture_of_project();
         self.last_pictures.request(is_of_project, tasks);
-        let at = Moment { now: self.now, has_frame, is_playing, is_seeking: self.run.seeking.is_seeking() };
+        let at = Moment { now: self.now, has_frame, is_playing, is_seeking: self.playback.is_seeking() };
         self.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
         self.probing.request(&at, tasks);
     }
 
     /// Asks for what the newest program was drawn with. A trace waits until nothing more is to be drawn.
-    fn request_inputs(&mut self, is_playing: bool, tasks: &mut Tasks) {
+    fn request_inputs(&mut self, tasks: &mut Tasks) {
         self.searching.request_input(tasks);
         self.tracing.divergence.request_input(tasks);
         self.comparing.request_input(tasks);
         self.auditing.request_input(&self.run.shown, tasks);
-        let is_settled = !is_playing && !self.run.is_frame_due && !self.run.is_again_due && self.run.steps == 0;
-        if is_settled {
+        if self.playback.is_settled() {
             self.tracing.request_input(tasks);
         }
     }

@@ -75,7 +75,7 @@ impl Session {
         let Left { shown, project, saved, .. } = self.safekeeping.found.remove(at);
         self.replace(Documents::restored(project, saved));
         // What made an end of the last process may do it again: the person looks first.
-        self.run.clock.pause();
+        self.playback.clock.pause();
         if let Some(recovery) = &self.safekeeping.recovery {
             recovery.adopt(shown.file);
         }

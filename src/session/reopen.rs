@@ -7,12 +7,11 @@
 
 use super::{
     Session,
-    clock::Clock,
     drawing::{RenderTask, Tasks},
     kept_files,
+    playback::{Goal, clock::Clock},
     read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
-    seek::Goal,
     state::CanvasSize,
     view::{About, Level},
 };
@@ -41,11 +40,11 @@ impl Session {
     /// Keeps where the open project's time stands.
     pub(super) fn keep_time(&mut self) {
         // What was left last time has not been drawn again yet: it is what is left.
-        if self.run.seeking.is_taking_up {
+        if self.playback.seeking.is_taking_up {
             return;
         }
         self.keep_picture();
-        let clock = &self.run.clock;
+        let clock = &self.playback.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
         let is_paused = !self.is_playing() && !self.halting.resumes;
         let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
@@ -95,8 +94,8 @@ impl Session {
     /// the way to another.
     pub(super) fn is_picture_of_project(&self) -> bool {
         let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.run.is_program_new;
-        let is_passing = self.probing.view().is_some() || self.run.seeking.is_seeking();
-        is_drawn && self.run.clock.next_frame_number() > 0 && !is_passing
+        let is_passing = self.probing.view().is_some() || self.playback.is_seeking();
+        is_drawn && self.playback.has_drawn() && !is_passing
     }
 
     pub(super) fn picture_is_read(&mut self, picture: &Picture) {
@@ -150,15 +149,15 @@ impl Session {
         self.take_size_up(size, scale);
         let is_playing = !paused;
         if !self.has_state() {
-            self.run.clock = Clock::at(time_secs, frame, is_playing);
-            self.run.is_frame_due = true;
+            self.playback.clock = Clock::at(time_secs, frame, is_playing);
+            self.playback.is_frame_due = true;
             return;
         }
-        self.run.clock = Clock::at(0.0, None, is_playing);
+        self.playback.clock = Clock::at(0.0, None, is_playing);
         let origin = &self.documents.current().origin;
         let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
-        self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
-        (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
+        self.playback.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
+        (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
     }
 

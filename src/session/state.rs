@@ -7,7 +7,6 @@ use super::{
     audit::Auditing,
     buffers::Watching,
     captures::Captures,
-    clock::Clock,
     command::{PendingAction, Question, Request},
     compare::Comparing,
     compile,
@@ -15,20 +14,17 @@ use super::{
     debounce::Debounce,
     documents::Documents,
     drawing::{self, Drawing},
-    fps::FpsMeter,
     halt::Halting,
     last_pictures::LastPictures,
     measuring::Measuring,
     miniatures::Miniatures,
     nonfinite::Searching,
     pass_history::PassHistory,
+    playback::Playback,
     probe::Probing,
     recent::Recent,
-    record::Recorder,
     recovery::Safekeeping,
-    replay::Replay,
     runs::Runs,
-    seek::Seeking,
     trace::Tracing,
     uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
     view::{About, CompileState, Level, Notice, TabDiagnostic},
@@ -36,8 +32,6 @@ use super::{
 };
 use eddy_background::Background;
 use eddy_gpu::Gpu;
-use eddy_media::Keyboard;
-use eddy_playback::mouse::Mouse;
 use eddy_project::{PassId, Project};
 use std::{
     collections::VecDeque,
@@ -65,6 +59,7 @@ pub struct Session {
     pub(super) runs: Runs,
     pub(super) last_pictures: LastPictures,
     pub(super) captures: Captures,
+    pub(super) playback: Playback,
     pub(super) run: Run,
     pub(super) probing: Probing,
     pub(super) tracing: Tracing,
@@ -187,38 +182,22 @@ pub(super) struct Dialog {
     pub after_save: Option<PendingAction>,
 }
 
-/// The picture over time.
+/// The picture that is shown, and what is read of it.
 pub(super) struct Run {
-    pub clock: Clock,
-    pub mouse: Mouse,
-    pub keyboard: Keyboard,
     pub shown: PassId,
-    /// A frame must be drawn though time stands still.
-    pub is_frame_due: bool,
-    /// The frame that is shown must be drawn again: the code, the canvas or a value is another than it was drawn with.
-    pub is_again_due: bool,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
     pub is_picture_new: bool,
     /// The next frame is handed in when that has been painted.
     pub waits_for_painting: bool,
-    pub steps: u32,
-    pub seeking: Seeking,
-    /// Nobody sees the picture.
-    pub is_covered: bool,
     /// The device is gone for good.
     pub is_device_lost: bool,
-    pub fps: FpsMeter,
     pub cpu_micros: f64,
     pub costs: Costs,
     pub miniatures: Miniatures,
     pub buffers: Watching,
     pub measuring: Measuring,
-    /// The inputs of what is drawn are recorded.
-    pub recorder: Option<Recorder>,
-    /// The recording that is played.
-    pub replay: Replay,
 }
 
 impl Session {
@@ -300,28 +279,18 @@ impl Session {
             runs: Runs::new(options.state_dir.as_deref()),
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             captures: Captures::default(),
+            playback: Playback::default(),
             run: Run {
-                clock: Clock::default(),
-                mouse: Mouse::default(),
-                keyboard: Keyboard::default(),
                 shown: PassId::Image,
-                is_frame_due: false,
-                is_again_due: false,
                 is_program_new: false,
                 is_picture_new: false,
                 waits_for_painting: false,
-                steps: 0,
-                seeking: Seeking::default(),
-                is_covered: false,
                 is_device_lost: false,
-                fps: FpsMeter::default(),
                 cpu_micros: 0.0,
                 costs: Costs::default(),
                 miniatures: Miniatures::default(),
                 buffers: Watching::default(),
                 measuring: Measuring::default(),
-                recorder: None,
-                replay: Replay::default(),
             },
             probing: Probing::default(),
             tracing,

@@ -167,7 +167,7 @@ impl Session {
         self.changed = true;
         match (input.output, self.drawing.project().cloned()) {
             (Ok(inspected), Some(project)) => {
-                let frame = (self.run.clock.next_frame_number() - 1).max(0);
+                let frame = self.playback.frame();
                 walk.start(TraceJob { project, at: pixel.at, frame, inspected });
             }
             (Ok(_), None) => walk.cancel(),

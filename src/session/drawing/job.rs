@@ -5,7 +5,7 @@ use super::{
     history::Travelled,
     task::{Delivery, Tasks},
 };
-use crate::seek::{Goal, Reach};
+use crate::playback::{Goal, Reach};
 use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime, Picture, Program, ValueLook};
 use eddy_playback::run::Frame;
 use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};

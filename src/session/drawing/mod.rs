@@ -20,7 +20,7 @@ pub(super) use render_thread::{Open, beside};
 pub(super) use renderer::Renderer;
 pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 
-use crate::seek::Reach;
+use crate::playback::Reach;
 use eddy_engine::{CostClock, EngineError, PassCost, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
 use eddy_project::{CustomUniform, PassId, Project};

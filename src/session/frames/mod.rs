@@ -102,18 +102,15 @@ impl Session {
     }
 
     fn wake_at(&self) -> Option<Instant> {
-        let is_running = self.run.clock.is_playing()
-            && !self.run.is_covered
-            && self.drawing.has_program()
-            && !self.run.is_device_lost;
+        let is_running = self.playback.is_running() && self.drawing.has_program() && !self.run.is_device_lost;
         // The end of a frame that is being drawn wakes.
         let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
         let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
         let is_free = self.halting.halt.is_none() && !self.drawing.is_busy() && !self.gives_way();
-        let replayed = self.replay_due().filter(|_| is_running && is_free);
-        let is_next_due = is_next_due && !self.is_replaying();
+        let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
+        let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
         let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
         let next = is_next_due.then_some(self.now).or(replayed);

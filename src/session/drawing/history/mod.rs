@@ -6,7 +6,7 @@ mod again;
 mod before;
 mod thinning;
 
-use crate::seek::{Goal, Reach};
+use crate::playback::{Goal, Reach};
 use before::Again;
 use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
 use eddy_playback::run::{Frame, Replay, ReplayFrom, Run};

@@ -81,11 +81,6 @@ impl Clock {
         self.frame
     }
 
-    /// `iFrameRate` as of the newest frame.
-    pub fn frame_rate(&self) -> f32 {
-        self.rate
-    }
-
     /// Goes on from the newest frame's time.
     pub fn play(&mut self) {
         if !self.is_playing {

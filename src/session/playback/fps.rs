@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 /// Frames a second as people read it: over half a second, as the site shows it.
 #[derive(Default)]
-pub(super) struct FpsMeter {
+pub struct FpsMeter {
     pub fps: f64,
     window: Option<(Instant, u32)>,
 }
