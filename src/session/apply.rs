@@ -43,12 +43,7 @@ impl Session {
                 self.analyse();
             }
             Command::CompileNow => self.compile_soon(),
-            Command::SetCompileOnSave(on) => {
-                self.compile.on_save = on;
-                if !on && std::mem::take(&mut self.compile.waits_for_save) {
-                    self.compile_soon();
-                }
-            }
+            Command::SetCompileOnSave(on) => self.compile.set_on_save(on),
             Command::Play => self.play(),
             Command::Pause => self.pause(),
             Command::TogglePlay if self.is_playing() => self.pause(),
@@ -164,7 +159,7 @@ impl Session {
             Command::SaveMeasures => self.save_measures(),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::Compare(against) => self.comparing.want(against),
-            Command::SetFrameLimit(limit) => self.halting.limit = limit,
+            Command::SetFrameLimit(limit) => self.halting.set_limit(limit),
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
             Command::Notify { level, text, path } => {
@@ -195,10 +190,7 @@ impl Session {
 
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
-        self.compile.fallback = None;
-        self.compile.waits_for_save = false;
-        self.compile.is_wanted = true;
-        self.compile.state.compiling = true;
+        self.compile.soon();
     }
 
     fn edit_text(&mut self, tab: &Tab, text: &str) {
@@ -213,7 +205,7 @@ impl Session {
         let old = source.text.clone();
         // The worker reads them when it compiles: a keystroke waits for no file.
         if include_names(&source.text) != include_names(text) {
-            self.compile.include_edits += 1;
+            self.compile.includes_changed();
         }
         self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
@@ -226,12 +218,7 @@ impl Session {
                 pass.channels = now;
             }
         }
-        if self.compile.on_save {
-            self.compile.waits_for_save = true;
-            return;
-        }
-        self.compile.edited = true;
-        self.compile.state.compiling = true;
+        self.compile.edit();
     }
 
     fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
@@ -295,7 +282,7 @@ impl Session {
             self.playback.rebase();
             // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
             // look.
-            self.disk.is_check_wanted = true;
+            self.disk.want_check();
         } else {
             self.playback.release_keys();
         }

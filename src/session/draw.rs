@@ -22,7 +22,7 @@ impl Session {
     /// `runs`: a frame of the running picture may be among them.
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
-        while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
+        while !self.drawing.is_busy() && !self.halting.is_held() && !self.halting.is_device_gone() {
             if !self.playback.is_replaying() {
                 self.loop_range();
             }
@@ -46,7 +46,7 @@ impl Session {
     fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
         let wanted = &self.drawing.wanted;
         let is_other_coming = wanted.restart || wanted.program.is_some();
-        if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
+        if is_other_coming || !self.drawing.has_program() || self.halting.is_halted() {
             return None;
         }
         let is_step = self.playback.take_step();
@@ -121,7 +121,7 @@ impl Session {
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
-                self.halting.pace.begin();
+                self.halting.begin_pace();
                 self.playback.is_again_due |= !has_frame;
                 self.changed = true;
             }
@@ -189,18 +189,18 @@ impl Session {
         self.playback.seeking.awaits_program = false;
         self.run.is_program_new = true;
         self.changed = true;
-        self.compile.state.compiling = self.is_compile_under_way();
+        self.compile.set_compiling(self.is_compile_under_way());
         if let Some(millis) = self.drawing.new_program_millis() {
             self.settled_by_edit();
-            self.compile.state.last = Some(self.compiled(millis));
-            if std::mem::take(&mut self.compile.reset_when_built) {
+            self.compile.succeed(millis);
+            if self.compile.take_reset() {
                 self.reset();
             } else {
                 self.keep_inputs();
             }
         } else {
             // What is drawn is older than what the errors are about.
-            self.compile.state.last = Some(self.failed());
+            self.compile.fail(self.drawing.has_program());
         }
         self.halt_for_new_program(forecast);
     }
@@ -217,7 +217,7 @@ impl Session {
         self.playback.forget_due_frames();
         if !is_lost {
             self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
-        } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
+        } else if self.halting.lose_device() {
             self.notice_about(
                 About::Window,
                 Level::Error,

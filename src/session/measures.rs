@@ -38,7 +38,7 @@ impl Session {
 
     /// Takes up what has become of the comments.
     pub(super) fn follow_measures(&mut self) {
-        let state = (self.disk.opened, self.documents.revision());
+        let state = (self.disk.opened(), self.documents.revision());
         self.changed |= self.run.measuring.follow(self.documents.current(), state);
     }
 

@@ -9,14 +9,11 @@ use super::{
     Session,
     command::{Question, Request},
     costs::Costs,
-    debounce::Debounce,
     documents::Documents,
     drawing::Ticket,
-    options::SessionOptions,
     read_back::ReadBack,
-    state::{Canvas, Compile, Dialog, Disk, Run},
-    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
-    view::CompileState,
+    state::{Canvas, Dialog, Run},
+    uniforms_of_texts::DeclaredUniforms,
 };
 use eddy_project::PassId;
 use std::mem::take;
@@ -34,13 +31,13 @@ impl Session {
         self.safekeeping.kept = None;
         self.passes.clear();
         self.canvas = self.canvas.of_next_project();
-        self.compile = self.compile.of_next_project(&self.options);
-        self.disk.begin_next_project(&self.options);
+        self.compile.begin_next_project();
+        self.renamed_uniforms.clear();
+        self.declared_uniforms = DeclaredUniforms::default();
+        self.disk.begin_next_project();
         self.dialog.begin_next_project();
         self.playback.begin_next_project();
         self.run.begin_next_project();
-        // A compile of the project that goes may end before the new one's begins.
-        self.compiler.clear();
         self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
         self.probing.begin_next_project();
         self.last_pictures.ticket = Ticket::default();
@@ -63,47 +60,6 @@ impl Canvas {
     }
 }
 
-impl Compile {
-    fn of_next_project(&self, options: &SessionOptions) -> Compile {
-        Compile {
-            edits: Debounce::new(options.edit_debounce),
-            jobs: self.jobs.clone(),
-            edited: false,
-            include_edits: self.include_edits,
-            includes_read: self.include_edits,
-            is_wanted: true,
-            is_look_wanted: false,
-            reset_when_built: false,
-            state: CompileState::default(),
-            diagnostics: Vec::new(),
-            read: Vec::new(),
-            fallback: None,
-            newest_since: None,
-            edited_at: None,
-            renamed_uniforms: RenamedUniforms::new(),
-            declared_uniforms: DeclaredUniforms::default(),
-            on_save: self.on_save,
-            waits_for_save: false,
-        }
-    }
-}
-
-impl Disk {
-    fn begin_next_project(&mut self, options: &SessionOptions) {
-        *self = Disk {
-            watch: self.watch.take(),
-            changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
-            is_check_wanted: false,
-            unsettled_since: None,
-            told: None,
-            manifest: None,
-            opened: self.opened + 1,
-            media_files: Vec::new(),
-            reset_on_reload: self.reset_on_reload,
-        };
-    }
-}
-
 impl Dialog {
     fn begin_next_project(&mut self) {
         let Dialog { questions, requests, after_save } = self;
@@ -121,7 +77,6 @@ impl Run {
             is_program_new: false,
             is_picture_new: self.is_picture_new,
             waits_for_painting: self.waits_for_painting,
-            is_device_lost: self.is_device_lost,
             cpu_micros: 0.0,
             costs: Costs::watched(self.costs.is_watched()),
             miniatures: take(&mut self.miniatures),

@@ -62,7 +62,7 @@ impl Session {
 
     /// Returns how long typing has to rest before it is compiled.
     pub fn edit_debounce(&self) -> Duration {
-        self.compile.edits.quiet()
+        self.compile.quiet()
     }
 
     /// Returns a number that grows whenever a text was changed by something else than
@@ -90,7 +90,7 @@ impl Session {
 
     /// Counts the times that a project was opened or took a new place.
     pub fn opened(&self) -> u64 {
-        self.disk.opened
+        self.disk.opened()
     }
 
     /// Counts the projects that have taken the place of another: what a front end keeps of one is to be forgotten.
@@ -101,14 +101,14 @@ impl Session {
     /// Edits wait to be compiled until they are saved: see
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
-        self.compile.waits_for_save
+        self.compile.waits_for_save()
     }
 
     /// The author's own uniforms, as the running program declares them. Where it declares none, or there is no program
     /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         match self.drawing.custom_uniforms() {
-            [] => &self.compile.declared_uniforms.list,
+            [] => &self.declared_uniforms.list,
             drawn => drawn,
         }
     }
@@ -131,11 +131,11 @@ impl Session {
 
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
-        &self.compile.diagnostics
+        self.compile.diagnostics()
     }
 
     pub fn compile_state(&self) -> &CompileState {
-        &self.compile.state
+        self.compile.state()
     }
 
     pub fn transport(&self) -> Transport {
@@ -214,12 +214,12 @@ impl Session {
 
     /// Returns why the picture stands still though nobody has paused it.
     pub fn halt(&self) -> Option<&Halt> {
-        self.halting.halt.as_ref()
+        self.halting.halt()
     }
 
     /// Returns whether there is code to go back to.
     pub fn has_last_good(&self) -> bool {
-        self.halting.good.is_some()
+        self.halting.good().is_some()
     }
 
     /// Returns what must be answered before anything else.

@@ -46,7 +46,7 @@ impl Session {
         let mut tasks = Tasks::default();
         // A canvas between two pictures has none.
         let is_between = self.drawing.wanted.size.is_some() || self.playback.is_again_due;
-        if is_between && !has_frame && is_there && self.halting.halt.is_none() {
+        if is_between && !has_frame && is_there && !self.halting.is_halted() {
             return tasks;
         }
         if has_frame || is_there || self.drawing.wanted.restart {

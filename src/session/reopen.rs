@@ -46,7 +46,7 @@ impl Session {
         self.keep_picture();
         let clock = &self.playback.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
-        let is_paused = !self.is_playing() && !self.halting.resumes;
+        let is_paused = !self.is_playing() && !self.halting.resumes();
         let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
         let left = Left {
             time_secs: clock.time_secs(),
@@ -81,7 +81,7 @@ impl Session {
     /// Keeps the picture that is shown, before its project is closed.
     fn keep_picture(&mut self) {
         // A device that is too slow is not waited for.
-        if !self.last_pictures.is_kept() || self.halting.halt.is_some() || !self.is_picture_of_project() {
+        if !self.last_pictures.is_kept() || self.halting.is_halted() || !self.is_picture_of_project() {
             return;
         }
         let end = Instant::now() + PATIENCE;

@@ -9,12 +9,12 @@ use super::{
     captures::Captures,
     command::{PendingAction, Question, Request},
     compare::Comparing,
-    compile,
+    compile::CompileControl,
     costs::Costs,
-    debounce::Debounce,
+    disk::DiskSync,
     documents::Documents,
     drawing::{self, Drawing},
-    halt::Halting,
+    halt::HaltControl,
     last_pictures::LastPictures,
     measuring::Measuring,
     miniatures::Miniatures,
@@ -27,32 +27,27 @@ use super::{
     runs::Runs,
     trace::Tracing,
     uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
-    view::{About, CompileState, Level, Notice, TabDiagnostic},
-    watch::Watch,
+    view::{About, Level, Notice},
 };
-use eddy_background::Background;
 use eddy_gpu::Gpu;
-use eddy_project::{PassId, Project};
-use std::{
-    collections::VecDeque,
-    path::PathBuf,
-    sync::{Arc, atomic::AtomicU64},
-    time::Instant,
-};
+use eddy_project::PassId;
+use std::{collections::VecDeque, sync::Arc, time::Instant};
 
 /// An open project over time.
 pub struct Session {
     pub(super) options: SessionOptions,
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     // Before the drawing: its thread uses the device until it has ended.
-    pub(super) compiler: Background<compile::Job, (), compile::Done>,
+    pub(super) compile: CompileControl,
     pub(super) analyst: Analyst,
     pub(super) drawing: Drawing,
-    pub(super) halting: Halting,
+    pub(super) halting: HaltControl,
     pub(super) documents: Documents,
     pub(super) canvas: Canvas,
-    pub(super) compile: Compile,
-    pub(super) disk: Disk,
+    /// Uniforms that have another name in the texts than in the program that draws.
+    pub(super) renamed_uniforms: RenamedUniforms,
+    pub(super) declared_uniforms: DeclaredUniforms,
+    pub(super) disk: DiskSync,
     pub(super) dialog: Dialog,
     pub(super) safekeeping: Safekeeping,
     pub(super) recent: Recent,
@@ -120,59 +115,6 @@ impl Default for CanvasSize {
     }
 }
 
-/// Keeps the way from texts to the running program.
-pub(super) struct Compile {
-    pub edits: Debounce,
-    /// Jobs that the compiler was given.
-    pub jobs: Arc<AtomicU64>,
-    /// A text was edited since the last tick.
-    pub edited: bool,
-    /// Edits are compiled when they are saved.
-    pub on_save: bool,
-    /// There are such edits.
-    pub waits_for_save: bool,
-    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
-    pub include_edits: u64,
-    pub includes_read: u64,
-    /// Compile in the next tick, whatever the debounce says.
-    pub is_wanted: bool,
-    /// See whether a picture or a model has changed on disk, as soon as the worker has time.
-    pub is_look_wanted: bool,
-    /// The program under way shall start from zero.
-    pub reset_when_built: bool,
-    pub state: CompileState,
-    pub diagnostics: Vec<TabDiagnostic>,
-    /// The diagnostics of reading the project that no compile says.
-    pub read: Vec<TabDiagnostic>,
-    /// The project that is to be compiled instead of the newest text.
-    pub fallback: Option<Project>,
-    /// Since when the worker compiles the newest text, if it does.
-    pub newest_since: Option<Instant>,
-    pub edited_at: Option<Instant>,
-    /// Uniforms that have another name in the texts than in the program that draws.
-    pub renamed_uniforms: RenamedUniforms,
-    pub declared_uniforms: DeclaredUniforms,
-}
-
-/// The project's files.
-pub(super) struct Disk {
-    pub watch: Option<Watch>,
-    pub changes: Debounce,
-    /// Look in the next tick, whatever the watch says.
-    pub is_check_wanted: bool,
-    /// Since when what is on disk makes no whole project.
-    pub unsettled_since: Option<Instant>,
-    /// The last words about such files, so that they are said once.
-    pub told: Option<String>,
-    /// `eddy.toml` as it was last read or written.
-    pub manifest: Option<Vec<u8>>,
-    /// Counts the times a project was opened or took a new place.
-    pub opened: u64,
-    /// Pictures, models and the files these name, as the last compile found them.
-    pub media_files: Vec<PathBuf>,
-    pub reset_on_reload: bool,
-}
-
 /// Questions to the user and requests to the front end.
 #[derive(Default)]
 pub(super) struct Dialog {
@@ -191,8 +133,6 @@ pub(super) struct Run {
     pub is_picture_new: bool,
     /// The next frame is handed in when that has been painted.
     pub waits_for_painting: bool,
-    /// The device is gone for good.
-    pub is_device_lost: bool,
     pub cpu_micros: f64,
     pub costs: Costs,
     pub miniatures: Miniatures,
@@ -219,9 +159,7 @@ impl Session {
         } else {
             Drawing::inline(gpu, size)?
         };
-        let jobs = Arc::new(AtomicU64::new(0));
-        let work = compile::work(drawing.device(), &options, jobs.clone());
-        let compiler = Background::new("compile", "the compiler", wake.clone(), work).map_err(SessionError::Thread)?;
+        let compile = CompileControl::new(drawing.device(), &options, wake.clone()).map_err(SessionError::Thread)?;
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
@@ -230,10 +168,9 @@ impl Session {
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
-            compiler,
             analyst,
             drawing,
-            halting: Halting::new(options.frame_limit, options.state_dir.clone()),
+            halting: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
             documents: Documents::new(super::template::project()),
             canvas: Canvas {
                 viewport: None,
@@ -242,37 +179,10 @@ impl Session {
                 replayed: None,
                 refused: None,
             },
-            compile: Compile {
-                edits: Debounce::new(options.edit_debounce),
-                jobs,
-                edited: false,
-                on_save: false,
-                waits_for_save: false,
-                include_edits: 0,
-                includes_read: 0,
-                is_wanted: true,
-                is_look_wanted: false,
-                reset_when_built: false,
-                state: CompileState::default(),
-                diagnostics: Vec::new(),
-                read: Vec::new(),
-                fallback: None,
-                newest_since: None,
-                edited_at: None,
-                renamed_uniforms: RenamedUniforms::new(),
-                declared_uniforms: DeclaredUniforms::default(),
-            },
-            disk: Disk {
-                watch: None,
-                changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
-                is_check_wanted: false,
-                unsettled_since: None,
-                told: None,
-                manifest: None,
-                opened: 0,
-                media_files: Vec::new(),
-                reset_on_reload: false,
-            },
+            compile,
+            renamed_uniforms: RenamedUniforms::new(),
+            declared_uniforms: DeclaredUniforms::default(),
+            disk: DiskSync::new(&options),
             dialog: Dialog::default(),
             safekeeping: Safekeeping::default(),
             recent,
@@ -285,7 +195,6 @@ impl Session {
                 is_program_new: false,
                 is_picture_new: false,
                 waits_for_painting: false,
-                is_device_lost: false,
                 cpu_micros: 0.0,
                 costs: Costs::default(),
                 miniatures: Miniatures::default(),
@@ -325,7 +234,6 @@ impl Session {
         if let Some(why) = forgotten {
             session.notice_about(About::Window, Level::Warning, why);
         }
-        session.compile.state.compiling = true;
         Ok(session)
     }
 

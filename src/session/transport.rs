@@ -19,7 +19,7 @@ impl Session {
     }
 
     pub(super) fn pause(&mut self) {
-        self.halting.resumes = false;
+        self.halting.forget_resuming();
         self.playback.pause();
     }
 
@@ -173,14 +173,14 @@ impl Session {
     pub(super) fn take_again(&mut self) -> bool {
         let wanted = &self.drawing.wanted;
         let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
-        let is_ready = self.drawing.has_program() && !is_other_coming && self.halting.halt.is_none();
+        let is_ready = self.drawing.has_program() && !is_other_coming && !self.halting.is_halted();
         is_ready && self.playback.take_again()
     }
 
     /// A change of the program or the canvas is followed by the frame that is shown, and by no other.
     pub(super) fn stays(&self) -> bool {
         let wanted = &self.drawing.wanted;
-        let begins_anew = wanted.restart || wanted.reset || self.compile.reset_when_built || self.draws_all_anew();
+        let begins_anew = wanted.restart || wanted.reset || self.compile.resets_when_built() || self.draws_all_anew();
         self.playback.is_still() && !begins_anew
     }
 

@@ -2,21 +2,13 @@
 
 use super::{
     Session,
-    compile::{self, Compiled, Done, Job},
+    compile::{Compiled, Done, Source},
     drawing::{FrameControl, PendingProgram},
-    view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
+    view::{About, Level, Tick},
 };
-use eddy_diag::Severity;
 use eddy_engine::EngineError;
 use eddy_gpu::GpuError;
-use std::{
-    sync::atomic::Ordering,
-    time::{Duration, Instant},
-};
-
-/// A compile of so long goes before frames of the program that it takes the place of: they would take its processors,
-/// and nobody sees a pause of so long.
-const BRIEF: Duration = Duration::from_millis(100);
+use std::time::Instant;
 
 impl Session {
     /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one a
@@ -94,72 +86,37 @@ impl Session {
         self.gives_way_until().is_some()
     }
 
-    /// Until when frames wait for the compile that is under way: one that takes longer than expected, as of a text that
-    /// was pasted, does not hold the picture.
     fn gives_way_until(&self) -> Option<Instant> {
-        let until = self.compile.newest_since? + BRIEF;
-        (self.compile.edits.quiet() <= BRIEF && self.now < until).then_some(until)
+        self.compile.holds_frames_until(self.now)
     }
 
     fn wake_at(&self) -> Option<Instant> {
-        let is_running = self.playback.is_running() && self.drawing.has_program() && !self.run.is_device_lost;
+        let is_running = self.playback.is_running() && self.drawing.has_program() && !self.halting.is_device_gone();
         // The end of a frame that is being drawn wakes.
         let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
-        let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
+        let is_held = self.halting.is_halted() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
-        let is_free = self.halting.halt.is_none() && !self.drawing.is_busy() && !self.gives_way();
+        let is_free = !self.halting.is_halted() && !self.drawing.is_busy() && !self.gives_way();
         let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
-        let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
+        let deadlines = [self.compile.deadline(), self.disk.deadline(), self.drawing_deadline(), resumes];
         let next = is_next_due.then_some(self.now).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
     fn start_compile(&mut self) {
-        if std::mem::take(&mut self.compile.edited) {
-            self.compile.edits.touch(self.now);
-            self.compile.edited_at = Some(self.now);
-        }
-        let is_due = self.compile.edits.take_due(self.now);
-        if is_due {
-            self.compile.fallback = None;
-        }
-        let is_compile = std::mem::take(&mut self.compile.is_wanted) || is_due || self.compile.fallback.is_some();
-        // A look must not take the place of a compile under way, and a compile looks too.
-        let is_look = self.compile.is_look_wanted && !self.compiler.is_busy();
-        if !is_compile && !is_look {
-            return;
-        }
-        self.compile.is_look_wanted = false;
-        let fallback = self.compile.fallback.take();
-        let is_fallback = fallback.is_some();
-        if is_compile {
-            self.compile.edits.cancel();
-            self.compile.newest_since = (!is_fallback).then_some(self.now);
-            self.changed = true;
-        }
-        self.compile.jobs.fetch_add(1, Ordering::Relaxed);
-        self.compiler.start(Job {
-            is_fallback,
-            project: fallback.unwrap_or_else(|| self.documents.current().clone()),
-            shown: self.run.shown.clone(),
-            opened: self.disk.opened,
-            include_edit: (is_compile && self.compile.includes_read != self.compile.include_edits)
-                .then_some(self.compile.include_edits)
-                .filter(|_| !is_fallback),
-            probe: self.probing.order(),
-            is_look: !is_compile,
-        });
+        let (project, shown) = (self.documents.current(), &self.run.shown);
+        let source = Source { project, shown, opened: self.disk.opened(), probe: self.probing.order() };
+        self.changed |= self.compile.start(self.now, source);
     }
 
     fn take_compiled(&mut self) {
-        let Some(result) = self.compiler.take() else { return };
-        let done = match result {
-            Ok(Done { files, is_changed, includes, compiled }) => {
-                let has_new_files = self.disk.media_files != files || includes.is_some();
-                self.disk.media_files = files;
+        let compiled = match self.compile.take() {
+            None => return,
+            Some(Ok(Done { files, is_changed, includes, compiled })) => {
+                let has_new_files = self.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
                     self.take_includes(includes, edit);
                 }
@@ -169,66 +126,52 @@ impl Session {
                 if is_changed {
                     self.compile_soon();
                 }
+                let is_compiling = self.is_compile_under_way();
                 let Some(compiled) = compiled else {
                     // A look at the files, which made the compiler seem busy.
-                    let is_under_way = self.is_compile_under_way();
-                    self.changed |= std::mem::replace(&mut self.compile.state.compiling, is_under_way) != is_under_way;
+                    self.changed |= self.compile.set_compiling(is_compiling);
                     return;
                 };
-                self.compile.newest_since = None;
                 Ok(compiled)
             }
-            Err(why) => {
-                self.compile.newest_since = None;
-                Err(why)
-            }
+            Some(Err(why)) => Err(why),
         };
         self.changed = true;
-        self.compile.state.compiling = self.is_compile_under_way();
-        match done {
+        self.compile.set_compiling(self.is_compile_under_way());
+        match compiled {
             Err(what) => {
-                self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
+                self.compile.set_failure(&what);
                 self.auditing.map = None;
-                self.compile.state.last = Some(self.failed());
-                let goes_on = if self.drawing.has_program() { "; the last working version keeps running" } else { "" };
+                let has_program = self.drawing.has_program();
+                self.compile.fail(has_program);
+                let goes_on = if has_program { "; the last working version keeps running" } else { "" };
                 self.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
             }
             Ok(compiled) => self.take_program(compiled),
         }
     }
 
-    fn is_compile_due(&self) -> bool {
-        self.compile.edited || self.compile.is_wanted || self.compile.edits.is_waiting()
-    }
-
     /// The picture is of an older text than the newest.
     pub(super) fn is_compile_under_way(&self) -> bool {
-        let is_coming = self.drawing.is_program_coming() && !self.halting.is_held();
-        self.is_compile_due() || self.compiler.is_busy() || is_coming
+        self.compile.is_busy() || (self.drawing.is_program_coming() && !self.halting.is_held())
     }
 
     fn take_program(&mut self, compiled: Compiled) {
         let Compiled { project, is_fallback, program, diagnostics, took, probe } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
-            self.compile.diagnostics = diagnostics;
+            self.compile.diagnose(diagnostics, took);
             self.auditing.map = None;
-            self.compile.diagnostics.extend(self.compile.read.iter().cloned());
-            self.compile.diagnostics.sort_by_key(|d| std::cmp::Reverse(d.severity));
-            self.compile.edits.set_quiet(compile::quiet_after(took, self.options.edit_debounce));
         }
         let (program, millis) = match program {
             Ok(Some(built)) => built,
             Ok(None) if is_fallback => return,
-            Ok(None) => {
-                self.compile.state.last = Some(self.failed());
-                return;
-            }
+            Ok(None) => return self.compile.fail(self.drawing.has_program()),
             Err(e) => return self.refused(&e),
         };
         let millis = (!is_fallback).then_some(millis);
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
-            self.compile.state.last = Some(self.compiled(millis));
+            self.compile.succeed(millis);
         }
         self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
@@ -237,30 +180,13 @@ impl Session {
         self.probing.built(probe);
         self.drawing.wanted.shown = Some(self.pictured());
         self.drawing.wanted.look = self.probing.take_look(true);
-        self.compile.state.compiling = self.is_compile_under_way();
-    }
-
-    /// A text that gave a program.
-    pub(super) fn compiled(&self, millis: f64) -> Outcome {
-        let count = |s| self.compile.diagnostics.iter().filter(|d| d.severity == s).count();
-        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-        match errors {
-            0 => Outcome::Ok { millis, warnings },
-            _ => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
-        }
-    }
-
-    /// A text that gave no program, for the reasons that are in the list.
-    pub(super) fn failed(&self) -> Outcome {
-        let errors = self.compile.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        let meanwhile = if self.drawing.has_program() { Meanwhile::LastGood } else { Meanwhile::Nothing };
-        Outcome::Failed { errors, meanwhile }
+        self.compile.set_compiling(self.is_compile_under_way());
     }
 
     /// The machine refused what the newest text asks for: said in the list of errors, too, where errors are counted.
     pub(super) fn refused(&mut self, error: &EngineError) {
-        self.compile.diagnostics.insert(0, TabDiagnostic::nowhere(&error.to_string()));
-        self.compile.state.last = Some(self.failed());
+        self.compile.add_failure(&error.to_string());
+        self.compile.fail(self.drawing.has_program());
         self.stop_drawing(error);
     }
 

@@ -234,7 +234,7 @@ mod tests {
         assert_eq!(playback.take_goal(), Some(Goal::By(-3)));
         assert!(playback.take_goal().is_none() && playback.is_seeking());
         let (mut playback, _) = paused_at(7);
-        (0..3).for_each(|_| playback.step_forward(reach.ahead));
+        (0..2).for_each(|_| playback.step_forward(reach.ahead));
         assert_eq!(playback.take_goal(), Some(Goal::By(2)));
         assert!(!playback.take_step(), "the goal is being reached");
         let (mut playback, reach) = paused_at(9);

@@ -13,25 +13,26 @@ use std::{
 };
 
 /// A file's content as a number; `None` for one that cannot be read.
-pub(super) type Stamp = (PathBuf, Option<u64>);
+pub type Stamp = (PathBuf, Option<u64>);
 
 /// A file that was written so recently may be written again without another time of change.
 const RECENT: Duration = Duration::from_secs(2);
 
 /// Stamps as they were last taken, so that a file that has not changed is not read again.
 #[derive(Default)]
-pub(super) struct Stamps {
-    known: HashMap<PathBuf, Known>,
+pub struct Stamps {
+    taken: HashMap<PathBuf, Taken>,
 }
 
-struct Known {
-    looks: Looks,
+/// A stamp, and the attributes that the file had then.
+struct Taken {
+    attributes: Attributes,
     hash: u64,
 }
 
 /// The properties that tell cheaply that a file is the same.
 #[derive(PartialEq)]
-struct Looks {
+struct Attributes {
     bytes: u64,
     modified: SystemTime,
 }
@@ -41,7 +42,7 @@ impl Stamps {
     pub fn take(&mut self, project: &Project) -> Vec<Stamp> {
         let base = capture::base_folder(project);
         let files = files(project, base.as_deref());
-        self.known.retain(|path, _| files.contains_key(path));
+        self.taken.retain(|path, _| files.contains_key(path));
         let stamp = |(path, name): (PathBuf, Option<String>)| {
             let hash = self.stamp(&path, base.as_deref().zip(name.as_deref()));
             (path, hash)
@@ -51,11 +52,11 @@ impl Stamps {
 
     /// `own`: the project's folder and the file's name in it, for a file that the person did not pick.
     fn stamp(&mut self, path: &Path, own: Option<(&Path, &str)>) -> Option<u64> {
-        let looks = looks(path);
-        if let (Some(looks), Some(known)) = (&looks, self.known.get(path))
-            && *looks == known.looks
+        let attributes = attributes(path);
+        if let (Some(attributes), Some(taken)) = (&attributes, self.taken.get(path))
+            && *attributes == taken.attributes
         {
-            return Some(known.hash);
+            return Some(taken.hash);
         }
         let bytes = match own {
             Some((base, name)) => confine::read(base, name, limits::MEDIA_FILE),
@@ -66,20 +67,20 @@ impl Stamps {
             bytes.hash(&mut hasher);
             hasher.finish()
         });
-        self.known.remove(path);
-        if let (Some(looks), Some(hash)) = (looks, hash) {
-            self.known.insert(path.to_owned(), Known { looks, hash });
+        self.taken.remove(path);
+        if let (Some(attributes), Some(hash)) = (attributes, hash) {
+            self.taken.insert(path.to_owned(), Taken { attributes, hash });
         }
         hash
     }
 }
 
-/// `None` where looks say nothing.
-fn looks(path: &Path) -> Option<Looks> {
+/// Returns a file's attributes; `None` where they tell nothing.
+fn attributes(path: &Path) -> Option<Attributes> {
     let metadata = fs::metadata(path).ok()?;
     let modified = metadata.modified().ok()?;
     let is_old = SystemTime::now().duration_since(modified).is_ok_and(|age| age > RECENT);
-    is_old.then_some(Looks { bytes: metadata.len(), modified })
+    is_old.then_some(Attributes { bytes: metadata.len(), modified })
 }
 
 /// Returns where they lie, each once, with the names from the folder of those that are the project's own.

@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub(super) struct Marker {
+pub struct Marker {
     /// The folder of such files; without, none is written.
     folder: Option<PathBuf>,
     written: Option<PathBuf>,

@@ -1,10 +1,10 @@
 //! The compile worker reads a project's media and builds its program.
 
-use super::{
+use crate::{
+    disk::stamps::{Stamp, Stamps},
     drawing::Device,
     options::SessionOptions,
     probe::{self, ProbePlace, ProbedValue},
-    stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
 use eddy_background::Control;
@@ -21,7 +21,7 @@ use std::{
 };
 
 /// One compile, or a look at whether one is due.
-pub(super) struct Job {
+pub struct Job {
     pub project: Project,
     /// The pass that is shown besides Image.
     pub shown: PassId,
@@ -38,7 +38,7 @@ pub(super) struct Job {
 }
 
 /// The result of a job.
-pub(super) struct Done {
+pub struct Done {
     /// Pictures, models and the files these name, those among them that are not there.
     pub files: Vec<PathBuf>,
     /// True for a look that found other pictures or models than those of the last compile.
@@ -49,7 +49,7 @@ pub(super) struct Done {
     pub compiled: Option<Compiled>,
 }
 
-pub(super) struct Compiled {
+pub struct Compiled {
     /// The project that was compiled.
     pub project: Project,
     pub is_fallback: bool,
@@ -68,13 +68,13 @@ const UNFELT: Duration = Duration::from_millis(5);
 
 /// Returns how long to wait for the end of typing after a compile that took so long: not at all where compiling is not
 /// felt, else as long as it takes, so that it takes half of the time at most.
-pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
+pub fn quiet_after(took: Duration, longest: Duration) -> Duration {
     if took < UNFELT { Duration::ZERO } else { took.min(longest) }
 }
 
 /// The worker's work, with the pictures it has read so far. The first job waits for the device. `jobs` counts what was
 /// submitted: a trial compile that a newer job has overtaken is given up.
-pub(super) fn work(
+pub fn work(
     device: Device,
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,

@@ -13,20 +13,20 @@ use std::{
     },
 };
 
-pub(super) struct Watch {
+pub struct FolderWatcher {
     // Dropping it ends the watch.
     _watcher: notify::RecommendedWatcher,
     folders: BTreeSet<PathBuf>,
     changed: Arc<AtomicBool>,
 }
 
-impl Watch {
+impl FolderWatcher {
     /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that
     /// cannot be watched come back with the reason.
     pub fn new(
         folders: BTreeSet<PathBuf>,
         wake: Arc<dyn Fn() + Send + Sync>,
-    ) -> Result<(Watch, Vec<(PathBuf, notify::Error)>), notify::Error> {
+    ) -> Result<(FolderWatcher, Vec<(PathBuf, notify::Error)>), notify::Error> {
         let changed = Arc::new(AtomicBool::new(false));
         let flag = changed.clone();
         let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
@@ -41,7 +41,7 @@ impl Watch {
             .iter()
             .filter_map(|f| watcher.watch(f, RecursiveMode::NonRecursive).err().map(|e| (f.clone(), e)))
             .collect();
-        Ok((Watch { _watcher: watcher, folders, changed }, failed))
+        Ok((FolderWatcher { _watcher: watcher, folders, changed }, failed))
     }
 
     pub fn folders(&self) -> &BTreeSet<PathBuf> {
@@ -80,7 +80,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("image.glsl");
         fs::write(&file, "a").unwrap();
-        let (watch, failed) = Watch::new([dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
+        let (watch, failed) = FolderWatcher::new([dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
         assert!(failed.is_empty());
         fs::write(&file, "b").unwrap();
         until("a write in place", || watch.take_changed());
@@ -110,7 +110,7 @@ mod tests {
     fn a_folder_that_is_not_there_is_told() {
         let dir = tempfile::tempdir().unwrap();
         let gone = dir.path().join("gone");
-        let (_, failed) = Watch::new([gone.clone(), dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
+        let (_, failed) = FolderWatcher::new([gone.clone(), dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
         assert_eq!(failed.len(), 1);
         assert_eq!(failed[0].0, gone);
     }

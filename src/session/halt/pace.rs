@@ -9,7 +9,7 @@ const TOO_MANY: u32 = 3;
 
 /// The newest frames of a program on a canvas, each by how many limits it has taken.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pace {
+pub struct Pace {
     newest: VecDeque<u32>,
 }
 
