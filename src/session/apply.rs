@@ -3,25 +3,25 @@
 
 use super::{
     Session,
+    canvas::CanvasSize,
     command::Command,
-    state::CanvasSize,
     trace::TracedPixel,
     view::{About, Level},
 };
 use eddy_playback::{capture, mouse::Mouse};
-use eddy_project::{self as project, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names};
+use eddy_project::{self as project, Channel, PassId, Tab, include_names};
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
         self.changed |= !is_input(&command);
-        self.command_began = self.next_notice;
-        self.obey(command);
+        self.notices.begin_command();
+        self.execute(command);
         // Not in a tick, which a slow frame may put off.
         self.keep_unsaved();
     }
 
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::Open(_)
             | Command::OpenProject { .. }
@@ -68,10 +68,7 @@ impl Session {
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
             Command::SetViewport { width, height } => {
-                if self.canvas.viewport != Some((width, height)) {
-                    self.canvas.viewport = Some((width, height));
-                    self.canvas.refused = None;
-                }
+                self.canvas.set_viewport((width, height));
             }
             Command::SetScale(scale) => self.set_scale(scale),
             Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.canvas.asked }),
@@ -128,7 +125,7 @@ impl Session {
             Command::FindDivergence => self.want_divergence(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
-                if self.probing.want(place, self.documents.current()) {
+                if self.watched.probing.want(place, self.documents.current()) {
                     self.compile_soon();
                 }
             }
@@ -136,32 +133,32 @@ impl Session {
                 if at.is_some() {
                     self.pause();
                 }
-                let probed = self.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
-                let pass = probed.unwrap_or_else(|| self.run.shown.clone());
+                let probed = self.watched.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
+                let pass = probed.unwrap_or_else(|| self.picture.shown.clone());
                 // With a probe the pass itself may not be drawn.
-                if at.is_some() && self.probing.want(None, self.documents.current()) {
+                if at.is_some() && self.watched.probing.want(None, self.documents.current()) {
                     self.compile_soon();
                 }
                 self.tracing.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
-                self.probing.set_look(look);
+                self.watched.probing.set_look(look);
                 self.look_anew();
             }
             Command::WatchCosts(on) => {
-                self.run.costs.watch(on);
+                self.watched.costs.watch(on);
                 self.drawing.wanted.costs = on;
             }
-            Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
-            Command::WatchBuffers(watch) => self.run.buffers.watch(watch),
-            Command::WatchMeasures(seen) => self.run.measuring.watch(seen),
-            Command::ClearMeasures => self.run.measuring.clear(),
+            Command::WatchTargets(targets) => self.watched.miniatures.watch(targets),
+            Command::WatchBuffers(watch) => self.watched.buffers.watch(watch),
+            Command::WatchMeasures(seen) => self.watched.measuring.watch(seen),
+            Command::ClearMeasures => self.watched.measuring.clear(),
             Command::SaveMeasures => self.save_measures(),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::Compare(against) => self.comparing.want(against),
             Command::SetFrameLimit(limit) => self.halting.set_limit(limit),
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
-            Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
+            Command::DismissNotice(id) => self.notices.dismiss(id),
             Command::Notify { level, text, path } => {
                 self.notice_about(About::Window, level, text);
                 if let Some(notice) = self.notices.last_mut() {
@@ -209,7 +206,7 @@ impl Session {
         }
         self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
-        self.probing.follow(self.documents.current());
+        self.watched.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
@@ -221,60 +218,12 @@ impl Session {
         self.compile.edit();
     }
 
-    fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
-        let Some(mut custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
-        custom_uniform.name = self.newest_name(name);
-        let name = custom_uniform.name.as_str();
-        let before = self.project().custom_uniform_values.clone();
-        let project = self.documents.current_mut();
-        match value {
-            None => drop(project.custom_uniform_values.remove(name)),
-            Some(value) => {
-                let within = custom_uniform.value(&CustomUniformValues::from([(name.to_owned(), value)]));
-                project.turn_custom_uniform(&custom_uniform, within);
-            }
-        }
-        if self.project().custom_uniform_values != before {
-            self.passes.push_uniforms(before, Some(name));
-        }
-        self.custom_uniforms_turned();
-    }
-
-    /// The values go to the running program; while paused, one frame shows them.
-    pub(super) fn custom_uniforms_turned(&mut self) {
-        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.playback.replay.has_values = played.is_some();
-        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
-        self.add_old_names(&mut values);
-        self.drawing.wanted.custom_uniforms = Some(values);
-    }
-
     /// Returns what the tab's pass reads by its text alone.
     fn declared_channels(&self, tab: &Tab) -> Option<[Option<Channel>; 4]> {
         let Tab::Pass(id) = tab else { return None };
         let mut project = self.project().clone();
         project::declare_channels(&mut project);
         project.pass(id).map(|p| p.channels.clone())
-    }
-
-    fn set_scale(&mut self, scale: f32) {
-        self.settled(About::Scale);
-        if scale.is_finite() && scale > 0.0 {
-            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
-        } else {
-            self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
-        }
-    }
-
-    /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
-    fn ask_size(&mut self, size: CanvasSize) {
-        self.end_replay("the resolution was changed");
-        self.canvas.replayed = None;
-        self.canvas.asked = size;
-        if self.projects_opened == 0 {
-            self.canvas.usual = size;
-        }
-        self.canvas.refused = None;
     }
 
     fn focus(&mut self, focused: bool) {
@@ -289,12 +238,12 @@ impl Session {
     }
 
     fn show_pass(&mut self, pass: PassId) {
-        if self.run.shown == pass || self.project().pass(&pass).is_none() {
+        if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }
         let is_drawn = self.drawing.draws(&pass);
-        self.run.shown = pass.clone();
-        if self.probing.want(None, self.documents.current()) {
+        self.picture.shown = pass.clone();
+        if self.watched.probing.want(None, self.documents.current()) {
             // Its program does not draw what is shown now.
             return self.compile_soon();
         }

@@ -115,7 +115,7 @@ impl Session {
         let Some(input) = self.auditing.input.take() else { return };
         match (input.output, self.drawing.project().cloned()) {
             (Ok(inspected), Some(project)) => {
-                self.auditing.of_frame = self.frames_drawn;
+                self.auditing.of_frame = self.picture.frames_drawn;
                 self.auditing.background.start((project, inspected));
             }
             (Ok(_), None) => self.auditing.background.cancel(),
@@ -135,7 +135,7 @@ impl Session {
             Err(why) => return self.not_checked(&why),
         };
         // A frame of another size was drawn meanwhile, and is the picture that is shown.
-        let is_shown = self.auditing.of_frame == self.frames_drawn;
+        let is_shown = self.auditing.of_frame == self.picture.frames_drawn;
         if !is_shown && !self.is_playing() {
             self.auditing.background.request();
             return;
@@ -157,7 +157,7 @@ impl Session {
 
     /// Another picture is shown than the one that the map is of.
     pub(super) fn picture_is_other(&mut self) {
-        self.frames_drawn += 1;
+        self.picture.frames_drawn += 1;
         self.auditing.map = None;
     }
 

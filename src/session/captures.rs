@@ -54,15 +54,15 @@ impl Session {
             return;
         }
         let project = self.documents.current();
-        self.captures.due.push(Capture {
+        self.watched.captures.due.push(Capture {
             pass: self.pictured(),
             format,
             folder: capture::folder_for(project, &self.options.pictures),
-            stem: capture::stem_for(project, &self.run.shown),
+            stem: capture::stem_for(project, &self.picture.shown),
         });
         if !self.drawing.is_apart() {
             let mut tasks = Tasks::default();
-            self.captures.request(&mut tasks);
+            self.watched.captures.request(&mut tasks);
             self.hand_in(None, false, tasks);
             self.take_drawn(false);
         }
@@ -70,7 +70,7 @@ impl Session {
 
     /// Writes the pictures that came with a job. Those that did not are lost with their device.
     pub(super) fn write_captures(&mut self) {
-        for (capture, mut ticket) in std::mem::take(&mut self.captures.in_flight) {
+        for (capture, mut ticket) in std::mem::take(&mut self.watched.captures.in_flight) {
             if let Some(read) = ticket.take() {
                 self.write_capture(&capture, read.output);
             }

@@ -74,7 +74,7 @@ impl Session {
                 saved: self.documents.saved().clone(),
                 against,
                 revision: self.documents.revision(),
-                shown: self.run.shown.clone(),
+                shown: self.picture.shown.clone(),
                 trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
                 media_dir,
                 run: input.output,

@@ -13,7 +13,7 @@ impl Session {
     /// Takes what the engine has done since. Says whether a frame was drawn.
     pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
         let Some(done) = self.drawing.take(is_just_handed_in) else { return false };
-        self.drew(done)
+        self.take_done(done)
     }
 
     /// Hands in what is wanted and what is due, one job after the other, while the engine takes them: while playing one
@@ -54,7 +54,7 @@ impl Session {
             return self.next_replayed(is_step);
         }
         // The first frame of a new program does not wait for the next tick.
-        let may_run = (!*has_run || self.run.is_program_new) && !self.gives_way();
+        let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way();
         *has_run |= !is_step && self.playback.is_running();
         let inputs = self.playback.next_frame(self.now, is_step, may_run)?;
         self.take_values_back();
@@ -67,11 +67,11 @@ impl Session {
         // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
-            self.run.measuring.begin_frame(frame.frame);
+            self.watched.measuring.begin_frame(frame.frame);
         } else if again {
-            self.run.measuring.draw_again(self.playback.frame());
+            self.watched.measuring.draw_again(self.playback.frame());
         }
-        let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
+        let costs_of = self.watched.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
         if self.drawing.wanted.program.is_some() {
@@ -86,14 +86,14 @@ impl Session {
     /// The next frame is followed by others like it. The first one of a program is seen however fast another follows, and
     /// so is one that is drawn while time stands.
     pub(super) fn is_one_of_many(&self) -> bool {
-        self.playback.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty()
+        self.playback.clock.is_playing() && !self.picture.is_program_new && self.drawing.wanted.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
         self.drawing.is_apart().then(|| TileLimit { frame: self.halting.limit() })
     }
 
-    fn drew(&mut self, done: Done) -> bool {
+    fn take_done(&mut self, done: Done) -> bool {
         self.write_captures();
         if let Some(why) = done.gave_up {
             self.engine_is_gone(&why);
@@ -102,10 +102,10 @@ impl Session {
         if let Some(Ok(picture)) = self.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
-        self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
+        self.picture.generation += u64::from(done.is_display_new && !self.drawing.is_apart());
         // An engine on the session's own thread draws into the display itself.
-        self.pictures_shown += u64::from(done.picture.is_some() || !self.drawing.is_apart());
-        self.run.is_picture_new |= done.picture.is_some();
+        self.picture.shown_count += u64::from(done.picture.is_some() || !self.drawing.is_apart());
+        self.picture.is_new |= done.picture.is_some();
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;
@@ -137,14 +137,14 @@ impl Session {
             None => {}
         }
         self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
-        self.changed |= self.run.costs.is_watched();
+        self.changed |= self.watched.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
                 if let Some(picture) = picture {
                     // Also without a frame, where it is shown otherwise than before.
                     self.changed |= frame.is_none();
                     match self.drawing.show(&picture) {
-                        Ok(is_new) => self.display_generation += u64::from(is_new),
+                        Ok(is_new) => self.picture.generation += u64::from(is_new),
                         Err(e) => self.tell_of(&e),
                     }
                 }
@@ -163,7 +163,7 @@ impl Session {
 
     /// Tells the engine how a probe is shown, if that is another way than before.
     pub(super) fn look_anew(&mut self) {
-        if let Some(look) = self.probing.take_look(false) {
+        if let Some(look) = self.watched.probing.take_look(false) {
             self.drawing.wanted.look = Some(look);
         }
     }
@@ -172,12 +172,12 @@ impl Session {
         let DrawnFrame { cpu_micros, times, took } = frame;
         self.picture_is_other();
         self.settled(About::Drawing);
-        self.run.cpu_micros = cpu_micros;
+        self.watched.cpu_micros = cpu_micros;
         if let Some(times) = times {
-            self.run.costs.add(times, self.drawing.clock());
+            self.watched.costs.add(times, self.drawing.clock());
         }
-        if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
-            self.programs_drawn += 1;
+        if std::mem::take(&mut self.picture.is_program_new) && self.drawing.is_newest_program() {
+            self.picture.programs_drawn += 1;
         }
         self.changed |= self.playback.frame_is_drawn(self.now);
         self.frame_took(took);
@@ -187,7 +187,7 @@ impl Session {
     fn program_is_there(&mut self, forecast: Option<Duration>) {
         self.playback.is_again_due = true;
         self.playback.seeking.awaits_program = false;
-        self.run.is_program_new = true;
+        self.picture.is_program_new = true;
         self.changed = true;
         self.compile.set_compiling(self.is_compile_under_way());
         if let Some(millis) = self.drawing.new_program_millis() {
@@ -231,8 +231,8 @@ impl Session {
         self.drawing.show_on(window)?;
         // Handed out once more, also while paused.
         self.drawing.wanted.shown = Some(self.pictured());
-        self.display_generation += 1;
-        self.pictures_shown += 1;
+        self.picture.generation += 1;
+        self.picture.shown_count += 1;
         self.changed = true;
         Ok(())
     }

@@ -8,15 +8,12 @@
 use super::{
     Session,
     command::{Question, Request},
-    costs::Costs,
     documents::Documents,
     drawing::Ticket,
-    read_back::ReadBack,
-    state::{Canvas, Dialog, Run},
-    uniforms_of_texts::DeclaredUniforms,
+    state::{Dialog, Picture},
+    uniforms::TextUniforms,
 };
 use eddy_project::PassId;
-use std::mem::take;
 
 impl Session {
     /// Another project takes the place of this one, from where its time stood when it was open last.
@@ -28,18 +25,16 @@ impl Session {
         self.projects_opened += 1;
         self.text_generation += 1;
         self.forget_notices();
-        self.safekeeping.kept = None;
+        self.unsaved.kept = None;
         self.passes.clear();
-        self.canvas = self.canvas.of_next_project();
+        self.canvas.begin_next_project();
         self.compile.begin_next_project();
-        self.renamed_uniforms.clear();
-        self.declared_uniforms = DeclaredUniforms::default();
+        self.uniforms = TextUniforms::default();
         self.disk.begin_next_project();
         self.dialog.begin_next_project();
         self.playback.begin_next_project();
-        self.run.begin_next_project();
-        self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
-        self.probing.begin_next_project();
+        self.picture.begin_next_project();
+        self.watched.begin_next_project();
         self.last_pictures.ticket = Ticket::default();
         self.tracing.want(None);
         self.auditing.begin_next_project();
@@ -53,13 +48,6 @@ impl Session {
     }
 }
 
-impl Canvas {
-    fn of_next_project(&self) -> Canvas {
-        let Canvas { viewport, asked: _, usual, replayed: _, refused: _ } = *self;
-        Canvas { viewport, asked: usual, usual, replayed: None, refused: None }
-    }
-}
-
 impl Dialog {
     fn begin_next_project(&mut self) {
         let Dialog { questions, requests, after_save } = self;
@@ -70,18 +58,8 @@ impl Dialog {
     }
 }
 
-impl Run {
+impl Picture {
     fn begin_next_project(&mut self) {
-        *self = Run {
-            shown: PassId::Image,
-            is_program_new: false,
-            is_picture_new: self.is_picture_new,
-            waits_for_painting: self.waits_for_painting,
-            cpu_micros: 0.0,
-            costs: Costs::watched(self.costs.is_watched()),
-            miniatures: take(&mut self.miniatures),
-            buffers: take(&mut self.buffers),
-            measuring: take(&mut self.measuring),
-        };
+        (self.shown, self.is_program_new) = (PassId::Image, false);
     }
 }

@@ -56,7 +56,7 @@ impl Session {
             Ok(gpu) => background.start(SearchJob {
                 gpu,
                 project,
-                shown: self.run.shown.clone(),
+                shown: self.picture.shown.clone(),
                 size: self.drawing.size(),
                 media_dir: self.options.media_dir.clone(),
                 snapshot,

@@ -27,12 +27,12 @@ impl Session {
 
     /// Grows whenever [`Session::display`] may have become another texture.
     pub fn display_generation(&self) -> u64 {
-        self.display_generation
+        self.picture.generation
     }
 
     /// Grows whenever the texels of [`Session::display`] may have changed.
     pub fn pictures_shown(&self) -> u64 {
-        self.pictures_shown
+        self.picture.shown_count
     }
 
     /// The device that shows the picture.
@@ -57,7 +57,7 @@ impl Session {
     /// Returns how many programs have drawn a frame so far, each of the text that was the newest: it grows when an edit
     /// is in the picture.
     pub fn programs_drawn(&self) -> u64 {
-        self.programs_drawn
+        self.picture.programs_drawn
     }
 
     /// Returns how long typing has to rest before it is compiled.
@@ -108,7 +108,7 @@ impl Session {
     /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         match self.drawing.custom_uniforms() {
-            [] => &self.declared_uniforms.list,
+            [] => &self.uniforms.declared,
             drawn => drawn,
         }
     }
@@ -149,7 +149,7 @@ impl Session {
             frame: self.playback.frame(),
             fps: self.playback.fps().filter(|_| is_drawn),
             gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
-            cpu_micros: is_drawn.then_some(self.run.cpu_micros),
+            cpu_micros: is_drawn.then_some(self.watched.cpu_micros),
             resolution: self.drawing.size(),
             scale: self.canvas.asked.scale,
             fixed_size: self.canvas.asked.fixed,
@@ -161,46 +161,46 @@ impl Session {
 
     /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
     pub fn pass_times(&self) -> &[PassTime] {
-        self.run.costs.newest()
+        self.watched.costs.newest()
     }
 
     /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
     /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a
     /// frame was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
-        self.run.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
+        self.watched.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
     }
 
     /// Returns a small picture of one of a pass's targets, while it is watched
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
-        self.run.miniatures.get(pass, index)
+        self.watched.miniatures.get(pass, index)
     }
 
     /// Returns the target that is looked at closely ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a
     /// number that grows with each new one.
     pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
-        self.run.buffers.shown()
+        self.watched.buffers.shown()
     }
 
     /// Returns the texel of each target at the place that is looked at.
     pub fn texels_under(&self) -> &[TexelAt] {
-        self.run.buffers.under()
+        self.watched.buffers.under()
     }
 
     /// Returns what is drawn instead of the picture, while somebody has asked for it: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
-        self.probing.view()
+        self.watched.probing.view()
     }
 
     /// Returns what the display shows: the shown pass, or a value of the code.
     pub(super) fn pictured(&self) -> PassId {
-        if self.probing.is_drawn() { BuildOptions::probed() } else { self.run.shown.clone() }
+        if self.watched.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
 
     pub fn shown_pass(&self) -> &PassId {
-        &self.run.shown
+        &self.picture.shown
     }
 
     pub fn reset_on_reload(&self) -> bool {
@@ -209,7 +209,7 @@ impl Session {
 
     /// Oldest first; stay until dismissed.
     pub fn notices(&self) -> &[Notice] {
-        &self.notices
+        self.notices.list()
     }
 
     /// Returns why the picture stands still though nobody has paused it.

@@ -4,7 +4,13 @@
 
 use super::{
     Session,
+    buffers::BufferReads,
+    captures::Captures,
+    costs::Costs,
     drawing::{RenderTask, Renderer, Tasks},
+    measures::Measuring,
+    miniatures::Miniatures,
+    probe::Probing,
 };
 use eddy_engine::{EngineError, PassInputs, Picture, Pixels};
 use eddy_playback::run::{Replay, ReplayFrom, Run};
@@ -32,12 +38,33 @@ pub(super) trait ReadBack {
     fn begin_next_project(&mut self);
 }
 
-impl Session {
-    /// Returns everything that is watched, in the order in which it is read.
-    pub(super) fn read_backs(&mut self) -> [&mut dyn ReadBack; 3] {
-        [&mut self.run.miniatures, &mut self.run.buffers, &mut self.run.measuring]
+/// What is read back of the picture.
+#[derive(Default)]
+pub(super) struct Watched {
+    pub captures: Captures,
+    pub cpu_micros: f64,
+    pub costs: Costs,
+    pub probing: Probing,
+    pub miniatures: Miniatures,
+    pub buffers: BufferReads,
+    pub measuring: Measuring,
+}
+
+impl Watched {
+    /// Returns what is read again and again, in its order.
+    fn read_backs(&mut self) -> [&mut dyn ReadBack; 4] {
+        [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]
     }
 
+    /// Forgets what is of the project that is closed, but for pictures that are to be written.
+    pub fn begin_next_project(&mut self) {
+        self.cpu_micros = 0.0;
+        self.costs = Costs::watched(self.costs.is_watched());
+        self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
+    }
+}
+
+impl Session {
     /// Returns what is due to be read now, behind the frame that is due, if one is.
     pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
         let is_playing = self.playback.is_running();
@@ -60,12 +87,11 @@ impl Session {
 
     /// Asks for pictures and numbers, which are of the newest program, after the frame that is due.
     fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
-        self.captures.request(tasks);
+        self.watched.captures.request(tasks);
         let is_of_project = self.is_picture_of_project();
         self.last_pictures.request(is_of_project, tasks);
         let at = Moment { now: self.now, has_frame, is_playing, is_seeking: self.playback.is_seeking() };
-        self.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
-        self.probing.request(&at, tasks);
+        self.watched.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
     }
 
     /// Asks for what the newest program was drawn with. A trace waits until nothing more is to be drawn.
@@ -73,7 +99,7 @@ impl Session {
         self.searching.request_input(tasks);
         self.tracing.divergence.request_input(tasks);
         self.comparing.request_input(tasks);
-        self.auditing.request_input(&self.run.shown, tasks);
+        self.auditing.request_input(&self.picture.shown, tasks);
         if self.playback.is_settled() {
             self.tracing.request_input(tasks);
         }
@@ -81,10 +107,9 @@ impl Session {
 
     /// Takes the outputs that came with a job.
     pub(super) fn take_outputs(&mut self, has_frame: bool) {
-        let is_new = self.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
+        let is_new = self.watched.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
         self.changed |= is_new;
-        if self.probing.receive(has_frame) {
-            self.changed = true;
+        if self.watched.probing.take_news() {
             self.look_anew();
         }
         self.search_frames();

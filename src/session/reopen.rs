@@ -7,12 +7,12 @@
 
 use super::{
     Session,
+    canvas::CanvasSize,
     drawing::{RenderTask, Tasks},
     kept_files,
     playback::{Goal, clock::Clock},
     read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
-    state::CanvasSize,
     view::{About, Level},
 };
 use eddy_engine::Picture;
@@ -93,8 +93,8 @@ impl Session {
     /// Returns whether the picture is what the project draws: not that of the project before, nor a probe, nor a frame on
     /// the way to another.
     pub(super) fn is_picture_of_project(&self) -> bool {
-        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.run.is_program_new;
-        let is_passing = self.probing.view().is_some() || self.playback.is_seeking();
+        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.picture.is_program_new;
+        let is_passing = self.watched.probing.view().is_some() || self.playback.is_seeking();
         is_drawn && self.playback.has_drawn() && !is_passing
     }
 

@@ -5,29 +5,26 @@ use super::{
     SessionError, SessionOptions,
     analysis::Analyst,
     audit::Auditing,
-    buffers::Watching,
-    captures::Captures,
+    canvas::Canvas,
     command::{PendingAction, Question, Request},
     compare::Comparing,
     compile::CompileControl,
-    costs::Costs,
     disk::DiskSync,
     documents::Documents,
     drawing::{self, Drawing},
     halt::HaltControl,
     last_pictures::LastPictures,
-    measuring::Measuring,
-    miniatures::Miniatures,
     nonfinite::Searching,
+    notices::Notices,
     pass_history::PassHistory,
     playback::Playback,
-    probe::Probing,
+    read_back::Watched,
     recent::Recent,
-    recovery::Safekeeping,
+    recovery::UnsavedWork,
     runs::Runs,
     trace::Tracing,
-    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
-    view::{About, Level, Notice},
+    uniforms::TextUniforms,
+    view::{About, Level},
 };
 use eddy_gpu::Gpu;
 use eddy_project::PassId;
@@ -44,39 +41,25 @@ pub struct Session {
     pub(super) halting: HaltControl,
     pub(super) documents: Documents,
     pub(super) canvas: Canvas,
-    /// Uniforms that have another name in the texts than in the program that draws.
-    pub(super) renamed_uniforms: RenamedUniforms,
-    pub(super) declared_uniforms: DeclaredUniforms,
+    pub(super) uniforms: TextUniforms,
     pub(super) disk: DiskSync,
     pub(super) dialog: Dialog,
-    pub(super) safekeeping: Safekeeping,
+    pub(super) unsaved: UnsavedWork,
     pub(super) recent: Recent,
     pub(super) runs: Runs,
     pub(super) last_pictures: LastPictures,
-    pub(super) captures: Captures,
     pub(super) playback: Playback,
-    pub(super) run: Run,
-    pub(super) probing: Probing,
+    pub(super) picture: Picture,
+    pub(super) watched: Watched,
     pub(super) tracing: Tracing,
     pub(super) auditing: Auditing,
     /// The first NaN is looked for.
     pub(super) searching: Searching,
     pub(super) comparing: Comparing,
-    pub(super) notices: Vec<Notice>,
-    pub(super) next_notice: u64,
-    /// The number of the next notice when the command under way began.
-    pub(super) command_began: u64,
+    pub(super) notices: Notices,
     /// Counts the projects that have taken the place of another.
     pub(super) projects_opened: u64,
     pub(super) text_generation: u64,
-    pub(super) display_generation: u64,
-    pub(super) pictures_shown: u64,
-    /// Counts the programs of the newest text that have drawn a frame.
-    pub(super) programs_drawn: u64,
-    /// Counts the pictures of frames that the engine has drawn.
-    pub(super) frames_drawn: u64,
-    /// A frame was drawn between two ticks.
-    pub(super) has_drawn: bool,
     /// Counts the shaders begun by [`Command::New`](super::Command::New).
     pub(super) begun: u64,
     /// Edits of passes and channels.
@@ -89,32 +72,6 @@ pub struct Session {
     pub(super) now: Instant,
 }
 
-/// The size that the picture shall have.
-pub(super) struct Canvas {
-    pub viewport: Option<(u32, u32)>,
-    pub asked: CanvasSize,
-    /// The size that was asked for before any project was opened: each begins with it.
-    pub usual: CanvasSize,
-    /// The size of a recording that is played, or was until now.
-    pub replayed: Option<(u32, u32)>,
-    /// A size the device did not take; not tried again.
-    pub refused: Option<(u32, u32)>,
-}
-
-/// The size that a person has asked for, for the open project.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct CanvasSize {
-    /// Canvas pixels to viewport pixels.
-    pub scale: f32,
-    pub fixed: Option<(u32, u32)>,
-}
-
-impl Default for CanvasSize {
-    fn default() -> Self {
-        Self { scale: 1.0, fixed: None }
-    }
-}
-
 /// Questions to the user and requests to the front end.
 #[derive(Default)]
 pub(super) struct Dialog {
@@ -124,20 +81,40 @@ pub(super) struct Dialog {
     pub after_save: Option<PendingAction>,
 }
 
-/// The picture that is shown, and what is read of it.
-pub(super) struct Run {
+/// The picture that is shown.
+pub(super) struct Picture {
     pub shown: PassId,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
-    pub is_picture_new: bool,
+    pub is_new: bool,
     /// The next frame is handed in when that has been painted.
     pub waits_for_painting: bool,
-    pub cpu_micros: f64,
-    pub costs: Costs,
-    pub miniatures: Miniatures,
-    pub buffers: Watching,
-    pub measuring: Measuring,
+    /// A frame was drawn between two ticks.
+    pub has_drawn: bool,
+    /// Grows with each other texture, and with each picture in it.
+    pub generation: u64,
+    pub shown_count: u64,
+    /// Counts the programs of the newest text that have drawn a frame.
+    pub programs_drawn: u64,
+    /// Counts the pictures of frames that the engine has drawn.
+    pub frames_drawn: u64,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self {
+            shown: PassId::Image,
+            is_program_new: false,
+            is_new: false,
+            waits_for_painting: false,
+            has_drawn: false,
+            generation: 0,
+            shown_count: 0,
+            programs_drawn: 0,
+            frames_drawn: 0,
+        }
+    }
 }
 
 impl Session {
@@ -172,50 +149,25 @@ impl Session {
             drawing,
             halting: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
             documents: Documents::new(super::template::project()),
-            canvas: Canvas {
-                viewport: None,
-                asked: CanvasSize::default(),
-                usual: CanvasSize::default(),
-                replayed: None,
-                refused: None,
-            },
+            canvas: Canvas::default(),
             compile,
-            renamed_uniforms: RenamedUniforms::new(),
-            declared_uniforms: DeclaredUniforms::default(),
+            uniforms: TextUniforms::default(),
             disk: DiskSync::new(&options),
             dialog: Dialog::default(),
-            safekeeping: Safekeeping::default(),
+            unsaved: UnsavedWork::default(),
             recent,
             runs: Runs::new(options.state_dir.as_deref()),
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
-            captures: Captures::default(),
             playback: Playback::default(),
-            run: Run {
-                shown: PassId::Image,
-                is_program_new: false,
-                is_picture_new: false,
-                waits_for_painting: false,
-                cpu_micros: 0.0,
-                costs: Costs::default(),
-                miniatures: Miniatures::default(),
-                buffers: Watching::default(),
-                measuring: Measuring::default(),
-            },
-            probing: Probing::default(),
+            picture: Picture::default(),
+            watched: Watched::default(),
             tracing,
             auditing,
             searching,
             comparing,
-            notices: Vec::new(),
-            next_notice: 0,
-            command_began: 0,
+            notices: Notices::default(),
             projects_opened: 0,
             text_generation: 0,
-            display_generation: 0,
-            pictures_shown: 0,
-            programs_drawn: 0,
-            frames_drawn: 0,
-            has_drawn: false,
             begun: 0,
             passes: PassHistory::default(),
             renamed: Vec::new(),
@@ -223,8 +175,8 @@ impl Session {
             now: Instant::now(),
             options,
         };
-        match Safekeeping::new(session.options.recovery.clone(), &session.wake) {
-            Ok(safekeeping) => session.safekeeping = safekeeping,
+        match UnsavedWork::new(session.options.recovery.clone(), &session.wake) {
+            Ok(unsaved) => session.unsaved = unsaved,
             Err(e) => session.notice_about(
                 About::Window,
                 Level::Warning,

@@ -191,7 +191,7 @@ impl Session {
             Ok(gpu) => background.start(DivergenceJob {
                 gpu,
                 traced: traced.clone(),
-                shown: self.run.shown.clone(),
+                shown: self.picture.shown.clone(),
                 size: self.drawing.size(),
                 media_dir: self.options.media_dir.clone(),
                 snapshot,

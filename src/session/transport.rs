@@ -98,7 +98,7 @@ impl Session {
             Some(Ok(travelled)) => {
                 self.picture_is_other();
                 if self.playback.travelled(&travelled, reach.shown) {
-                    self.run.measuring.go_to(travelled.inputs.frame);
+                    self.watched.measuring.go_to(travelled.inputs.frame);
                 }
             }
             Some(Err(error)) => {

@@ -7,11 +7,10 @@
 //! the first that was found.
 
 mod assignment;
-mod finding;
 mod probes;
 mod search;
 
 pub use assignment::{Assignment, assignments};
-pub use finding::{DivergenceJob, MOST, STEPS_KEPT, find};
 pub use probes::{ProbeError, Probes};
 pub use search::{Divergence, DivergenceFound, search};
+pub use search::{DivergenceJob, MOST, STEPS_KEPT, find};

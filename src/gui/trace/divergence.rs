@@ -71,7 +71,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     });
     out.place("trace:values", first.response.rect);
     match divergence {
-        Some(Status::Ended(Ok(parted))) => found(traced, parted, ui, out),
+        Some(Status::Ended(Ok(result))) => found(traced, result, ui, out),
         Some(Status::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
         Some(Status::UnderWay(())) => {
             ui.colored_label(p.weak, "comparing assignments…");
@@ -80,10 +80,10 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     }
 }
 
-fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut UiOutput) {
+fn found(traced: &Traced, result: &DivergenceFound, ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
-    let of = format!("{} of {} assignments compared", parted.compared, parted.of);
-    let Some(first) = &parted.first else {
+    let of = format!("{} of {} assignments compared", result.compared, result.of);
+    let Some(first) = &result.first else {
         let label = ui.colored_label(p.text, format!("No assignment differs: {of}"));
         out.place("trace:parted", label.rect);
         return;

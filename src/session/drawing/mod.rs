@@ -237,15 +237,15 @@ impl Drawing {
     }
 
     /// Says what the frame that is being drawn does, if it may wait.
-    pub fn steer(&self, way: FrameControl) {
+    pub fn steer(&self, control: FrameControl) {
         if let Backend::RenderThread(remote) = &self.backend {
-            remote.gate.set(way);
+            remote.gate.set(control);
         }
     }
 
     /// Returns what the frame does that is being drawn.
     #[cfg(test)]
-    pub fn way(&self) -> Option<FrameControl> {
+    pub fn frame_control(&self) -> Option<FrameControl> {
         match &self.backend {
             Backend::Inline { .. } => None,
             Backend::RenderThread(remote) => Some(remote.gate.get()),

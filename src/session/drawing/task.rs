@@ -27,9 +27,11 @@ pub struct Finished<T> {
 /// Puts an output where its ticket finds it.
 pub type Delivery = Box<dyn FnOnce() + Send>;
 
+type Run = Box<dyn FnOnce(&mut Renderer) -> Delivery + Send>;
+
 /// The tasks of a job, in the order in which they run.
 #[derive(Default)]
-pub struct Tasks(Vec<Box<dyn FnOnce(&mut Renderer) -> Delivery + Send>>);
+pub struct Tasks(Vec<Run>);
 
 impl Tasks {
     pub fn add<T: RenderTask>(&mut self, task: T) -> Ticket<T::Output> {

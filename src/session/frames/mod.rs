@@ -34,12 +34,12 @@ impl Session {
         self.follow_measures();
         self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.
-        let is_picture_new = std::mem::take(&mut self.run.is_picture_new);
-        self.run.waits_for_painting = is_picture_new && self.drawing.shares_processor();
-        if !self.run.waits_for_painting {
+        let is_picture_new = std::mem::take(&mut self.picture.is_new);
+        self.picture.waits_for_painting = is_picture_new && self.drawing.shares_processor();
+        if !self.picture.waits_for_painting {
             frame_drawn |= self.draw_due_frames(true);
         }
-        frame_drawn |= std::mem::take(&mut self.has_drawn);
+        frame_drawn |= std::mem::take(&mut self.picture.has_drawn);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
@@ -48,20 +48,20 @@ impl Session {
     /// end; the next tick tells what has changed.
     pub fn attend(&mut self, now: Instant) {
         self.now = now;
-        self.has_drawn |= self.take_drawn(false);
+        self.picture.has_drawn |= self.take_drawn(false);
         self.take_compiled();
         self.steer_frame();
-        if self.drawing.wanted.program.is_some() || self.run.is_program_new {
+        if self.drawing.wanted.program.is_some() || self.picture.is_program_new {
             self.fit_canvas();
-            self.has_drawn |= self.draw_due_frames(false);
+            self.picture.has_drawn |= self.draw_due_frames(false);
         }
     }
 
     /// Begins with a frame that waited until the picture of the last tick was painted, as it is now.
     pub fn painted(&mut self, now: Instant) {
-        if std::mem::take(&mut self.run.waits_for_painting) {
+        if std::mem::take(&mut self.picture.waits_for_painting) {
             self.now = now;
-            self.has_drawn |= self.draw_due_frames(true);
+            self.picture.has_drawn |= self.draw_due_frames(true);
         }
     }
 
@@ -78,7 +78,7 @@ impl Session {
     /// first frame is with the engine.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
-        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new))
+        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.picture.is_program_new))
     }
 
     /// The newest text is being compiled, and will be soon if it takes as long as the one before.
@@ -93,7 +93,7 @@ impl Session {
     fn wake_at(&self) -> Option<Instant> {
         let is_running = self.playback.is_running() && self.drawing.has_program() && !self.halting.is_device_gone();
         // The end of a frame that is being drawn wakes.
-        let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
+        let is_busy = self.drawing.is_busy() || self.picture.waits_for_painting;
         let is_held = self.halting.is_halted() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
@@ -107,8 +107,8 @@ impl Session {
     }
 
     fn start_compile(&mut self) {
-        let (project, shown) = (self.documents.current(), &self.run.shown);
-        let source = Source { project, shown, opened: self.disk.opened(), probe: self.probing.order() };
+        let (project, shown) = (self.documents.current(), &self.picture.shown);
+        let source = Source { project, shown, opened: self.disk.opened(), probe: self.watched.probing.order() };
         self.changed |= self.compile.start(self.now, source);
     }
 
@@ -177,9 +177,9 @@ impl Session {
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.
         self.custom_uniforms_turned();
-        self.probing.built(probe);
+        self.watched.probing.built(probe);
         self.drawing.wanted.shown = Some(self.pictured());
-        self.drawing.wanted.look = self.probing.take_look(true);
+        self.drawing.wanted.look = self.watched.probing.take_look(true);
         self.compile.set_compiling(self.is_compile_under_way());
     }
 
@@ -190,37 +190,9 @@ impl Session {
         self.stop_drawing(error);
     }
 
-    /// Gives the engine the size the canvas shall have.
-    pub(super) fn fit_canvas(&mut self) {
-        let Some(size) = self.canvas.size() else { return };
-        let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
-        self.drawing.wanted.size = is_new.then_some(size);
-        if !is_new && self.canvas.refused.is_none() {
-            self.settled(About::CanvasSize);
-        }
-    }
-
-    /// The device does not take a size for the canvas.
-    pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
-        self.canvas.refused = Some(size);
-        let (width, height) = self.drawing.size();
-        let text = format!("{error}; the picture stays at {width}x{height}");
-        self.notice_about(About::CanvasSize, Level::Error, text);
-        self.canvas.replayed = None;
-        self.end_replay("its resolution cannot be drawn on this GPU");
-    }
-
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
     pub fn tell_of(&mut self, error: &GpuError) {
         self.notice_once(About::Window, Level::Error, &error.to_string());
-    }
-}
-
-impl super::state::Canvas {
-    /// Pixels, at least one each way; `None` before the viewport is known.
-    fn size(&self) -> Option<(u32, u32)> {
-        let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
-        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 

@@ -118,11 +118,11 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
 
     session.drawing.device().wait().unwrap().lose();
     tick_until(&mut session, "the end of drawing", |s| s.halting.is_device_gone());
-    let told = session.notices().len();
+    let count = session.notices().len();
     for _ in 0..20 {
         session.tick(Instant::now());
     }
-    assert_eq!((session.notices().len(), session.transport().playing), (told, false), "{:?}", session.notices());
+    assert_eq!((session.notices().len(), session.transport().playing), (count, false), "{:?}", session.notices());
 }
 
 #[test]
@@ -162,13 +162,13 @@ fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() 
         return;
     }
     for _ in 0..3 {
-        tick_until(&mut session, "a new picture", |s| s.run.waits_for_painting);
+        tick_until(&mut session, "a new picture", |s| s.picture.waits_for_painting);
         assert!(!session.drawing.is_busy(), "nothing is drawn before it is painted");
         assert!(session.wake_at().is_none_or(|at| at > session.now), "nor is a frame of the window asked for");
         let before = session.transport().frame;
         session.painted(Instant::now());
         assert!(session.drawing.is_busy() || session.transport().frame > before);
-        assert!(!session.run.waits_for_painting);
+        assert!(!session.picture.waits_for_painting);
     }
 }
 
@@ -180,15 +180,15 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
     session.now = now;
     session.compile.set_newest_since(None);
     session.compile.expect(Duration::ZERO);
-    let way = |session: &Session| {
+    let control = |session: &Session| {
         session.steer_frame();
-        session.drawing.way().unwrap()
+        session.drawing.frame_control().unwrap()
     };
-    assert_eq!(way(&session), FrameControl::GoOn);
+    assert_eq!(control(&session), FrameControl::GoOn);
     session.compile.set_newest_since(Some(now));
-    assert_eq!(way(&session), FrameControl::WaitUntil(now + BRIEF));
+    assert_eq!(control(&session), FrameControl::WaitUntil(now + BRIEF));
     session.now = now + BRIEF;
-    assert_eq!(way(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
+    assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
     session.compile.set_newest_since(None);
     // A text that gives a program: as soon as that is there, the frame before it is not finished.
     let tab = Tab::Pass(PassId::Image);
@@ -201,10 +201,10 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
         session.start_compile();
         session.take_compiled();
     }
-    assert_eq!(way(&session), FrameControl::GiveUp);
-    let before = session.programs_drawn;
-    tick_until(&mut session, "the program's first frame", |s| s.programs_drawn > before);
-    assert_eq!(session.drawing.way(), Some(FrameControl::GoOn), "what comes after it is drawn");
+    assert_eq!(control(&session), FrameControl::GiveUp);
+    let before = session.picture.programs_drawn;
+    tick_until(&mut session, "the program's first frame", |s| s.picture.programs_drawn > before);
+    assert_eq!(session.drawing.frame_control(), Some(FrameControl::GoOn), "what comes after it is drawn");
 }
 
 #[test]
@@ -212,9 +212,9 @@ fn the_first_frame_of_a_program_and_one_that_is_drawn_while_time_stands_do_not_w
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());
-    session.run.is_program_new = true;
+    session.picture.is_program_new = true;
     assert!(!session.is_one_of_many(), "the first one");
-    session.run.is_program_new = false;
+    session.picture.is_program_new = false;
     assert!(session.is_one_of_many());
     session.drawing.wanted.reset = true;
     assert!(!session.is_one_of_many(), "a change goes with it");

@@ -82,7 +82,7 @@ impl Session {
             let text = format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy");
             self.notice_about(About::Window, Level::Error, text);
         }
-        self.captures.retry();
+        self.watched.captures.retry();
         self.searching.background.renew_request();
         self.comparing.background.renew_request();
         self.auditing.renew_request();
@@ -90,7 +90,7 @@ impl Session {
         // Its buffers begin anew, and so must what they go by.
         self.end_replay("the GPU device was replaced");
         self.playback.change_device();
-        self.run.costs.forget();
+        self.watched.costs.forget();
         self.changed = true;
     }
 
@@ -170,14 +170,7 @@ impl Session {
         self.canvas.replayed = None;
         let is_overdue = self.overdue().is_some();
         let factor = self.halting.smaller_by(self.now);
-        match &mut self.canvas.asked.fixed {
-            Some((width, height)) => {
-                for side in [width, height] {
-                    *side = ((f64::from(*side) * factor) as u32).max(1);
-                }
-            }
-            None => self.canvas.asked.scale *= factor as f32,
-        }
+        self.canvas.shrink(factor);
         self.end_halt();
         if is_overdue {
             self.start_anew();

@@ -256,7 +256,7 @@ impl Playback {
     ) -> Option<ReplayedFrame> {
         // Nothing that a hand does forces a frame.
         self.is_frame_due = false;
-        if !is_step && !(self.is_running() && may_run) {
+        if !(is_step || self.is_running() && may_run) {
             return None;
         }
         let speed = self.clock.speed();

@@ -91,6 +91,8 @@ pub(super) struct Probing {
     /// The way in which the engine shows it.
     engine_look: Option<ValueLook>,
     ticket: Ticket<Option<ProbeNumbers>>,
+    /// Numbers have come that the way of showing them may depend on.
+    has_news: bool,
 }
 
 struct Wanted {
@@ -187,6 +189,11 @@ impl Probing {
         (is_new || is_other_program).then_some(look)
     }
 
+    /// Returns whether numbers have come since the last call.
+    pub fn take_news(&mut self) -> bool {
+        std::mem::take(&mut self.has_news)
+    }
+
     fn value_look(&self) -> Option<ValueLook> {
         let Some(Ok(value)) = &self.built else { return None };
         let ProbeLook { range, paint, channel } = self.look;
@@ -231,6 +238,7 @@ impl ReadBack for Probing {
             self.taken = self.taken.map(|(at, _)| (at, took));
             self.numbers = Some(Arc::new(numbers));
         }
+        self.has_news = true;
         true
     }
 

@@ -96,7 +96,7 @@ impl Renderer {
             done.is_display_new |= self.engine.size() != size;
             let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some(), gate.as_ref()));
             match &drawn {
-                Ok(drawn) => self.history.drew(inputs, self.engine.size(), drawn.took),
+                Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
                 Err(_) => self.history.begin(false),
             }
             done.frame = Some(drawn);
@@ -140,7 +140,7 @@ impl Renderer {
         };
         done.is_display_new |= self.engine.size() != size;
         match &drawn {
-            Ok(drawn) => self.history.drew_again(drawn.took),
+            Ok(drawn) => self.history.frame_drawn_again(drawn.took),
             Err(_) => self.history.begin(false),
         }
         done.frame = Some(drawn);

@@ -1,9 +1,19 @@
-//! A session measures the numbers that `//@probe` comments ask for.
+//! Numbers of passes over time, which `//@probe` comments ask for.
+//!
+//! Owns which comments there are, what of them is measured and how often, and the record of each. Reading texels is the
+//! engine's, and what a quantity is `reduction`'s. Nothing is measured while nobody looks.
+
+mod csv;
+mod measuring;
+mod record;
+
+pub use measuring::Measure;
+pub(super) use measuring::Measuring;
+pub use record::{Cell, MOST, Record, Sample};
 
 use super::{
     Session,
     buffers::reason,
-    measuring::{self, Measure},
     view::{About, Level},
 };
 use eddy_playback::{capture, reduction::Unmeasured};
@@ -13,12 +23,12 @@ impl Session {
     /// Every comment of the project that asks for a number, and what has been measured while somebody looked at it
     /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
     pub fn measures(&self) -> &[Measure] {
-        self.run.measuring.measures()
+        self.watched.measuring.measures()
     }
 
     /// Returns how many frames have been measured since the session began.
     pub fn measured_frames(&self) -> u64 {
-        self.run.measuring.count()
+        self.watched.measuring.count()
     }
 
     /// Returns why nothing is measured for a comment. What is known of passes that are not drawn is said while somebody
@@ -39,12 +49,12 @@ impl Session {
     /// Takes up what has become of the comments.
     pub(super) fn follow_measures(&mut self) {
         let state = (self.disk.opened(), self.documents.revision());
-        self.changed |= self.run.measuring.follow(self.documents.current(), state);
+        self.changed |= self.watched.measuring.follow(self.documents.current(), state);
     }
 
     /// Writes what has been measured to a new file beside the pictures.
     pub(super) fn save_measures(&mut self) {
-        let measures = self.run.measuring.measures();
+        let measures = self.watched.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
             self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
             return;
@@ -53,7 +63,7 @@ impl Session {
         let folder = capture::folder_for(project, &self.options.pictures);
         let stem = format!("{}-measured", capture::file_stem(&project.name));
         let name = |n: u32| format!("{stem}-{n:04}.csv");
-        match capture::write_new(&folder, name, &stem, |out| measuring::write_csv(out, measures)) {
+        match capture::write_new(&folder, name, &stem, |out| csv::write(out, measures)) {
             Ok(path) => {
                 self.notice(Level::Info, format!("saved {}", path.display()));
                 if let Some(notice) = self.notices.last_mut() {
@@ -64,3 +74,6 @@ impl Session {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

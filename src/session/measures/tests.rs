@@ -1,4 +1,4 @@
-use super::{watching::Measured, *};
+use super::{csv::write as write_csv, measuring::Measured, *};
 use crate::{drawing::Ticket, read_back::ReadBack, template};
 use eddy_project::{PassId, Project, Tab};
 use std::time::{Duration, Instant};

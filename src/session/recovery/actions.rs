@@ -1,24 +1,48 @@
 //! A session hands its unsaved work to the recovery file, and takes up what an earlier one left behind.
 
-use super::{
+use super::{Left, News, Recovery};
+use crate::{
     Session,
     command::{Answer, PendingAction, Question, Recovered},
     documents::Documents,
-    recovery::{Left, News, Recovery},
     view::{About, Level},
 };
+use eddy_background::Wake;
 use eddy_project::Origin;
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// Unsaved work and its recovery file.
+#[derive(Default)]
+pub(crate) struct UnsavedWork {
+    /// `None`: this session keeps nothing.
+    pub recovery: Option<Recovery>,
+    /// The revision of the documents that the file was last told of.
+    pub kept: Option<u64>,
+    /// Work that was found and that a question stands for.
+    pub found: Vec<Left>,
+}
+
+impl UnsavedWork {
+    /// Looks at once for what was left behind.
+    pub fn new(folder: Option<PathBuf>, wake: &Wake) -> io::Result<UnsavedWork> {
+        let recovery = folder.map(|folder| Recovery::new(folder, wake.clone())).transpose()?;
+        recovery.iter().for_each(Recovery::scan);
+        Ok(UnsavedWork { recovery, ..UnsavedWork::default() })
+    }
+}
 
 impl Session {
     /// Hands what is unsaved to the thread that writes it, if it has changed since. Never waits.
-    pub(super) fn keep_unsaved(&mut self) {
-        let Some(recovery) = &self.safekeeping.recovery else { return };
+    pub(crate) fn keep_unsaved(&mut self) {
+        let Some(recovery) = &self.unsaved.recovery else { return };
         let revision = Some(self.documents.revision());
-        if self.safekeeping.kept == revision {
+        if self.unsaved.kept == revision {
             return;
         }
-        self.safekeeping.kept = revision;
+        self.unsaved.kept = revision;
         if self.documents.is_dirty() {
             recovery.keep(self.documents.current());
         } else {
@@ -28,12 +52,12 @@ impl Session {
 
     /// Removes the recovery file: what is unsaved is meant to be lost, or is safe in another place.
     pub fn forget_unsaved(&self) {
-        self.safekeeping.recovery.iter().for_each(Recovery::forget);
+        self.unsaved.recovery.iter().for_each(Recovery::forget);
     }
 
     /// Asks about work that was left behind.
-    pub(super) fn take_found_work(&mut self) {
-        while let Some(news) = self.safekeeping.recovery.as_ref().and_then(Recovery::take_news) {
+    pub(crate) fn take_found_work(&mut self) {
+        while let Some(news) = self.unsaved.recovery.as_ref().and_then(Recovery::take_news) {
             match news {
                 News::Trouble(text) => self.notice_about(About::Window, Level::Warning, text),
                 News::Found(found) => {
@@ -42,7 +66,7 @@ impl Session {
                     let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
                     for left in first.into_iter().chain(rest) {
                         self.ask(Question::Recover(Box::new(left.shown.clone())));
-                        self.safekeeping.found.push(left);
+                        self.unsaved.found.push(left);
                     }
                 }
             }
@@ -50,7 +74,7 @@ impl Session {
     }
 
     /// Does what was answered about work that was left behind; false for an answer that does not fit.
-    pub(super) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
+    pub(crate) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
         match answer {
             Answer::Recover if self.is_dirty() => {
                 let (then, tabs) = (PendingAction::Recover(recovered.file.clone()), self.documents.dirty_tabs());
@@ -58,8 +82,8 @@ impl Session {
             }
             Answer::Recover => self.recover(&recovered.file),
             Answer::Discard => {
-                self.safekeeping.found.retain(|left| left.shown.file != recovered.file);
-                if let Some(recovery) = &self.safekeeping.recovery {
+                self.unsaved.found.retain(|left| left.shown.file != recovered.file);
+                if let Some(recovery) = &self.unsaved.recovery {
                     recovery.discard(recovered.file.clone());
                 }
             }
@@ -70,13 +94,13 @@ impl Session {
     }
 
     /// The work in a recovery file takes the place of the open project.
-    pub(super) fn recover(&mut self, file: &Path) {
-        let Some(at) = self.safekeeping.found.iter().position(|left| left.shown.file == *file) else { return };
-        let Left { shown, project, saved, .. } = self.safekeeping.found.remove(at);
+    pub(crate) fn recover(&mut self, file: &Path) {
+        let Some(at) = self.unsaved.found.iter().position(|left| left.shown.file == *file) else { return };
+        let Left { shown, project, saved, .. } = self.unsaved.found.remove(at);
         self.replace(Documents::restored(project, saved));
         // What made an end of the last process may do it again: the person looks first.
         self.playback.clock.pause();
-        if let Some(recovery) = &self.safekeeping.recovery {
+        if let Some(recovery) = &self.unsaved.recovery {
             recovery.adopt(shown.file);
         }
         self.compile.includes_changed();
@@ -87,7 +111,7 @@ impl Session {
 
     /// Other work would have to take the place of what was just recovered.
     fn put_off_all(&mut self) {
-        let others: Vec<PathBuf> = self.safekeeping.found.iter().map(|left| left.shown.file.clone()).collect();
+        let others: Vec<PathBuf> = self.unsaved.found.iter().map(|left| left.shown.file.clone()).collect();
         let some = match others.len() {
             0 => return,
             1 => "there is unsaved work of another project too".to_owned(),
@@ -99,8 +123,8 @@ impl Session {
     }
 
     fn put_off(&mut self, file: &Path) {
-        self.safekeeping.found.retain(|left| left.shown.file != *file);
-        if let Some(recovery) = &self.safekeeping.recovery {
+        self.unsaved.found.retain(|left| left.shown.file != *file);
+        if let Some(recovery) = &self.unsaved.recovery {
             recovery.put_off(file.to_owned());
         }
     }

@@ -1,13 +1,13 @@
-//! The two projects at work.
+//! The open project held against another one: both draw the frames since the reset from the same inputs, beside the
+//! picture, which goes on.
 
-use super::comparison::{Baseline, Comparison};
 use crate::{
     revision,
     run::{Frame, Run},
 };
 use eddy_background::{Control, Count};
 use eddy_diag as diag;
-use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial};
+use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
 use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media as media;
 use eddy_project::{self as project, Origin, PassId, Project};
@@ -22,6 +22,47 @@ const TURN: i32 = 4;
 const TURNS: usize = 12;
 const LEAST_TURNS: usize = 3;
 const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Names what the open project is compared with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// The project as it was last saved, read or begun.
+    LastSave,
+    /// A PROJECT of the command line: a folder, a file, or a preset's name.
+    Project(String),
+    /// The project in a revision of its git repository.
+    Revision(String),
+}
+
+impl Baseline {
+    /// Returns the name of the reference.
+    pub fn name(&self) -> String {
+        match self {
+            Baseline::LastSave => "the last save".to_owned(),
+            Baseline::Project(spec) => spec.clone(),
+            Baseline::Revision(revision) => format!("revision {revision}"),
+        }
+    }
+}
+
+/// The pictures of two projects, and the times that they took in turns.
+#[derive(Debug)]
+pub struct Comparison {
+    pub against: Baseline,
+    pub pass: PassId,
+    /// `iFrame` of the pictures.
+    pub frame: i32,
+    pub ours: Pixels,
+    pub theirs: Pixels,
+    /// Milliseconds a frame of ours and of theirs, one pair a turn.
+    pub turns: Vec<(f64, f64)>,
+    /// Frames that both have drawn for it.
+    pub frames: usize,
+    /// The run's first frames are no longer kept: both began later, from empty buffers.
+    pub is_cut: bool,
+    /// The revision of the project that was compared.
+    pub revision: u64,
+}
 
 /// Holds the projects that are to be compared, and the frames that both draw.
 pub struct CompareJob {

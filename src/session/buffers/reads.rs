@@ -77,7 +77,7 @@ impl RenderTask for BufferWatch {
 
 /// Keeps what is looked at, if anything is.
 #[derive(Default)]
-pub(crate) struct Watching {
+pub(crate) struct BufferReads {
     watch: BufferWatch,
     shown: Option<(Arc<BufferRead>, u64)>,
     under: Vec<TexelAt>,
@@ -93,7 +93,7 @@ pub(crate) struct Watching {
     ticket: Ticket<BuffersRead>,
 }
 
-impl Watching {
+impl BufferReads {
     /// Only this is looked at from now on.
     pub fn watch(&mut self, watch: BufferWatch) {
         self.is_shown_due |= watch.shown != self.watch.shown;
@@ -137,7 +137,7 @@ impl Watching {
     }
 }
 
-impl ReadBack for Watching {
+impl ReadBack for BufferReads {
     fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
         if let Some(task) = self.due(at.now, at.is_playing) {
             self.ticket = tasks.add(task);
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn nothing_is_read_while_nobody_looks_or_nothing_has_changed() {
-        let (mut watching, now) = (Watching::default(), Instant::now());
+        let (mut watching, now) = (BufferReads::default(), Instant::now());
         watching.receive(true);
         assert_eq!(watching.due(now, true), None);
         let shown = Some(((PassId::Image, 0), BufferLook::default()));
