@@ -1,59 +1,258 @@
-//! One thread that does the newest job it was given.
+//! Work on a thread of its own, for somebody who goes on meanwhile: the newest job counts.
 //!
-//! Owns the hand-over: jobs that a newer one has overtaken are not begun, results that a newer job has made stale are
-//! not handed out, and a panic in a job ends the job and not the program. Does not know what a job is.
+//! Owns the hand-over: jobs that a newer one has overtaken are not begun, results that a newer job or a cancel has made
+//! stale are not handed out, and a panic in a job is its error and does not end the program. Does not know what a job is.
 
 use std::{
     any::Any,
+    mem,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
-        Arc,
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
         mpsc::{self, Receiver, Sender},
     },
-    thread::JoinHandle,
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
 };
 
-/// A job ended in a panic; what it said.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Panicked(pub String);
+/// Called on another thread when there is something to poll.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-pub struct Worker<Job, Done> {
+/// Work that takes an `In`, reports `Progress` and gives an `Out`, or says in words why it gives none.
+pub struct Background<In, Progress, Out> {
+    wake: Wake,
     /// `None` when no more will come.
-    jobs: Option<Sender<(u64, Job)>>,
-    results: Receiver<(u64, Result<Done, Panicked>)>,
+    jobs: Option<Sender<Job<In, Progress>>>,
+    results: Receiver<(u64, Result<Out, String>)>,
     thread: Option<JoinHandle<()>>,
+    /// The number of the newest job.
     newest: u64,
+    input: Input,
     is_busy: bool,
+    control: Control<Progress>,
+    /// The progress that [`Background::poll`] has told of.
+    polled: Progress,
+    result: Option<Result<Out, String>>,
 }
 
-impl<Job: Send + 'static, Done: Send + 'static> Worker<Job, Done> {
-    /// `wake` is called on the worker's thread after each job.
-    pub fn new(
-        name: &str,
-        wake: Arc<dyn Fn() + Send + Sync>,
-        mut work: impl FnMut(Job) -> Done + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let (jobs, inbox) = mpsc::channel::<(u64, Job)>();
-        let (outbox, results) = mpsc::channel();
-        let thread = std::thread::Builder::new().name(name.into()).spawn(move || {
-            while let Ok(first) = inbox.recv() {
-                let (id, job) = inbox.try_iter().last().unwrap_or(first);
-                let done = catch_unwind(AssertUnwindSafe(|| work(job))).map_err(|p| Panicked(panic_text(&*p)));
-                if outbox.send((id, done)).is_err() {
-                    return;
-                }
-                wake();
-            }
-        })?;
-        Ok(Self { jobs: Some(jobs), results, thread: Some(thread), newest: 0, is_busy: false })
+struct Job<In, Progress> {
+    number: u64,
+    input: In,
+    control: Control<Progress>,
+}
+
+/// The input of a job that was requested and is not started yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Input {
+    #[default]
+    None,
+    Requested,
+    /// Somebody is at it.
+    Coming,
+}
+
+/// Work as a front end shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Status<'w, Progress, Out> {
+    UnderWay(Progress),
+    Ended(Result<&'w Out, &'w str>),
+}
+
+/// So many things are done, of so many.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    pub done: usize,
+    pub of: usize,
+}
+
+/// The work's view of its job: reports progress, and hears when nobody wants the result any more.
+pub struct Control<Progress> {
+    shared: Arc<Shared<Progress>>,
+    wake: Wake,
+}
+
+#[derive(Default)]
+struct Shared<Progress> {
+    progress: Mutex<Progress>,
+    is_cancelled: AtomicBool,
+}
+
+impl<Progress> Clone for Control<Progress> {
+    fn clone(&self) -> Self {
+        Self { shared: self.shared.clone(), wake: self.wake.clone() }
+    }
+}
+
+impl<Progress: Clone + Default> Control<Progress> {
+    fn new(wake: Wake) -> Self {
+        Self { shared: Arc::default(), wake }
     }
 
-    /// Gives the worker something newer to do.
-    pub fn submit(&mut self, job: Job) {
-        self.newest += 1;
-        if let Some(jobs) = &self.jobs {
-            self.is_busy = jobs.send((self.newest, job)).is_ok();
+    /// Tells how far the work is.
+    pub fn report(&self, progress: Progress) {
+        *self.shared.progress.lock().unwrap_or_else(|e| e.into_inner()) = progress;
+        (self.wake)();
+    }
+
+    /// Returns whether the result is not wanted any more: what the work gives from then on is dropped.
+    pub fn is_cancelled(&self) -> bool {
+        self.shared.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    /// Ends work that returns with `?` where it is cancelled.
+    pub fn check(&self) -> Result<(), String> {
+        if self.is_cancelled() { Err("cancelled".to_owned()) } else { Ok(()) }
+    }
+
+    fn cancel(&self) {
+        self.shared.is_cancelled.store(true, Ordering::Relaxed);
+    }
+
+    fn progress(&self) -> Progress {
+        self.shared.progress.lock().unwrap_or_else(|e| e.into_inner()).clone()
+    }
+}
+
+impl<In, Progress, Out> Background<In, Progress, Out>
+where
+    In: Send + 'static,
+    Progress: Clone + Default + PartialEq + Send + 'static,
+    Out: Send + 'static,
+{
+    /// Starts a thread of this name. `what` is the subject of the sentence that tells of a panic, as in "the search
+    /// failed"; `wake` is called on the thread after each job and each report.
+    pub fn new(
+        name: &str,
+        what: &'static str,
+        wake: Wake,
+        mut work: impl FnMut(In, &Control<Progress>) -> Result<Out, String> + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let (jobs, queue) = mpsc::channel::<Job<In, Progress>>();
+        let (sender, results) = mpsc::channel();
+        let wake_caller = wake.clone();
+        let thread = thread::Builder::new().name(name.into()).spawn(move || {
+            while let Ok(first) = queue.recv() {
+                let Job { number, input, control } = queue.try_iter().last().unwrap_or(first);
+                let result = catch_unwind(AssertUnwindSafe(|| work(input, &control)))
+                    .unwrap_or_else(|p| Err(format!("this is a bug in Eddy: {what} failed ({})", panic_text(&*p))));
+                if sender.send((number, result)).is_err() {
+                    return;
+                }
+                wake_caller();
+            }
+        })?;
+        let control = Control::new(wake.clone());
+        Ok(Self {
+            wake,
+            jobs: Some(jobs),
+            results,
+            thread: Some(thread),
+            newest: 0,
+            input: Input::None,
+            is_busy: false,
+            control,
+            polled: Progress::default(),
+            result: None,
+        })
+    }
+
+    /// Asks for a newer result whose input is yet to be had. The last result stays until then, and so does the job that
+    /// is under way.
+    pub fn request(&mut self) {
+        self.input = Input::Requested;
+    }
+
+    /// Returns whether an input is to be had now, once for each request.
+    pub fn take_request(&mut self) -> bool {
+        let is_requested = self.input == Input::Requested;
+        if is_requested {
+            self.input = Input::Coming;
         }
+        is_requested
+    }
+
+    /// Requests the input again that was on its way and will not come.
+    pub fn renew_request(&mut self) {
+        if self.input == Input::Coming {
+            self.input = Input::Requested;
+        }
+    }
+
+    /// Gives the thread something newer to do. The job before it is cancelled.
+    pub fn start(&mut self, input: In) {
+        self.control.cancel();
+        self.control = Control::new(self.wake.clone());
+        self.newest += 1;
+        self.input_has_come();
+        if let Some(jobs) = &self.jobs {
+            self.is_busy = jobs.send(Job { number: self.newest, input, control: self.control.clone() }).is_ok();
+        }
+    }
+
+    /// Ends what was requested with an error, as its input cannot be had.
+    pub fn fail(&mut self, why: impl Into<String>) {
+        self.input_has_come();
+        self.result = Some(Err(why.into()));
+    }
+
+    fn input_has_come(&mut self) {
+        if self.input == Input::Coming {
+            self.input = Input::None;
+        }
+    }
+
+    /// Ends what was requested and what is under way without a result. The last result stays.
+    pub fn cancel(&mut self) {
+        self.control.cancel();
+        self.newest += 1;
+        (self.input, self.is_busy) = (Input::None, false);
+    }
+
+    /// Cancels, and forgets the last result too.
+    pub fn clear(&mut self) {
+        self.cancel();
+        self.result = None;
+    }
+
+    /// Takes what has come of the newest job. Returns whether its result or its progress is new.
+    pub fn poll(&mut self) -> bool {
+        let newest = self.newest;
+        if let Some((_, result)) = self.results.try_iter().filter(|(number, _)| *number == newest).last() {
+            (self.is_busy, self.result) = (false, Some(result));
+            return true;
+        }
+        let progress = self.control.progress();
+        mem::replace(&mut self.polled, progress.clone()) != progress
+    }
+
+    /// Polls, and returns the result of the newest job once.
+    pub fn take(&mut self) -> Option<Result<Out, String>> {
+        self.poll();
+        self.result.take()
+    }
+
+    /// Returns the last result, while a newer one is under way too.
+    pub fn result(&self) -> Option<&Result<Out, String>> {
+        self.result.as_ref()
+    }
+
+    /// Returns `None` where nothing was requested since the last [`Background::clear`].
+    pub fn status(&self) -> Option<Status<'_, Progress, Out>> {
+        if self.is_under_way() {
+            return Some(Status::UnderWay(self.control.progress()));
+        }
+        self.result.as_ref().map(|result| Status::Ended(result.as_ref().map_err(String::as_str)))
+    }
+
+    /// Returns whether something was requested or started that has no result yet.
+    pub fn is_under_way(&self) -> bool {
+        self.input != Input::None || self.is_busy
+    }
+
+    /// Returns whether the newest job has not ended yet.
+    pub fn is_busy(&self) -> bool {
+        self.is_busy
     }
 
     /// Lets go of the thread: it ends when it has ended its job, and nobody waits for that.
@@ -62,29 +261,27 @@ impl<Job: Send + 'static, Done: Send + 'static> Worker<Job, Done> {
         self.thread = None;
     }
 
-    /// Nobody wants what comes of the jobs so far.
-    pub fn forget(&mut self) {
-        self.newest += 1;
-        self.is_busy = false;
-    }
-
-    /// The newest job has not ended yet.
-    pub fn is_busy(&self) -> bool {
-        self.is_busy
-    }
-
-    /// The result of the newest job, once. Never waits.
-    pub fn take(&mut self) -> Option<Result<Done, Panicked>> {
-        let newest = self.newest;
-        let (_, done) = self.results.try_iter().filter(|(id, _)| *id == newest).last()?;
-        self.is_busy = false;
-        Some(done)
+    /// Cancels, and waits for the thread's end, but not for long. Returns false where it goes on: then nobody waits for it
+    /// any more.
+    pub fn end(&mut self, patience: Duration) -> bool {
+        self.cancel();
+        self.jobs = None;
+        let Some(thread) = self.thread.take() else { return true };
+        let end = Instant::now() + patience;
+        while !thread.is_finished() {
+            if Instant::now() >= end {
+                return false;
+            }
+            thread::sleep(Duration::from_millis(2));
+        }
+        true
     }
 }
 
-impl<Job, Done> Drop for Worker<Job, Done> {
+impl<In, Progress, Out> Drop for Background<In, Progress, Out> {
     /// Lets the job under way end: a thread inside the graphics driver must not outlive the device.
     fn drop(&mut self) {
+        self.control.shared.is_cancelled.store(true, Ordering::Relaxed);
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -103,16 +300,21 @@ fn panic_text(payload: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::{Duration, Instant};
 
-    fn wait<J: Send + 'static, D: Send + 'static>(w: &mut Worker<J, D>) -> Result<D, Panicked> {
+    fn background<In: Send + 'static, Out: Send + 'static>(
+        mut work: impl FnMut(In) -> Out + Send + 'static,
+    ) -> Background<In, (), Out> {
+        Background::new("test", "the test", Arc::new(|| ()), move |input, _| Ok(work(input))).unwrap()
+    }
+
+    fn wait<In: Send + 'static, Out: Send + 'static>(b: &mut Background<In, (), Out>) -> Result<Out, String> {
         let end = Instant::now() + Duration::from_secs(10);
         loop {
-            if let Some(done) = w.take() {
-                return done;
+            if let Some(result) = b.take() {
+                return result;
             }
             assert!(Instant::now() < end, "the job never ended");
-            std::thread::sleep(Duration::from_millis(1));
+            thread::sleep(Duration::from_millis(1));
         }
     }
 
@@ -120,60 +322,92 @@ mod tests {
     fn the_newest_job_wins_and_overtaken_ones_are_not_begun() {
         let (begun, log) = mpsc::channel();
         let (go, gate) = mpsc::channel::<()>();
-        let mut w = Worker::new("test", Arc::new(|| ()), move |n: u32| {
+        let mut b = background(move |n: u32| {
             begun.send(n).unwrap();
             gate.recv().unwrap();
             n * 10
-        })
-        .unwrap();
-        w.submit(1);
+        });
+        b.start(1);
         assert_eq!(log.recv().unwrap(), 1);
         for n in 2..=5 {
-            w.submit(n);
+            b.start(n);
         }
         go.send(()).unwrap();
         assert_eq!(log.recv().unwrap(), 5, "2 to 4 were overtaken");
-        assert!(w.take().is_none(), "the result of 1 is stale");
-        assert!(w.is_busy());
+        assert!(b.take().is_none(), "the result of 1 is stale");
+        assert!(b.is_busy());
         go.send(()).unwrap();
-        assert_eq!(wait(&mut w), Ok(50));
-        assert!(!w.is_busy());
-        assert!(w.take().is_none(), "once");
+        assert_eq!(wait(&mut b), Ok(50));
+        assert!(!b.is_busy());
+        assert!(b.take().is_none(), "once");
     }
 
     #[test]
-    fn what_is_forgotten_gives_no_result() {
-        let mut w = Worker::new("test", Arc::new(|| ()), |n: u32| n).unwrap();
-        w.submit(1);
-        w.forget();
-        assert!(!w.is_busy());
-        w.submit(2);
-        assert_eq!(wait(&mut w), Ok(2));
-        w.submit(3);
-        std::thread::sleep(Duration::from_millis(20));
-        w.forget();
-        assert!(w.take().is_none() && !w.is_busy());
+    fn what_is_cancelled_gives_no_result() {
+        let mut b = background(|n: u32| n);
+        b.start(1);
+        b.cancel();
+        assert!(!b.is_busy());
+        b.start(2);
+        assert_eq!(wait(&mut b), Ok(2));
+        b.start(3);
+        thread::sleep(Duration::from_millis(20));
+        b.cancel();
+        assert!(b.take().is_none() && !b.is_busy());
     }
 
     #[test]
-    fn a_panic_is_a_result_and_the_worker_goes_on() {
-        let mut w = Worker::new("test", Arc::new(|| ()), |n: u32| {
+    fn a_panic_is_an_error_and_the_thread_goes_on() {
+        let mut b = background(|n: u32| {
             assert!(n != 1, "one is too few");
             n
-        })
-        .unwrap();
-        w.submit(1);
-        assert_eq!(wait(&mut w), Err(Panicked("one is too few".into())));
-        w.submit(2);
-        assert_eq!(wait(&mut w), Ok(2));
+        });
+        b.start(1);
+        assert_eq!(wait(&mut b), Err("this is a bug in Eddy: the test failed (one is too few)".into()));
+        b.start(2);
+        assert_eq!(wait(&mut b), Ok(2));
     }
 
     #[test]
-    fn wake_is_called_once_the_result_is_there() {
+    fn work_reports_progress_and_hears_that_it_is_cancelled() {
         let (woken, wakes) = mpsc::channel();
-        let mut w = Worker::new("test", Arc::new(move || woken.send(()).unwrap()), |n: u32| n).unwrap();
-        w.submit(3);
-        wakes.recv_timeout(Duration::from_secs(10)).unwrap();
-        assert_eq!(w.take(), Some(Ok(3)));
+        let (heard, hears) = mpsc::channel();
+        let wake = Arc::new(move || _ = woken.send(()));
+        let mut b = Background::new("test", "the test", wake, move |of: usize, control: &Control<Count>| {
+            control.report(Count { done: 1, of });
+            while !control.is_cancelled() {
+                thread::sleep(Duration::from_millis(1));
+            }
+            heard.send(control.check()).unwrap();
+            Ok(())
+        })
+        .unwrap();
+        let next = || wakes.recv_timeout(Duration::from_secs(10)).unwrap();
+        b.start(3);
+        next();
+        assert!(b.poll() && !b.poll(), "news are told once");
+        assert_eq!(b.status(), Some(Status::UnderWay(Count { done: 1, of: 3 })));
+        b.cancel();
+        assert!(hears.recv_timeout(Duration::from_secs(10)).unwrap().is_err());
+        next();
+        b.poll();
+        assert_eq!(b.status(), None, "the result of a cancelled job is dropped");
+        assert!(b.end(Duration::from_secs(10)));
+    }
+
+    #[test]
+    fn a_request_is_under_way_until_its_input_has_led_to_a_result() {
+        let mut b = background(|n: u32| n);
+        assert!(!b.take_request() && b.status().is_none());
+        b.request();
+        assert!(b.take_request() && !b.take_request() && b.is_under_way());
+        b.renew_request();
+        assert!(b.take_request());
+        b.fail("no input");
+        assert_eq!(b.status(), Some(Status::Ended(Err("no input"))));
+        b.request();
+        assert!(matches!(b.status(), Some(Status::UnderWay(()))) && b.result().is_some(), "the last one stays");
+        b.clear();
+        assert!(b.status().is_none() && !b.take_request());
     }
 }

@@ -84,8 +84,8 @@ pub fn find(
     Ok(DivergenceReport { compared: found.compared, assignments: found.of, first })
 }
 
-pub fn words(parted: &DivergenceReport) -> String {
-    let DivergenceReport { compared, assignments, first } = parted;
+pub fn words(report: &DivergenceReport) -> String {
+    let DivergenceReport { compared, assignments, first } = report;
     let of = format!("{compared} of {assignments} assignments compared");
     let Some(First { written, name, visit, walker, device, ulps }) = first else {
         return format!("  differs nowhere: {of}\n");

@@ -69,7 +69,8 @@ struct Traced {
     ulps: Option<Vec<u32>>,
     /// Says where the device parts from the walker, if their values are not the same.
     #[serde(skip_serializing_if = "Option::is_none")]
-    parted: Option<DivergenceReport>,
+    #[serde(rename = "parted")]
+    divergence: Option<DivergenceReport>,
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
@@ -155,13 +156,13 @@ fn traced(
     let (x, y) = pixel;
     let texel = device.texels[(y * device.width + x) as usize];
     let printed = printed::printed(&project, pass, args.frame, (&read, &device), pixel).map_err(anyhow::Error::from)?;
-    let parted = match before.filter(|_| parts(&project, args, texel, &trace)) {
+    let divergence = match before.filter(|_| parts(&project, args, texel, &trace)) {
         Some(before) => {
             Some(divergence::find(args, &project, (offline.into_engine()?, before), (index, &read), inputs)?)
         }
         None => None,
     };
-    Ok(Traced { parted, ..placed(&project, args, texel, trace, printed) })
+    Ok(Traced { divergence, ..placed(&project, args, texel, trace, printed) })
 }
 
 /// The walker's value is not the texel that the device has stored, bit for bit.
@@ -220,7 +221,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         device: floats(device),
         format: format.name(),
         ulps: trace.value.filter(|_| format.is_32_bit()).map(apart),
-        parted: None,
+        divergence: None,
         statements: trace.statements,
         left_out: trace.left_out,
         steps: steps.collect(),
@@ -292,8 +293,8 @@ fn words(spec: &str, traced: &Traced) -> String {
         let _ = writeln!(out, "  apart   ({}) ULPs", ulps.join(", "));
     }
     let _ = writeln!(out, "  double  {}", vector(double));
-    if let Some(parted) = &traced.parted {
-        out.push_str(&divergence::words(parted));
+    if let Some(found) = &traced.divergence {
+        out.push_str(&divergence::words(found));
     }
     out
 }

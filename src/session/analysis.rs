@@ -2,7 +2,7 @@
 //! thread of its own so that no keystroke waits for it.
 
 use super::{Session, rename};
-use eddy_background::Worker;
+use eddy_background::Background;
 use eddy_diag::SourceId;
 use eddy_engine::{self as engine, KeptPreamble, Sources};
 use eddy_glsl::services::{Analysis, ClassSpan};
@@ -106,7 +106,7 @@ impl TabAnalysis {
 
 /// The analyst at work.
 pub(super) struct Analyst {
-    pub worker: Worker<(Texts, Tab), TabAnalysis>,
+    pub background: Background<(Texts, Tab), (), TabAnalysis>,
     pub front: Option<Tab>,
     /// The pass that Common is read with.
     pub pass: PassId,
@@ -119,7 +119,7 @@ pub(super) struct Analyst {
 impl Analyst {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let mut preamble = KeptPreamble::default();
-        let work = move |(texts, front): (Texts, Tab)| {
+        let work = move |(texts, front): (Texts, Tab), _: &_| {
             let analysis = texts.analyse(&mut preamble);
             let own = match &front {
                 Tab::Common => COMMON,
@@ -127,10 +127,10 @@ impl Analyst {
                 Tab::Pass(_) | Tab::Stage(..) => texts.code(),
             };
             let classes = analysis.classes(own);
-            TabAnalysis { analysis, front, classes, texts }
+            Ok(TabAnalysis { analysis, front, classes, texts })
         };
-        let worker = Worker::new("analysis", wake, work)?;
-        Ok(Self { worker, front: None, pass: PassId::Image, stage: None, asked: None, newest: None })
+        let background = Background::new("analysis", "the analysis", wake, work)?;
+        Ok(Self { background, front: None, pass: PassId::Image, stage: None, asked: None, newest: None })
     }
 }
 
@@ -231,16 +231,16 @@ impl Session {
         let is_known = self.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
         if !is_known {
             self.analyst.asked = Some((texts.clone(), front.clone()));
-            self.analyst.worker.submit((texts, front));
+            self.analyst.background.start((texts, front));
         }
     }
 
     pub(super) fn take_analysed(&mut self) {
-        match self.analyst.worker.take() {
+        match self.analyst.background.take() {
             None => return,
             Some(Ok(done)) => self.analyst.newest = Some(Arc::new(done)),
             // The editor does without; the compiler will say so aloud if it stumbles as well.
-            Some(Err(panicked)) => log::error!("this is a bug in Eddy: the analysis failed ({})", panicked.0),
+            Some(Err(why)) => log::error!("{why}"),
         }
         self.changed = true;
     }

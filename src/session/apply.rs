@@ -3,26 +3,25 @@
 
 use super::{
     Session,
+    canvas::CanvasSize,
     command::Command,
-    state::CanvasSize,
-    tracing::TracedPixel,
+    trace::TracedPixel,
     view::{About, Level},
 };
-use eddy_media::Keyboard;
-use eddy_playback::capture;
-use eddy_project::{self as project, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names};
+use eddy_playback::{capture, mouse::Mouse};
+use eddy_project::{self as project, Channel, PassId, Tab, include_names};
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
         self.changed |= !is_input(&command);
-        self.command_began = self.next_notice;
-        self.obey(command);
+        self.notices.begin_command();
+        self.execute(command);
         // Not in a tick, which a slow frame may put off.
         self.keep_unsaved();
     }
 
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::Open(_)
             | Command::OpenProject { .. }
@@ -44,23 +43,14 @@ impl Session {
                 self.analyse();
             }
             Command::CompileNow => self.compile_soon(),
-            Command::SetCompileOnSave(on) => {
-                self.compile.on_save = on;
-                if !on && std::mem::take(&mut self.compile.waits_for_save) {
-                    self.compile_soon();
-                }
-            }
+            Command::SetCompileOnSave(on) => self.compile.set_on_save(on),
             Command::Play => self.play(),
             Command::Pause => self.pause(),
             Command::TogglePlay if self.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
             Command::Cover(is_covered) => {
-                if is_covered && !self.run.is_covered {
+                if self.playback.cover(is_covered) {
                     self.last_pictures.want();
-                }
-                if std::mem::replace(&mut self.run.is_covered, is_covered) && !is_covered {
-                    self.run.clock.rebase();
-                    self.run.fps.restart();
                 }
             }
             Command::Hold => self.hold(),
@@ -70,18 +60,15 @@ impl Session {
             Command::Step => self.step_forward(),
             Command::StepBack(by) => self.step_back(by),
             Command::Seek(secs) => self.seek(secs),
-            Command::SetSpeed(speed) => self.run.clock.set_speed(speed),
-            Command::SetFixedRate(rate) => self.run.clock.set_fixed_rate(rate),
-            Command::SetTimeRange(range) => self.run.seeking.range = range,
-            Command::SetKeepInputs(on) => self.run.seeking.keeps_inputs = on,
+            Command::SetSpeed(speed) => self.playback.clock.set_speed(speed),
+            Command::SetFixedRate(rate) => self.playback.clock.set_fixed_rate(rate),
+            Command::SetTimeRange(range) => self.playback.seeking.range = range,
+            Command::SetKeepInputs(on) => self.playback.seeking.keeps_inputs = on,
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
             Command::SetViewport { width, height } => {
-                if self.canvas.viewport != Some((width, height)) {
-                    self.canvas.viewport = Some((width, height));
-                    self.canvas.refused = None;
-                }
+                self.canvas.set_viewport((width, height));
             }
             Command::SetScale(scale) => self.set_scale(scale),
             Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.canvas.asked }),
@@ -117,26 +104,28 @@ impl Session {
             | Command::MouseUp
             | Command::KeyDown(_)
             | Command::KeyUp(_)
-                if self.is_replaying() => {}
-            Command::MouseDown { x, y } => self.input(|run| run.mouse.press(x, y)),
-            Command::MouseMove { x, y } if self.run.mouse.is_down() => self.input(|run| run.mouse.move_to(x, y)),
+                if self.playback.is_replaying() => {}
+            Command::MouseDown { x, y } => self.playback.move_mouse(|mouse| mouse.press(x, y)),
+            Command::MouseMove { x, y } if self.playback.mouse.is_down() => {
+                self.playback.move_mouse(|mouse| mouse.move_to(x, y))
+            }
             Command::MouseMove { .. } => {}
-            Command::MouseUp => self.input(|run| run.mouse.release()),
-            Command::KeyDown(code) if self.run.keyboard.is_held(code) => {}
-            Command::KeyDown(code) => self.key(code, |keyboard| keyboard.press(code)),
-            Command::KeyUp(code) => self.key(code, |keyboard| keyboard.release(code)),
+            Command::MouseUp => self.playback.move_mouse(Mouse::release),
+            Command::KeyDown(code) if self.playback.keyboard.is_held(code) => {}
+            Command::KeyDown(code) => self.playback.press_key(code, |keyboard| keyboard.press(code)),
+            Command::KeyUp(code) => self.playback.press_key(code, |keyboard| keyboard.release(code)),
             Command::Focus(focused) => self.focus(focused),
-            Command::Screenshot => self.capture(eddy_playback::capture::Format::Png),
-            Command::SaveTexels => self.capture(eddy_playback::capture::Format::Npy),
+            Command::Screenshot => self.capture(capture::Format::Png),
+            Command::SaveTexels => self.capture(capture::Format::Npy),
             Command::Record => self.record(),
             Command::PlayRecording(file) => self.play_recording(file),
             Command::StopReplay => self.end_replay("the picture continues live from there"),
             Command::Audit => self.ask_audit(),
             Command::HideAudit => self.auditing.map = None,
-            Command::FindDivergence => self.tracing.find_divergence(),
+            Command::FindDivergence => self.want_divergence(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
-                if self.probing.want(place, self.documents.current()) {
+                if self.watched.probing.want(place, self.documents.current()) {
                     self.compile_soon();
                 }
             }
@@ -144,32 +133,32 @@ impl Session {
                 if at.is_some() {
                     self.pause();
                 }
-                let probed = self.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
-                let pass = probed.unwrap_or_else(|| self.run.shown.clone());
+                let probed = self.watched.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
+                let pass = probed.unwrap_or_else(|| self.picture.shown.clone());
                 // With a probe the pass itself may not be drawn.
-                if at.is_some() && self.probing.want(None, self.documents.current()) {
+                if at.is_some() && self.watched.probing.want(None, self.documents.current()) {
                     self.compile_soon();
                 }
                 self.tracing.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
-                self.probing.set_look(look);
+                self.watched.probing.set_look(look);
                 self.look_anew();
             }
             Command::WatchCosts(on) => {
-                self.run.costs.watch(on);
+                self.watched.costs.watch(on);
                 self.drawing.wanted.costs = on;
             }
-            Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
-            Command::WatchBuffers(watch) => self.run.buffers.watch(watch),
-            Command::WatchMeasures(seen) => self.run.measuring.watch(seen),
-            Command::ClearMeasures => self.run.measuring.clear(),
+            Command::WatchTargets(targets) => self.watched.miniatures.watch(targets),
+            Command::WatchBuffers(watch) => self.watched.buffers.watch(watch),
+            Command::WatchMeasures(seen) => self.watched.measuring.watch(seen),
+            Command::ClearMeasures => self.watched.measuring.clear(),
             Command::SaveMeasures => self.save_measures(),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::Compare(against) => self.comparing.want(against),
-            Command::SetFrameLimit(limit) => self.halting.limit = limit,
+            Command::SetFrameLimit(limit) => self.halting.set_limit(limit),
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
-            Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
+            Command::DismissNotice(id) => self.notices.dismiss(id),
             Command::Notify { level, text, path } => {
                 self.notice_about(About::Window, level, text);
                 if let Some(notice) = self.notices.last_mut() {
@@ -198,10 +187,7 @@ impl Session {
 
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
-        self.compile.fallback = None;
-        self.compile.waits_for_save = false;
-        self.compile.is_wanted = true;
-        self.compile.state.compiling = true;
+        self.compile.soon();
     }
 
     fn edit_text(&mut self, tab: &Tab, text: &str) {
@@ -216,11 +202,11 @@ impl Session {
         let old = source.text.clone();
         // The worker reads them when it compiles: a keystroke waits for no file.
         if include_names(&source.text) != include_names(text) {
-            self.compile.include_edits += 1;
+            self.compile.includes_changed();
         }
         self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
-        self.probing.follow(self.documents.current());
+        self.watched.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
@@ -229,40 +215,7 @@ impl Session {
                 pass.channels = now;
             }
         }
-        if self.compile.on_save {
-            self.compile.waits_for_save = true;
-            return;
-        }
-        self.compile.edited = true;
-        self.compile.state.compiling = true;
-    }
-
-    fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
-        let Some(mut custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
-        custom_uniform.name = self.newest_name(name);
-        let name = custom_uniform.name.as_str();
-        let before = self.project().custom_uniform_values.clone();
-        let project = self.documents.current_mut();
-        match value {
-            None => drop(project.custom_uniform_values.remove(name)),
-            Some(value) => {
-                let within = custom_uniform.value(&CustomUniformValues::from([(name.to_owned(), value)]));
-                project.turn_custom_uniform(&custom_uniform, within);
-            }
-        }
-        if self.project().custom_uniform_values != before {
-            self.passes.push_uniforms(before, Some(name));
-        }
-        self.custom_uniforms_turned();
-    }
-
-    /// The values go to the running program; while paused, one frame shows them.
-    pub(super) fn custom_uniforms_turned(&mut self) {
-        let played = self.run.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.run.replay.has_values = played.is_some();
-        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
-        self.add_old_names(&mut values);
-        self.drawing.wanted.custom_uniforms = Some(values);
+        self.compile.edit();
     }
 
     /// Returns what the tab's pass reads by its text alone.
@@ -273,86 +226,24 @@ impl Session {
         project.pass(id).map(|p| p.channels.clone())
     }
 
-    pub(super) fn play(&mut self) {
-        self.settled(About::Seeking);
-        self.override_halt();
-        self.run.seeking.cancel();
-        self.run.clock.play();
-        self.run.fps.restart();
-    }
-
-    pub(super) fn pause(&mut self) {
-        self.halting.resumes = false;
-        self.run.seeking.cancel();
-        self.run.clock.pause();
-    }
-
-    pub(super) fn reset(&mut self) {
-        self.settled(About::Seeking);
-        self.end_replay("the picture was reset");
-        self.canvas.replayed = None;
-        self.take_values_back();
-        self.drawing.wanted.reset = true;
-        self.run.seeking.cancel();
-        self.run.clock.reset();
-        self.run.fps.restart();
-        self.run.steps = 0;
-        self.run.is_frame_due = true;
-    }
-
-    fn set_scale(&mut self, scale: f32) {
-        self.settled(About::Scale);
-        if scale.is_finite() && scale > 0.0 {
-            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
-        } else {
-            self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
-        }
-    }
-
-    /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
-    fn ask_size(&mut self, size: CanvasSize) {
-        self.end_replay("the resolution was changed");
-        self.canvas.replayed = None;
-        self.canvas.asked = size;
-        if self.projects_opened == 0 {
-            self.canvas.usual = size;
-        }
-        self.canvas.refused = None;
-    }
-
-    /// Input forces a frame while paused.
-    fn input(&mut self, change: impl FnOnce(&mut super::state::Run)) {
-        change(&mut self.run);
-        self.run.is_frame_due = true;
-    }
-
-    /// A key forces a frame too, unless it is half of a shortcut: stepping with Alt held must step by one.
-    fn key(&mut self, code: u8, change: impl FnOnce(&mut Keyboard)) {
-        change(&mut self.run.keyboard);
-        const MODIFIERS: [u8; 7] = [16, 17, 18, 91, 92, 93, 224];
-        self.run.is_frame_due |= !MODIFIERS.contains(&code);
-    }
-
     fn focus(&mut self, focused: bool) {
         if focused {
-            self.run.clock.rebase();
-            self.run.fps.restart();
+            self.playback.rebase();
             // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
             // look.
-            self.disk.is_check_wanted = true;
-        } else if self.run.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
-            // The key-up of a key held now will go to another window.
-            self.input(|run| run.keyboard.release_all());
+            self.disk.want_check();
+        } else {
+            self.playback.release_keys();
         }
     }
 
     fn show_pass(&mut self, pass: PassId) {
-        if self.run.shown == pass || self.project().pass(&pass).is_none() {
+        if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }
         let is_drawn = self.drawing.draws(&pass);
-        self.run.shown = pass.clone();
-        if self.probing.want(None, self.documents.current()) {
+        self.picture.shown = pass.clone();
+        if self.watched.probing.want(None, self.documents.current()) {
             // Its program does not draw what is shown now.
             return self.compile_soon();
         }

@@ -3,8 +3,8 @@
 
 use super::{
     buffers::BufferWatch,
+    playback::TimeRange,
     probe::{ProbeLook, ProbePlace},
-    seek::TimeRange,
     view::Level,
 };
 use eddy_playback::comparing::Baseline;

@@ -1,29 +1,19 @@
 //! A session hands the engine its jobs, and takes what comes back.
-//! Decides what is read behind a frame: pictures, numbers, and what a walk or a comparison needs.
 
 use super::{
     Session,
-    clock::FrameTime,
-    drawing::{Capture, Done, DrawnFrame, Job, Reads, TileLimit},
-    tracing::{self, Taken},
+    drawing::{Done, DrawnFrame, Job, Tasks, TileLimit},
     view::{About, Level},
 };
-use eddy_debugger::{divergence::DivergenceJob, nonfinite::SearchJob};
-use eddy_engine::{EngineError, FrameInputs, Pixels};
+use eddy_engine::{EngineError, FrameInputs};
 use eddy_gpu::{Gpu, GpuError};
-use eddy_playback::{
-    capture,
-    comparing::Order,
-    date,
-    run::{Replay, ReplayFrom, Run},
-};
-use std::{mem::take, sync::Arc, time::Duration};
+use std::time::Duration;
 
 impl Session {
     /// Takes what the engine has done since. Says whether a frame was drawn.
     pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
         let Some(done) = self.drawing.take(is_just_handed_in) else { return false };
-        self.drew(done)
+        self.take_done(done)
     }
 
     /// Hands in what is wanted and what is due, one job after the other, while the engine takes them: while playing one
@@ -32,8 +22,8 @@ impl Session {
     /// `runs`: a frame of the running picture may be among them.
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
-        while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
-            if !self.is_replaying() {
+        while !self.drawing.is_busy() && !self.halting.is_held() && !self.halting.is_device_gone() {
+            if !self.playback.is_replaying() {
                 self.loop_range();
             }
             if self.travel() {
@@ -42,11 +32,11 @@ impl Session {
             }
             let frame = self.next_frame(&mut has_run);
             let again = frame.is_none() && self.take_again();
-            let reads = self.due_reads(frame.is_some() || again);
-            if frame.is_none() && !again && reads.is_empty() && self.drawing.wanted.is_empty() {
+            let tasks = self.due_tasks(frame.is_some() || again);
+            if frame.is_none() && !again && tasks.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, again, reads);
+            self.hand_in(frame, again, tasks);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -56,69 +46,39 @@ impl Session {
     fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
         let wanted = &self.drawing.wanted;
         let is_other_coming = wanted.restart || wanted.program.is_some();
-        if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
+        if is_other_coming || !self.drawing.has_program() || self.halting.is_halted() {
             return None;
         }
-        let is_step = self.is_step_due() || {
-            let steps = self.run.steps;
-            self.run.steps = steps.saturating_sub(1);
-            steps > 0
-        };
-        if self.is_replaying() {
+        let is_step = self.playback.take_step();
+        if self.playback.is_replaying() {
             return self.next_replayed(is_step);
         }
-        let time = if is_step {
-            self.run.clock.step_frame()
-        } else if self.run.clock.is_playing() && !self.run.is_covered {
-            // The first frame of a new program does not wait for the next tick.
-            let is_over = std::mem::replace(has_run, true) && !self.run.is_program_new;
-            if is_over || self.gives_way() {
-                return None;
-            }
-            self.run.clock.running_frame(self.now)
-        } else if self.run.is_frame_due || (self.run.is_again_due && self.run.clock.next_frame_number() == 0) {
-            self.run.clock.forced_frame()
-        } else {
-            return None;
-        };
-        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
+        // The first frame of a new program does not wait for the next tick.
+        let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way();
+        *has_run |= !is_step && self.playback.is_running();
+        let inputs = self.playback.next_frame(self.now, is_step, may_run)?;
         self.take_values_back();
-        Some(self.inputs(time))
-    }
-
-    fn inputs(&mut self, time: FrameTime) -> FrameInputs {
-        let inputs = FrameInputs {
-            frame: time.frame,
-            time_secs: time.time_secs,
-            time_delta_secs: time.time_delta_secs,
-            frame_rate: time.frame_rate,
-            mouse: self.run.mouse.next_frame(),
-            drag: self.run.mouse.dragged(),
-            date: date::i_date(date::now()),
-            keyboard: self.run.keyboard.clone(),
-        };
-        self.run.keyboard.frame_painted();
-        inputs
+        Some(inputs)
     }
 
     /// `again`: the frame that is shown is drawn again.
-    fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, reads: Reads) {
-        let stays = self.stays() && !std::mem::take(&mut self.run.replay.follows);
+    pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
+        let stays = self.stays() && !std::mem::take(&mut self.playback.replay.follows);
         // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
-            self.run.measuring.begin_frame(frame.frame);
+            self.watched.measuring.begin_frame(frame.frame);
         } else if again {
-            self.run.measuring.draw_again(self.run.clock.next_frame_number() - 1);
+            self.watched.measuring.draw_again(self.playback.frame());
         }
-        let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
+        let costs_of = self.watched.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
-        let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
+        let may_wait = self.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
         if self.drawing.wanted.program.is_some() {
             self.mark_new_code();
         }
         self.drawing.submit(self.now, may_wait, |job: &mut Job| {
-            (job.frame, job.stays, job.again, job.reads) = (frame, stays, again, reads);
+            (job.frame, job.stays, job.again, job.tasks) = (frame, stays, again, tasks);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
     }
@@ -126,28 +86,26 @@ impl Session {
     /// The next frame is followed by others like it. The first one of a program is seen however fast another follows, and
     /// so is one that is drawn while time stands.
     pub(super) fn is_one_of_many(&self) -> bool {
-        self.run.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty()
+        self.playback.clock.is_playing() && !self.picture.is_program_new && self.drawing.wanted.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
         self.drawing.is_apart().then(|| TileLimit { frame: self.halting.limit() })
     }
 
-    fn drew(&mut self, done: Done) -> bool {
-        for (capture, pixels) in done.captured {
-            self.write_capture(&capture, pixels);
-        }
+    fn take_done(&mut self, done: Done) -> bool {
+        self.write_captures();
         if let Some(why) = done.gave_up {
             self.engine_is_gone(&why);
             return false;
         }
-        if let Some(picture) = done.shown {
+        if let Some(Ok(picture)) = self.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
-        self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
+        self.picture.generation += u64::from(done.is_display_new && !self.drawing.is_apart());
         // An engine on the session's own thread draws into the display itself.
-        self.pictures_shown += u64::from(done.picture.is_some() || !self.drawing.is_apart());
-        self.run.is_picture_new |= done.picture.is_some();
+        self.picture.shown_count += u64::from(done.picture.is_some() || !self.drawing.is_apart());
+        self.picture.is_new |= done.picture.is_some();
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;
@@ -159,29 +117,12 @@ impl Session {
         if let Some(travelled) = done.travelled {
             self.travelled(travelled);
         }
-        self.changed |= !done.miniatures.is_empty();
-        self.run.miniatures.drew(has_frame, done.miniatures, done.miniatures_took);
-        self.changed |= self.run.buffers.drew(has_frame, done.buffers);
-        self.changed |= self.run.measuring.drew(has_frame, done.measured);
-        match done.replay {
-            Some((ReplayFrom::Oldest, replay)) => self.look_through(replay),
-            Some((ReplayFrom::Newest, replay)) => self.find_divergence(replay),
-            None => {}
-        }
-        if let Some(run) = done.run {
-            self.compare(run);
-        }
-        let has_numbers = done.numbers.is_some();
-        self.probing.drew(has_frame, done.numbers);
-        if has_numbers {
-            self.changed = true;
-            self.look_anew();
-        }
+        self.take_outputs(has_frame);
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
-                self.halting.pace.begin();
-                self.run.is_again_due |= !has_frame;
+                self.halting.begin_pace();
+                self.playback.is_again_due |= !has_frame;
                 self.changed = true;
             }
             Some((size, Err(e))) => self.size_refused(size, &e),
@@ -195,29 +136,15 @@ impl Session {
             }
             None => {}
         }
-        match done.inspected {
-            Some(Ok(taken)) => {
-                if let Some(taken) = self.audit(taken) {
-                    self.walk(taken);
-                }
-            }
-            Some(Err(e)) if self.audit_failed(&e.to_string()) => {}
-            Some(Err(e)) => {
-                self.tracing.failed(e.to_string());
-                self.changed = true;
-            }
-            None if has_frame => self.tracing.drew(),
-            None => {}
-        }
-        self.run.is_again_due |= done.custom_uniforms_changed && !has_frame;
-        self.changed |= self.run.costs.is_watched();
+        self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
+        self.changed |= self.watched.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
                 if let Some(picture) = picture {
                     // Also without a frame, where it is shown otherwise than before.
                     self.changed |= frame.is_none();
                     match self.drawing.show(&picture) {
-                        Ok(is_new) => self.display_generation += u64::from(is_new),
+                        Ok(is_new) => self.picture.generation += u64::from(is_new),
                         Err(e) => self.tell_of(&e),
                     }
                 }
@@ -234,91 +161,9 @@ impl Session {
         }
     }
 
-    /// Hands on the frames among which the first NaN is looked for.
-    fn look_through(&mut self, replay: Option<Replay>) {
-        self.changed = true;
-        let (Some(replay), Some(project)) = (replay, self.drawing.project().cloned()) else {
-            self.searching
-                .failed("no earlier frames are kept: reset and play again; very large buffers are never kept");
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.searching.failed(&e.to_string()),
-            Ok(gpu) => self.searching.submit(SearchJob {
-                gpu,
-                project,
-                shown: self.run.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
-                snapshot: replay.snapshot,
-                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
-            }),
-        }
-    }
-
-    /// Hands on the frames that lead to the traced one.
-    fn find_divergence(&mut self, replay: Option<Replay>) {
-        self.changed = true;
-        let Some(traced) = self.tracing.finding.of() else { return };
-        let Some(replay) = replay else {
-            let why = "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers \
-                       are never kept";
-            self.tracing.finding.failed(why);
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.tracing.finding.failed(&e.to_string()),
-            Ok(gpu) => self.tracing.finding.submit(DivergenceJob {
-                gpu,
-                traced,
-                shown: self.run.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
-                snapshot: replay.snapshot,
-                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
-            }),
-        }
-    }
-
-    /// Hands on the frames that both projects of a comparison draw.
-    fn compare(&mut self, run: Run) {
-        self.changed = true;
-        let Some(project) = self.drawing.project().cloned() else {
-            self.comparing.failed("nothing has been drawn yet");
-            return;
-        };
-        match self.drawing.device().wait() {
-            Err(e) => self.comparing.failed(&e.to_string()),
-            Ok(gpu) => self.comparing.submit(Order {
-                gpu,
-                project,
-                saved: self.documents.saved().clone(),
-                revision: self.documents.revision(),
-                shown: self.run.shown.clone(),
-                media_dir: self.options.media_dir.clone(),
-                trial: self
-                    .options
-                    .trials
-                    .as_ref()
-                    .map(|trials| trials.trial(self.options.media_dir.clone(), Arc::default())),
-                run,
-            }),
-        }
-    }
-
-    /// Hands on what the traced pass read.
-    fn walk(&mut self, taken: Taken) {
-        let (Some(place), Some(project)) = (self.tracing.place().cloned(), self.drawing.project().cloned()) else {
-            return;
-        };
-        let frame = (self.run.clock.next_frame_number() - 1).max(0);
-        self.tracing.submit(tracing::Job { project, place, frame, taken });
-        self.changed = true;
-    }
-
     /// Tells the engine how a probe is shown, if that is another way than before.
     pub(super) fn look_anew(&mut self) {
-        if let Some(look) = self.probing.take_look(false) {
+        if let Some(look) = self.watched.probing.take_look(false) {
             self.drawing.wanted.look = Some(look);
         }
     }
@@ -327,39 +172,35 @@ impl Session {
         let DrawnFrame { cpu_micros, times, took } = frame;
         self.picture_is_other();
         self.settled(About::Drawing);
-        self.run.cpu_micros = cpu_micros;
+        self.watched.cpu_micros = cpu_micros;
         if let Some(times) = times {
-            self.run.costs.add(times, self.drawing.clock());
+            self.watched.costs.add(times, self.drawing.clock());
         }
-        if std::mem::take(&mut self.run.is_program_new) && self.drawing.is_newest_program() {
-            self.programs_drawn += 1;
+        if std::mem::take(&mut self.picture.is_program_new) && self.drawing.is_newest_program() {
+            self.picture.programs_drawn += 1;
         }
-        if self.run.clock.is_playing() {
-            self.changed |= self.run.fps.frame(self.now);
-        } else {
-            self.changed = true;
-        }
+        self.changed |= self.playback.frame_is_drawn(self.now);
         self.frame_took(took);
     }
 
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.run.is_again_due = true;
-        self.run.seeking.awaits_program = false;
-        self.run.is_program_new = true;
+        self.playback.is_again_due = true;
+        self.playback.seeking.awaits_program = false;
+        self.picture.is_program_new = true;
         self.changed = true;
-        self.compile.state.compiling = self.is_compile_under_way();
+        self.compile.set_compiling(self.is_compile_under_way());
         if let Some(millis) = self.drawing.new_program_millis() {
             self.settled_by_edit();
-            self.compile.state.last = Some(self.compiled(millis));
-            if std::mem::take(&mut self.compile.reset_when_built) {
+            self.compile.succeed(millis);
+            if self.compile.take_reset() {
                 self.reset();
             } else {
                 self.keep_inputs();
             }
         } else {
             // What is drawn is older than what the errors are about.
-            self.compile.state.last = Some(self.failed());
+            self.compile.fail(self.drawing.has_program());
         }
         self.halt_for_new_program(forecast);
     }
@@ -371,12 +212,12 @@ impl Session {
             self.engine_is_gone(&error.to_string());
             return;
         }
-        self.run.clock.pause();
+        self.playback.clock.pause();
         self.end_replay("a frame could not be drawn");
-        (self.run.is_frame_due, self.run.is_again_due) = (false, false);
+        self.playback.forget_due_frames();
         if !is_lost {
             self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
-        } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
+        } else if self.halting.lose_device() {
             self.notice_about(
                 About::Window,
                 Level::Error,
@@ -390,97 +231,9 @@ impl Session {
         self.drawing.show_on(window)?;
         // Handed out once more, also while paused.
         self.drawing.wanted.shown = Some(self.pictured());
-        self.display_generation += 1;
-        self.pictures_shown += 1;
+        self.picture.generation += 1;
+        self.picture.shown_count += 1;
         self.changed = true;
         Ok(())
-    }
-
-    /// Writes the shown pass to a new file, as soon as the engine has time.
-    pub(super) fn capture(&mut self, format: capture::Format) {
-        if !self.drawing.has_program() {
-            self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
-            return;
-        }
-        let project = self.documents.current();
-        self.drawing.captures.push(Capture {
-            pass: self.pictured(),
-            format,
-            folder: capture::folder_for(project, &self.options.pictures),
-            stem: capture::stem_for(project, &self.run.shown),
-        });
-        if !self.drawing.is_apart() {
-            let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, false, Reads { captures, ..Reads::default() });
-            self.take_drawn(false);
-        }
-    }
-
-    fn write_capture(&mut self, capture: &Capture, pixels: Result<Pixels, EngineError>) {
-        let pixels = match pixels {
-            Ok(pixels) => pixels,
-            Err(e) => {
-                self.notice_about(About::Capture, Level::Error, format!("cannot save the screenshot: {e}"));
-                return;
-            }
-        };
-        match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
-            Ok(path) => {
-                let text = format!("saved {}", path.display());
-                self.notice_with_path(About::Capture, Level::Info, text, path);
-            }
-            Err(e) => self.notice_about(About::Capture, Level::Error, e.to_string()),
-        }
-    }
-}
-
-impl Session {
-    /// Returns what is due to be read now, behind the frame that is due, if one is.
-    pub(super) fn due_reads(&mut self, is_frame: bool) -> Reads {
-        let is_playing = self.run.clock.is_playing() && !self.run.is_covered;
-        // Another project's engine says that it has no program.
-        let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
-        let mut reads = Reads::default();
-        // A canvas between two pictures has none.
-        let is_between = self.drawing.wanted.size.is_some() || self.run.is_again_due;
-        if is_between && !is_frame && is_there && self.halting.halt.is_none() {
-            return reads;
-        }
-        if is_frame || is_there || self.drawing.wanted.restart {
-            self.read_pictures(is_frame, is_playing, &mut reads);
-        }
-        if is_there && !self.is_compile_under_way() {
-            self.read_inputs(is_playing, &mut reads);
-        }
-        reads
-    }
-
-    /// Adds pictures and numbers, which are of the newest program, after the frame that is due.
-    fn read_pictures(&mut self, is_frame: bool, is_playing: bool, reads: &mut Reads) {
-        reads.captures = take(&mut self.drawing.captures);
-        reads.wants_picture = self.last_pictures.take_due() && self.is_picture_of_project();
-        reads.miniatures = self.run.miniatures.take_due(self.now, is_playing);
-        reads.buffers = self.run.buffers.take_due(self.now, is_playing);
-        let is_busy = is_playing || self.run.seeking.is_seeking();
-        reads.measures = self.run.measuring.take_due(self.now, is_frame, is_busy);
-        reads.numbers = self.probing.take_due(self.now, is_playing);
-    }
-
-    /// Adds what the newest program was drawn with. An audit goes before a trace, which waits until nothing more is to
-    /// be drawn.
-    fn read_inputs(&mut self, is_playing: bool, reads: &mut Reads) {
-        // For one at a time.
-        reads.wants_replay = if take(&mut self.searching.is_due) {
-            Some(ReplayFrom::Oldest)
-        } else {
-            self.tracing.finding.take_due().then_some(ReplayFrom::Newest)
-        };
-        reads.wants_run = take(&mut self.comparing.is_due);
-        reads.inspect = self.auditing.take_due(&self.run.shown);
-        let is_settled = !is_playing && !self.run.is_frame_due && !self.run.is_again_due && self.run.steps == 0;
-        if is_settled && reads.inspect.is_none() && self.tracing.is_due {
-            reads.inspect = self.tracing.place().map(|place| place.pass.clone());
-            self.tracing.is_due = reads.inspect.is_none();
-        }
     }
 }

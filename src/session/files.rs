@@ -104,7 +104,7 @@ impl Session {
         }
         self.settle_includes();
         if !self.is_dirty() {
-            self.compile_saved();
+            self.compile.saved();
             self.notice(Level::Info, "nothing to save: the files are up to date");
             return true;
         }
@@ -162,7 +162,7 @@ impl Session {
                     self.tell_of_kept(replaced.len(), kept);
                 }
                 // Pictures are read from the new place, and the compile's texts have new names.
-                self.disk.opened += 1;
+                self.disk.has_moved();
                 self.compile_soon();
                 self.finish_save();
             }
@@ -201,15 +201,8 @@ impl Session {
         self.documents.set_saved(project);
         self.place_known();
         self.disk_is_known();
-        self.compile_saved();
+        self.compile.saved();
         self.notice(Level::Info, format!("saved {place}"));
-    }
-
-    /// Compiles what waited for it to be saved.
-    fn compile_saved(&mut self) {
-        if self.compile.waits_for_save {
-            self.compile_soon();
-        }
     }
 
     fn finish_save(&mut self) {
@@ -294,7 +287,7 @@ impl Session {
         again.extend(project::declare_channels(&mut project));
         let is_new = |d: &&Diagnostic| !again.iter().any(|other| other.repeats(d));
         let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
-        self.compile.read = kept;
+        self.compile.note_reading(kept);
     }
 
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {

@@ -3,8 +3,12 @@
 //! Owns the files, one a project, in the folder for what can be made again: so many of so many pixels at most. One is
 //! written when its project is closed, or covered by that list.
 
-use super::kept_files;
-use eddy_engine::Picture;
+use super::{
+    drawing::{Tasks, Ticket},
+    kept_files,
+    read_back::ReadPicture,
+};
+use eddy_engine::{EngineError, Picture};
 use eddy_project as project;
 use image::{RgbImage, codecs::jpeg::JpegEncoder, imageops};
 use std::{
@@ -26,11 +30,12 @@ pub(super) struct LastPictures {
     written: u64,
     /// The open project's is to be written when the engine has time.
     is_due: bool,
+    pub ticket: Ticket<Result<Picture, EngineError>>,
 }
 
 impl LastPictures {
     pub fn new(cache_dir: Option<&Path>) -> Self {
-        Self { folder: cache_dir.map(|dir| dir.join("pictures")), written: 0, is_due: false }
+        Self { folder: cache_dir.map(|dir| dir.join("pictures")), written: 0, is_due: false, ticket: Ticket::default() }
     }
 
     /// The open project's picture is wanted, and the project stays open.
@@ -38,8 +43,11 @@ impl LastPictures {
         self.is_due = self.folder.is_some();
     }
 
-    pub fn take_due(&mut self) -> bool {
-        std::mem::take(&mut self.is_due)
+    /// Asks for the picture where it is wanted, and is the project's own.
+    pub fn request(&mut self, is_of_project: bool, tasks: &mut Tasks) {
+        if std::mem::take(&mut self.is_due) && is_of_project {
+            self.ticket = tasks.add(ReadPicture);
+        }
     }
 
     pub fn written(&self) -> u64 {

@@ -1,5 +1,9 @@
 //! Small pictures of passes for panels that show them: which are wanted, when, and the newest of each.
 
+use super::{
+    drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
+    read_back::{Moment, ReadBack},
+};
 use eddy_engine::Miniature;
 use eddy_project::PassId;
 use std::{
@@ -14,6 +18,22 @@ const SHARE: u32 = 10;
 
 type Target = (PassId, usize);
 
+/// Draws small pictures of targets.
+#[derive(Debug, PartialEq)]
+struct DrawMiniatures(Vec<Target>);
+
+impl RenderTask for DrawMiniatures {
+    /// One for each that was asked for and is drawn.
+    type Output = Vec<(Target, Miniature)>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let engine = renderer.engine_mut();
+        // A pass that nobody reads is not drawn, and has none.
+        let picture = |target: Target| Some((engine.miniature(&target.0, target.1).ok()?, target));
+        self.0.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect()
+    }
+}
+
 #[derive(Default)]
 pub(super) struct Miniatures {
     watched: Vec<Target>,
@@ -24,6 +44,7 @@ pub(super) struct Miniatures {
     taken_at: Option<Instant>,
     /// The time that the last ones took.
     took: Duration,
+    ticket: Ticket<Vec<(Target, Miniature)>>,
 }
 
 impl Miniatures {
@@ -38,34 +59,43 @@ impl Miniatures {
         self.known.get(&(pass.clone(), index)).map(|(picture, generation)| (picture, *generation))
     }
 
-    /// Another project's targets may have these names.
-    pub fn of_next_project(&self) -> Self {
-        Self { watched: self.watched.clone(), generation: self.generation, is_due: true, ..Self::default() }
-    }
-
     /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
-    pub fn take_due(&mut self, now: Instant, is_running: bool) -> Vec<Target> {
+    fn due(&mut self, now: Instant, is_running: bool) -> Option<DrawMiniatures> {
         let is_early = self.taken_at.is_some_and(|at| now.saturating_duration_since(at) < EVERY.max(SHARE * self.took));
         if self.watched.is_empty() || !self.is_due || (is_running && is_early) {
-            return Vec::new();
+            return None;
         }
         (self.is_due, self.taken_at) = (false, Some(now));
-        self.watched.clone()
+        Some(DrawMiniatures(self.watched.clone()))
+    }
+}
+
+impl ReadBack for Miniatures {
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
+        if let Some(task) = self.due(at.now, at.is_playing) {
+            self.ticket = tasks.add(task);
+        }
     }
 
-    /// Takes what has come back, with a frame or without one.
-    pub fn drew(&mut self, has_frame: bool, pictures: Vec<(Target, Miniature)>, took: Duration) {
-        if pictures.is_empty() {
+    fn receive(&mut self, has_frame: bool) -> bool {
+        let Some(Finished { output, took }) = self.ticket.take().filter(|finished| !finished.output.is_empty()) else {
             self.is_due |= has_frame;
-        } else {
-            self.took = took;
-        }
-        for (target, picture) in pictures {
+            return false;
+        };
+        self.took = took;
+        for (target, picture) in output {
             self.generation += 1;
             if self.watched.contains(&target) {
                 self.known.insert(target, (picture, self.generation));
             }
         }
+        true
+    }
+
+    fn begin_next_project(&mut self) {
+        // Another project's targets may have these names.
+        let (watched, generation) = (std::mem::take(&mut self.watched), self.generation);
+        *self = Self { watched, generation, is_due: true, ..Self::default() };
     }
 }
 
@@ -83,22 +113,25 @@ mod tests {
     #[test]
     fn only_what_is_watched_is_read_and_no_more_often_than_it_is_seen() {
         let (a, now) = ((PassId::Buffer("A".into()), 0), Instant::now());
+        let wanted = || Some(DrawMiniatures(vec![a.clone()]));
         let mut small = Miniatures::default();
-        small.drew(true, vec![], SHORT);
-        assert_eq!(small.take_due(now, true), []);
+        small.receive(true);
+        assert_eq!(small.due(now, true), None);
         small.watch(vec![a.clone()]);
-        assert_eq!(small.take_due(now, true), std::slice::from_ref(&a));
-        small.drew(true, vec![(a.clone(), picture(1))], SHORT);
+        assert_eq!(small.due(now, true), wanted());
+        small.ticket = Ticket::finished(vec![(a.clone(), picture(1))], SHORT);
+        small.receive(true);
         assert_eq!(small.get(&a.0, 0).unwrap().0, &picture(1));
-        assert_eq!(small.take_due(now + EVERY, true), [], "nothing was drawn since");
-        small.drew(true, vec![], SHORT);
-        assert_eq!(small.take_due(now + EVERY / 2, true), [], "too early while it runs");
-        assert_eq!(small.take_due(now + EVERY / 2, false), std::slice::from_ref(&a), "the last frame before a pause");
-        small.drew(false, vec![(a.clone(), picture(2))], EVERY);
-        assert_eq!(small.take_due(now + 9 * EVERY, false), [], "paused, it rests");
-        small.drew(true, vec![], Duration::ZERO);
-        assert_eq!(small.take_due(now + 9 * EVERY, true), [], "they took long");
-        assert_eq!(small.take_due(now + 11 * EVERY, true), std::slice::from_ref(&a));
+        assert_eq!(small.due(now + EVERY, true), None, "nothing was drawn since");
+        small.receive(true);
+        assert_eq!(small.due(now + EVERY / 2, true), None, "too early while it runs");
+        assert_eq!(small.due(now + EVERY / 2, false), wanted(), "the last frame before a pause");
+        small.ticket = Ticket::finished(vec![(a.clone(), picture(2))], EVERY);
+        small.receive(false);
+        assert_eq!(small.due(now + 9 * EVERY, false), None, "paused, it rests");
+        small.receive(true);
+        assert_eq!(small.due(now + 9 * EVERY, true), None, "they took long");
+        assert_eq!(small.due(now + 11 * EVERY, true), wanted());
         let generation = small.get(&a.0, 0).unwrap().1;
         small.watch(vec![]);
         assert!(small.get(&a.0, 0).is_none() && generation > 1);

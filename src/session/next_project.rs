@@ -7,22 +7,12 @@
 
 use super::{
     Session,
-    clock::Clock,
     command::{Question, Request},
-    costs::Costs,
-    debounce::Debounce,
     documents::Documents,
-    fps::FpsMeter,
-    options::SessionOptions,
-    probe::Probing,
-    replay::Replay,
-    seek::Seeking,
-    state::{Canvas, Compile, Dialog, Disk, Run},
-    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
-    view::CompileState,
+    drawing::Ticket,
+    state::{Dialog, Picture},
+    uniforms::TextUniforms,
 };
-use eddy_media::Keyboard;
-use eddy_playback::mouse::Mouse;
 use eddy_project::PassId;
 
 impl Session {
@@ -35,73 +25,26 @@ impl Session {
         self.projects_opened += 1;
         self.text_generation += 1;
         self.forget_notices();
-        self.safekeeping.kept = None;
+        self.unsaved.kept = None;
         self.passes.clear();
-        self.canvas = self.canvas.of_next_project();
-        self.compile = self.compile.of_next_project(&self.options);
-        self.disk.begin_next_project(&self.options);
+        self.canvas.begin_next_project();
+        self.compile.begin_next_project();
+        self.uniforms = TextUniforms::default();
+        self.disk.begin_next_project();
         self.dialog.begin_next_project();
-        self.run.begin_next_project();
-        // A compile of the project that goes may end before the new one's begins.
-        self.compiler.forget();
-        self.probing = Probing::default();
-        self.tracing.forget();
-        self.auditing.forget();
-        self.searching.forget();
-        self.comparing.forget();
+        self.playback.begin_next_project();
+        self.picture.begin_next_project();
+        self.watched.begin_next_project();
+        self.last_pictures.ticket = Ticket::default();
+        self.tracing.want(None);
+        self.auditing.begin_next_project();
+        self.searching.want(false);
+        self.comparing.begin_next_project();
         self.take_time_up();
         self.halt_for_new_project();
         self.disk_is_known();
         self.compile_soon();
         self.read_declared_uniforms();
-    }
-}
-
-impl Canvas {
-    fn of_next_project(&self) -> Canvas {
-        let Canvas { viewport, asked: _, usual, replayed: _, refused: _ } = *self;
-        Canvas { viewport, asked: usual, usual, replayed: None, refused: None }
-    }
-}
-
-impl Compile {
-    fn of_next_project(&self, options: &SessionOptions) -> Compile {
-        Compile {
-            edits: Debounce::new(options.edit_debounce),
-            jobs: self.jobs.clone(),
-            edited: false,
-            include_edits: self.include_edits,
-            includes_read: self.include_edits,
-            is_wanted: true,
-            is_look_wanted: false,
-            reset_when_built: false,
-            state: CompileState::default(),
-            diagnostics: Vec::new(),
-            read: Vec::new(),
-            fallback: None,
-            newest_since: None,
-            edited_at: None,
-            renamed_uniforms: RenamedUniforms::new(),
-            declared_uniforms: DeclaredUniforms::default(),
-            on_save: self.on_save,
-            waits_for_save: false,
-        }
-    }
-}
-
-impl Disk {
-    fn begin_next_project(&mut self, options: &SessionOptions) {
-        *self = Disk {
-            watch: self.watch.take(),
-            changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
-            is_check_wanted: false,
-            unsettled_since: None,
-            told: None,
-            manifest: None,
-            opened: self.opened + 1,
-            media_files: Vec::new(),
-            reset_on_reload: self.reset_on_reload,
-        };
     }
 }
 
@@ -115,30 +58,8 @@ impl Dialog {
     }
 }
 
-impl Run {
+impl Picture {
     fn begin_next_project(&mut self) {
-        *self = Run {
-            clock: Clock::default(),
-            mouse: Mouse::default(),
-            keyboard: Keyboard::default(),
-            shown: PassId::Image,
-            is_frame_due: false,
-            is_again_due: false,
-            is_program_new: false,
-            is_picture_new: self.is_picture_new,
-            waits_for_painting: self.waits_for_painting,
-            steps: 0,
-            seeking: Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() },
-            is_covered: self.is_covered,
-            is_device_lost: self.is_device_lost,
-            fps: FpsMeter::default(),
-            cpu_micros: 0.0,
-            costs: Costs::watched(self.costs.is_watched()),
-            miniatures: self.miniatures.of_next_project(),
-            buffers: self.buffers.of_next_project(),
-            measuring: self.measuring.of_next_project(),
-            recorder: None,
-            replay: Replay::default(),
-        };
+        (self.shown, self.is_program_new) = (PassId::Image, false);
     }
 }

@@ -130,13 +130,13 @@ impl Session {
     /// Lets what is known of a pass by its name go on under its new one.
     fn follow_rename(&mut self, from: &PassId, to: &PassId) {
         self.renamed.push((from.clone(), to.clone()));
-        if self.run.shown == *from {
-            self.run.shown = to.clone();
+        if self.picture.shown == *from {
+            self.picture.shown = to.clone();
         }
     }
 
     pub(super) fn passes_changed(&mut self) {
-        self.compile.include_edits += 1;
+        self.compile.includes_changed();
         self.text_generation += 1;
         self.show_image_if_gone();
         self.compile_soon();
@@ -145,8 +145,8 @@ impl Session {
 
     /// Shows Image where the shown pass is no more.
     pub(super) fn show_image_if_gone(&mut self) {
-        if self.project().pass(&self.run.shown).is_none() {
-            self.run.shown = PassId::Image;
+        if self.project().pass(&self.picture.shown).is_none() {
+            self.picture.shown = PassId::Image;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A front end reads here what it shows of a [`Session`]. Nothing is changed.
 
 use super::{
-    Session, TraceView,
+    Session,
     buffers::BufferRead,
     command::Question,
     costs::PassCosts,
@@ -9,10 +9,8 @@ use super::{
     recent::RecentProject,
     view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
 };
-use eddy_debugger::nonfinite::SearchView;
 use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
 use eddy_gpu::Gpu;
-use eddy_playback::comparing::{Compared, ComparisonView};
 use eddy_project::{CustomUniform, PassId, Project, Tab};
 use std::{
     path::{Path, PathBuf},
@@ -29,12 +27,12 @@ impl Session {
 
     /// Grows whenever [`Session::display`] may have become another texture.
     pub fn display_generation(&self) -> u64 {
-        self.display_generation
+        self.picture.generation
     }
 
     /// Grows whenever the texels of [`Session::display`] may have changed.
     pub fn pictures_shown(&self) -> u64 {
-        self.pictures_shown
+        self.picture.shown_count
     }
 
     /// The device that shows the picture.
@@ -59,12 +57,12 @@ impl Session {
     /// Returns how many programs have drawn a frame so far, each of the text that was the newest: it grows when an edit
     /// is in the picture.
     pub fn programs_drawn(&self) -> u64 {
-        self.programs_drawn
+        self.picture.programs_drawn
     }
 
     /// Returns how long typing has to rest before it is compiled.
     pub fn edit_debounce(&self) -> Duration {
-        self.compile.edits.quiet()
+        self.compile.quiet()
     }
 
     /// Returns a number that grows whenever a text was changed by something else than
@@ -92,7 +90,7 @@ impl Session {
 
     /// Counts the times that a project was opened or took a new place.
     pub fn opened(&self) -> u64 {
-        self.disk.opened
+        self.disk.opened()
     }
 
     /// Counts the projects that have taken the place of another: what a front end keeps of one is to be forgotten.
@@ -103,14 +101,14 @@ impl Session {
     /// Edits wait to be compiled until they are saved: see
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
-        self.compile.waits_for_save
+        self.compile.waits_for_save()
     }
 
     /// The author's own uniforms, as the running program declares them. Where it declares none, or there is no program
     /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         match self.drawing.custom_uniforms() {
-            [] => &self.compile.declared_uniforms.list,
+            [] => &self.uniforms.declared,
             drawn => drawn,
         }
     }
@@ -133,96 +131,76 @@ impl Session {
 
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
-        &self.compile.diagnostics
+        self.compile.diagnostics()
     }
 
     pub fn compile_state(&self) -> &CompileState {
-        &self.compile.state
+        self.compile.state()
     }
 
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
-        let playing = self.run.clock.is_playing() || self.run.seeking.resumes;
+        let playing = self.playback.is_playing();
         // Nothing is measured of what is not drawn.
-        let is_drawn = playing && self.drawing.has_program() && self.run.clock.next_frame_number() > 0;
+        let is_drawn = playing && self.drawing.has_program() && self.playback.has_drawn();
         Transport {
             playing,
-            time_secs: self.run.clock.time_secs(),
-            frame: (self.run.clock.next_frame_number() - 1).max(0),
-            fps: Some(self.run.fps.fps).filter(|fps| is_drawn && *fps > 0.0),
+            time_secs: self.playback.clock.time_secs(),
+            frame: self.playback.frame(),
+            fps: self.playback.fps().filter(|_| is_drawn),
             gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
-            cpu_micros: is_drawn.then_some(self.run.cpu_micros),
+            cpu_micros: is_drawn.then_some(self.watched.cpu_micros),
             resolution: self.drawing.size(),
             scale: self.canvas.asked.scale,
             fixed_size: self.canvas.asked.fixed,
-            speed: self.run.clock.speed(),
-            fixed_rate: self.run.clock.fixed_rate(),
-            is_seeking: self.run.seeking.is_seeking(),
+            speed: self.playback.clock.speed(),
+            fixed_rate: self.playback.clock.fixed_rate(),
+            is_seeking: self.playback.is_seeking(),
         }
     }
 
     /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
     pub fn pass_times(&self) -> &[PassTime] {
-        self.run.costs.newest()
+        self.watched.costs.newest()
     }
 
     /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
     /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a
     /// frame was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
-        self.run.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
+        self.watched.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
     }
 
     /// Returns a small picture of one of a pass's targets, while it is watched
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
-        self.run.miniatures.get(pass, index)
+        self.watched.miniatures.get(pass, index)
     }
 
     /// Returns the target that is looked at closely ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a
     /// number that grows with each new one.
     pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
-        self.run.buffers.shown()
+        self.watched.buffers.shown()
     }
 
     /// Returns the texel of each target at the place that is looked at.
     pub fn texels_under(&self) -> &[TexelAt] {
-        self.run.buffers.under()
-    }
-
-    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)).
-    pub fn search(&self) -> SearchView<'_> {
-        self.searching.view()
-    }
-
-    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)).
-    pub fn comparison(&self) -> ComparisonView<'_> {
-        self.comparing.view()
-    }
-
-    /// The newest comparison is not of the project as it stands now.
-    pub fn is_comparison_old(&self) -> bool {
-        matches!(self.comparing.view(), Some(Compared::Ended(Ok(done))) if done.revision != self.documents.revision())
+        self.watched.buffers.under()
     }
 
     /// Returns what is drawn instead of the picture, while somebody has asked for it: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
-        self.probing.view()
-    }
-
-    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
-    pub fn trace(&self) -> TraceView<'_> {
-        self.tracing.view()
+        self.watched.probing.view()
     }
 
     /// Returns what the display shows: the shown pass, or a value of the code.
     pub(super) fn pictured(&self) -> PassId {
-        if self.probing.is_drawn() { BuildOptions::probed() } else { self.run.shown.clone() }
+        if self.watched.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
 
     pub fn shown_pass(&self) -> &PassId {
-        &self.run.shown
+        &self.picture.shown
     }
 
     pub fn reset_on_reload(&self) -> bool {
@@ -231,17 +209,17 @@ impl Session {
 
     /// Oldest first; stay until dismissed.
     pub fn notices(&self) -> &[Notice] {
-        &self.notices
+        self.notices.list()
     }
 
     /// Returns why the picture stands still though nobody has paused it.
     pub fn halt(&self) -> Option<&Halt> {
-        self.halting.halt.as_ref()
+        self.halting.halt()
     }
 
     /// Returns whether there is code to go back to.
     pub fn has_last_good(&self) -> bool {
-        self.halting.good.is_some()
+        self.halting.good().is_some()
     }
 
     /// Returns what must be answered before anything else.

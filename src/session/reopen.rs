@@ -7,12 +7,12 @@
 
 use super::{
     Session,
-    clock::Clock,
-    drawing::{Done, Job},
+    canvas::CanvasSize,
+    drawing::{RenderTask, Tasks},
     kept_files,
+    playback::{Goal, clock::Clock},
+    read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
-    seek::Goal,
-    state::CanvasSize,
     view::{About, Level},
 };
 use eddy_engine::Picture;
@@ -40,13 +40,13 @@ impl Session {
     /// Keeps where the open project's time stands.
     pub(super) fn keep_time(&mut self) {
         // What was left last time has not been drawn again yet: it is what is left.
-        if self.run.seeking.is_taking_up {
+        if self.playback.seeking.is_taking_up {
             return;
         }
         self.keep_picture();
-        let clock = &self.run.clock;
+        let clock = &self.playback.clock;
         // A picture that a halt has paused runs again once it is drawn fast.
-        let is_paused = !self.is_playing() && !self.halting.resumes;
+        let is_paused = !self.is_playing() && !self.halting.resumes();
         let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
         let left = Left {
             time_secs: clock.time_secs(),
@@ -81,12 +81,11 @@ impl Session {
     /// Keeps the picture that is shown, before its project is closed.
     fn keep_picture(&mut self) {
         // A device that is too slow is not waited for.
-        if !self.last_pictures.is_kept() || self.halting.halt.is_some() || !self.is_picture_of_project() {
+        if !self.last_pictures.is_kept() || self.halting.is_halted() || !self.is_picture_of_project() {
             return;
         }
         let end = Instant::now() + PATIENCE;
-        let done = self.ask_engine(end, |job: &mut Job| job.reads.wants_picture = true);
-        if let Some(picture) = done.and_then(|done| done.shown) {
+        if let Some(Ok(picture)) = self.ask_engine(end, ReadPicture) {
             self.picture_is_read(&picture);
         }
     }
@@ -94,9 +93,9 @@ impl Session {
     /// Returns whether the picture is what the project draws: not that of the project before, nor a probe, nor a frame on
     /// the way to another.
     pub(super) fn is_picture_of_project(&self) -> bool {
-        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.run.is_program_new;
-        let is_passing = self.probing.view().is_some() || self.run.seeking.is_seeking();
-        is_drawn && self.run.clock.next_frame_number() > 0 && !is_passing
+        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.picture.is_program_new;
+        let is_passing = self.watched.probing.view().is_some() || self.playback.is_seeking();
+        is_drawn && self.playback.has_drawn() && !is_passing
     }
 
     pub(super) fn picture_is_read(&mut self, picture: &Picture) {
@@ -109,19 +108,21 @@ impl Session {
 
     /// Asks the engine for the run, and waits for it, but not for long.
     fn take_run(&mut self) -> Option<Run> {
-        self.ask_engine(Instant::now() + PATIENCE, |job: &mut Job| job.reads.wants_run = true)?.run
+        self.ask_engine(Instant::now() + PATIENCE, TakeRun)
     }
 
     /// Asks the engine for something that it has, and waits for it until then.
-    fn ask_engine(&mut self, end: Instant, ask: impl FnOnce(&mut Job)) -> Option<Done> {
+    fn ask_engine<T: RenderTask>(&mut self, end: Instant, task: T) -> Option<T::Output> {
         self.rest_until(end)?;
+        let mut tasks = Tasks::default();
+        let mut ticket = tasks.add(task);
         // What else is wanted is done later, if the project stays.
         let wanted = std::mem::take(&mut self.drawing.wanted);
-        self.drawing.submit(self.now, false, ask);
+        self.drawing.submit(self.now, false, |job| job.tasks = tasks);
         self.drawing.wanted = wanted;
         loop {
-            if let Some(done) = self.drawing.take(true) {
-                return Some(done);
+            if self.drawing.take(true).is_some() {
+                return ticket.take().map(|finished| finished.output);
             }
             if Instant::now() >= end {
                 return None;
@@ -148,15 +149,15 @@ impl Session {
         self.take_size_up(size, scale);
         let is_playing = !paused;
         if !self.has_state() {
-            self.run.clock = Clock::at(time_secs, frame, is_playing);
-            self.run.is_frame_due = true;
+            self.playback.clock = Clock::at(time_secs, frame, is_playing);
+            self.playback.is_frame_due = true;
             return;
         }
-        self.run.clock = Clock::at(0.0, None, is_playing);
+        self.playback.clock = Clock::at(0.0, None, is_playing);
         let origin = &self.documents.current().origin;
         let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
-        self.run.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
-        (self.run.seeking.awaits_program, self.run.seeking.is_taking_up) = (true, true);
+        self.playback.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
+        (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
     }
 

@@ -4,86 +4,62 @@
 use super::{
     SessionError, SessionOptions,
     analysis::Analyst,
-    auditing::Auditing,
-    buffers::Watching,
-    clock::Clock,
+    audit::Auditing,
+    canvas::Canvas,
     command::{PendingAction, Question, Request},
-    compile,
-    costs::Costs,
-    debounce::Debounce,
+    compare::Comparing,
+    compile::CompileControl,
+    disk::DiskSync,
     documents::Documents,
     drawing::{self, Drawing},
-    fps::FpsMeter,
-    halt::Halting,
+    halt::HaltControl,
     last_pictures::LastPictures,
-    measuring::Measuring,
-    miniatures::Miniatures,
+    nonfinite::Searching,
+    notices::Notices,
     pass_history::PassHistory,
-    probe::Probing,
+    playback::Playback,
+    read_back::Watched,
     recent::Recent,
-    record::Recorder,
-    recovery::Safekeeping,
-    replay::Replay,
+    recovery::UnsavedWork,
     runs::Runs,
-    seek::Seeking,
-    tracing::Tracing,
-    uniforms_of_texts::{DeclaredUniforms, RenamedUniforms},
-    view::{About, CompileState, Level, Notice, TabDiagnostic},
-    watch::Watch,
+    trace::Tracing,
+    uniforms::TextUniforms,
+    view::{About, Level},
 };
-use eddy_background::Worker;
-use eddy_debugger::nonfinite::Searching;
 use eddy_gpu::Gpu;
-use eddy_media::Keyboard;
-use eddy_playback::{comparing::Comparing, mouse::Mouse};
-use eddy_project::{PassId, Project};
-use std::{
-    collections::VecDeque,
-    path::PathBuf,
-    sync::{Arc, atomic::AtomicU64},
-    time::Instant,
-};
+use eddy_project::PassId;
+use std::{collections::VecDeque, sync::Arc, time::Instant};
 
 /// An open project over time.
 pub struct Session {
     pub(super) options: SessionOptions,
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     // Before the drawing: its thread uses the device until it has ended.
-    pub(super) compiler: Worker<compile::Job, compile::Done>,
+    pub(super) compile: CompileControl,
     pub(super) analyst: Analyst,
     pub(super) drawing: Drawing,
-    pub(super) halting: Halting,
+    pub(super) halting: HaltControl,
     pub(super) documents: Documents,
     pub(super) canvas: Canvas,
-    pub(super) compile: Compile,
-    pub(super) disk: Disk,
+    pub(super) uniforms: TextUniforms,
+    pub(super) disk: DiskSync,
     pub(super) dialog: Dialog,
-    pub(super) safekeeping: Safekeeping,
+    pub(super) unsaved: UnsavedWork,
     pub(super) recent: Recent,
     pub(super) runs: Runs,
     pub(super) last_pictures: LastPictures,
-    pub(super) run: Run,
-    pub(super) probing: Probing,
+    pub(super) playback: Playback,
+    pub(super) picture: Picture,
+    pub(super) watched: Watched,
     pub(super) tracing: Tracing,
     pub(super) auditing: Auditing,
     /// The first NaN is looked for.
     pub(super) searching: Searching,
     pub(super) comparing: Comparing,
-    pub(super) notices: Vec<Notice>,
-    pub(super) next_notice: u64,
-    /// The number of the next notice when the command under way began.
-    pub(super) command_began: u64,
+    pub(super) notices: Notices,
     /// Counts the projects that have taken the place of another.
     pub(super) projects_opened: u64,
     pub(super) text_generation: u64,
-    pub(super) display_generation: u64,
-    pub(super) pictures_shown: u64,
-    /// Counts the programs of the newest text that have drawn a frame.
-    pub(super) programs_drawn: u64,
-    /// Counts the pictures of frames that the engine has drawn.
-    pub(super) frames_drawn: u64,
-    /// A frame was drawn between two ticks.
-    pub(super) has_drawn: bool,
     /// Counts the shaders begun by [`Command::New`](super::Command::New).
     pub(super) begun: u64,
     /// Edits of passes and channels.
@@ -96,85 +72,6 @@ pub struct Session {
     pub(super) now: Instant,
 }
 
-/// The size that the picture shall have.
-pub(super) struct Canvas {
-    pub viewport: Option<(u32, u32)>,
-    pub asked: CanvasSize,
-    /// The size that was asked for before any project was opened: each begins with it.
-    pub usual: CanvasSize,
-    /// The size of a recording that is played, or was until now.
-    pub replayed: Option<(u32, u32)>,
-    /// A size the device did not take; not tried again.
-    pub refused: Option<(u32, u32)>,
-}
-
-/// The size that a person has asked for, for the open project.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct CanvasSize {
-    /// Canvas pixels to viewport pixels.
-    pub scale: f32,
-    pub fixed: Option<(u32, u32)>,
-}
-
-impl Default for CanvasSize {
-    fn default() -> Self {
-        Self { scale: 1.0, fixed: None }
-    }
-}
-
-/// Keeps the way from texts to the running program.
-pub(super) struct Compile {
-    pub edits: Debounce,
-    /// Jobs that the compiler was given.
-    pub jobs: Arc<AtomicU64>,
-    /// A text was edited since the last tick.
-    pub edited: bool,
-    /// Edits are compiled when they are saved.
-    pub on_save: bool,
-    /// There are such edits.
-    pub waits_for_save: bool,
-    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
-    pub include_edits: u64,
-    pub includes_read: u64,
-    /// Compile in the next tick, whatever the debounce says.
-    pub is_wanted: bool,
-    /// See whether a picture or a model has changed on disk, as soon as the worker has time.
-    pub is_look_wanted: bool,
-    /// The program under way shall start from zero.
-    pub reset_when_built: bool,
-    pub state: CompileState,
-    pub diagnostics: Vec<TabDiagnostic>,
-    /// The diagnostics of reading the project that no compile says.
-    pub read: Vec<TabDiagnostic>,
-    /// The project that is to be compiled instead of the newest text.
-    pub fallback: Option<Project>,
-    /// Since when the worker compiles the newest text, if it does.
-    pub newest_since: Option<Instant>,
-    pub edited_at: Option<Instant>,
-    /// Uniforms that have another name in the texts than in the program that draws.
-    pub renamed_uniforms: RenamedUniforms,
-    pub declared_uniforms: DeclaredUniforms,
-}
-
-/// The project's files.
-pub(super) struct Disk {
-    pub watch: Option<Watch>,
-    pub changes: Debounce,
-    /// Look in the next tick, whatever the watch says.
-    pub is_check_wanted: bool,
-    /// Since when what is on disk makes no whole project.
-    pub unsettled_since: Option<Instant>,
-    /// The last words about such files, so that they are said once.
-    pub told: Option<String>,
-    /// `eddy.toml` as it was last read or written.
-    pub manifest: Option<Vec<u8>>,
-    /// Counts the times a project was opened or took a new place.
-    pub opened: u64,
-    /// Pictures, models and the files these name, as the last compile found them.
-    pub media_files: Vec<PathBuf>,
-    pub reset_on_reload: bool,
-}
-
 /// Questions to the user and requests to the front end.
 #[derive(Default)]
 pub(super) struct Dialog {
@@ -184,38 +81,40 @@ pub(super) struct Dialog {
     pub after_save: Option<PendingAction>,
 }
 
-/// The picture over time.
-pub(super) struct Run {
-    pub clock: Clock,
-    pub mouse: Mouse,
-    pub keyboard: Keyboard,
+/// The picture that is shown.
+pub(super) struct Picture {
     pub shown: PassId,
-    /// A frame must be drawn though time stands still.
-    pub is_frame_due: bool,
-    /// The frame that is shown must be drawn again: the code, the canvas or a value is another than it was drawn with.
-    pub is_again_due: bool,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
-    pub is_picture_new: bool,
+    pub is_new: bool,
     /// The next frame is handed in when that has been painted.
     pub waits_for_painting: bool,
-    pub steps: u32,
-    pub seeking: Seeking,
-    /// Nobody sees the picture.
-    pub is_covered: bool,
-    /// The device is gone for good.
-    pub is_device_lost: bool,
-    pub fps: FpsMeter,
-    pub cpu_micros: f64,
-    pub costs: Costs,
-    pub miniatures: Miniatures,
-    pub buffers: Watching,
-    pub measuring: Measuring,
-    /// The inputs of what is drawn are recorded.
-    pub recorder: Option<Recorder>,
-    /// The recording that is played.
-    pub replay: Replay,
+    /// A frame was drawn between two ticks.
+    pub has_drawn: bool,
+    /// Grows with each other texture, and with each picture in it.
+    pub generation: u64,
+    pub shown_count: u64,
+    /// Counts the programs of the newest text that have drawn a frame.
+    pub programs_drawn: u64,
+    /// Counts the pictures of frames that the engine has drawn.
+    pub frames_drawn: u64,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self {
+            shown: PassId::Image,
+            is_program_new: false,
+            is_new: false,
+            waits_for_painting: false,
+            has_drawn: false,
+            generation: 0,
+            shown_count: 0,
+            programs_drawn: 0,
+            frames_drawn: 0,
+        }
+    }
 }
 
 impl Session {
@@ -237,9 +136,7 @@ impl Session {
         } else {
             Drawing::inline(gpu, size)?
         };
-        let jobs = Arc::new(AtomicU64::new(0));
-        let work = compile::work(drawing.device(), &options, jobs.clone());
-        let compiler = Worker::new("compile", wake.clone(), work).map_err(SessionError::Thread)?;
+        let compile = CompileControl::new(drawing.device(), &options, wake.clone()).map_err(SessionError::Thread)?;
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
@@ -248,92 +145,29 @@ impl Session {
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
-            compiler,
             analyst,
             drawing,
-            halting: Halting::new(options.frame_limit, options.state_dir.clone()),
+            halting: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
             documents: Documents::new(super::template::project()),
-            canvas: Canvas {
-                viewport: None,
-                asked: CanvasSize::default(),
-                usual: CanvasSize::default(),
-                replayed: None,
-                refused: None,
-            },
-            compile: Compile {
-                edits: Debounce::new(options.edit_debounce),
-                jobs,
-                edited: false,
-                on_save: false,
-                waits_for_save: false,
-                include_edits: 0,
-                includes_read: 0,
-                is_wanted: true,
-                is_look_wanted: false,
-                reset_when_built: false,
-                state: CompileState::default(),
-                diagnostics: Vec::new(),
-                read: Vec::new(),
-                fallback: None,
-                newest_since: None,
-                edited_at: None,
-                renamed_uniforms: RenamedUniforms::new(),
-                declared_uniforms: DeclaredUniforms::default(),
-            },
-            disk: Disk {
-                watch: None,
-                changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
-                is_check_wanted: false,
-                unsettled_since: None,
-                told: None,
-                manifest: None,
-                opened: 0,
-                media_files: Vec::new(),
-                reset_on_reload: false,
-            },
+            canvas: Canvas::default(),
+            compile,
+            uniforms: TextUniforms::default(),
+            disk: DiskSync::new(&options),
             dialog: Dialog::default(),
-            safekeeping: Safekeeping::default(),
+            unsaved: UnsavedWork::default(),
             recent,
             runs: Runs::new(options.state_dir.as_deref()),
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
-            run: Run {
-                clock: Clock::default(),
-                mouse: Mouse::default(),
-                keyboard: Keyboard::default(),
-                shown: PassId::Image,
-                is_frame_due: false,
-                is_again_due: false,
-                is_program_new: false,
-                is_picture_new: false,
-                waits_for_painting: false,
-                steps: 0,
-                seeking: Seeking::default(),
-                is_covered: false,
-                is_device_lost: false,
-                fps: FpsMeter::default(),
-                cpu_micros: 0.0,
-                costs: Costs::default(),
-                miniatures: Miniatures::default(),
-                buffers: Watching::default(),
-                measuring: Measuring::default(),
-                recorder: None,
-                replay: Replay::default(),
-            },
-            probing: Probing::default(),
+            playback: Playback::default(),
+            picture: Picture::default(),
+            watched: Watched::default(),
             tracing,
             auditing,
             searching,
             comparing,
-            notices: Vec::new(),
-            next_notice: 0,
-            command_began: 0,
+            notices: Notices::default(),
             projects_opened: 0,
             text_generation: 0,
-            display_generation: 0,
-            pictures_shown: 0,
-            programs_drawn: 0,
-            frames_drawn: 0,
-            has_drawn: false,
             begun: 0,
             passes: PassHistory::default(),
             renamed: Vec::new(),
@@ -341,8 +175,8 @@ impl Session {
             now: Instant::now(),
             options,
         };
-        match Safekeeping::new(session.options.recovery.clone(), &session.wake) {
-            Ok(safekeeping) => session.safekeeping = safekeeping,
+        match UnsavedWork::new(session.options.recovery.clone(), &session.wake) {
+            Ok(unsaved) => session.unsaved = unsaved,
             Err(e) => session.notice_about(
                 About::Window,
                 Level::Warning,
@@ -352,7 +186,6 @@ impl Session {
         if let Some(why) = forgotten {
             session.notice_about(About::Window, Level::Warning, why);
         }
-        session.compile.state.compiling = true;
         Ok(session)
     }
 

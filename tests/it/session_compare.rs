@@ -3,11 +3,11 @@
 use crate::support::{self, stage::*};
 use eddy::{
     playback::{
-        comparing::{Baseline, Compared, Comparison},
+        comparing::{Baseline, Comparison},
         trial::TrialSettings,
     },
     project::PassId,
-    session::{Command, Session},
+    session::{Command, Session, Status},
 };
 use std::{fs, sync::Arc};
 
@@ -22,7 +22,7 @@ const FILES: [(&str, &str); 2] = [("buffer_a.glsl", HISTORY), ("image.glsl", SHO
 
 fn ended(session: &Session) -> Option<Result<&Arc<Comparison>, &str>> {
     match session.comparison() {
-        Some(Compared::Ended(end)) => Some(end),
+        Some(Status::Ended(end)) => Some(end),
         _ => None,
     }
 }
@@ -30,7 +30,7 @@ fn ended(session: &Session) -> Option<Result<&Arc<Comparison>, &str>> {
 /// Compares, and waits for the end.
 fn compare(stage: &mut Stage, against: Baseline) -> Result<Arc<Comparison>, String> {
     stage.session.apply(Command::Compare(Some(against)));
-    assert!(matches!(stage.session.comparison(), Some(Compared::UnderWay { .. })));
+    assert!(matches!(stage.session.comparison(), Some(Status::UnderWay(_))));
     stage.until("the end of a comparison", |s| ended(s).is_some());
     ended(&stage.session).unwrap().cloned().map_err(str::to_owned)
 }

@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     project::{PassId, Tab},
-    session::{Command, Level, Session, SessionOptions, measuring::Measure},
+    session::{Command, Level, Session, SessionOptions, measures::Measure},
 };
 use std::fs;
 

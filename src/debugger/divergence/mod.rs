@@ -2,17 +2,15 @@
 //! device.
 //!
 //! Owns which assignments of a trace can be compared ([`Assignment`]), in which order ([`search`]), the values that the
-//! device has of them, each drawn by a probe ([`Probes`]), and the thread that does so for the window. A device's
-//! compiler makes another program of each probe, and a difference may vanish and come again; so what is named is the
-//! first that was found.
+//! device has of them, each drawn by a probe ([`Probes`]), and the search in a frame that is drawn again ([`find`]). A
+//! device's compiler makes another program of each probe, and a difference may vanish and come again; so what is named is
+//! the first that was found.
 
 mod assignment;
-mod finding;
 mod probes;
 mod search;
 
 pub use assignment::{Assignment, assignments};
-pub use finding::{DivergenceJob, Finding};
-pub use finding::{DivergenceView, MOST, STEPS_KEPT};
 pub use probes::{ProbeError, Probes};
 pub use search::{Divergence, DivergenceFound, search};
+pub use search::{DivergenceJob, MOST, STEPS_KEPT, find};

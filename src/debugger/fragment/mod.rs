@@ -8,11 +8,8 @@
 //! interpolated in both. Knows no device; nothing is blended, as no pipeline of the engine blends.
 
 mod clip;
-mod corner;
 mod coverage;
 mod error;
-mod facts;
-mod origin;
 mod pass;
 mod pixel;
 mod raster;
@@ -21,7 +18,7 @@ mod weights;
 mod writer;
 
 pub use error::WalkError;
-pub use origin::{MeshFragment, Origin};
 pub use pass::PassFragments;
 pub use pixel::{AtPixel, Fragment};
+pub use pixel::{MeshFragment, Origin};
 pub use writer::own_texels;

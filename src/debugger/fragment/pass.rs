@@ -2,8 +2,7 @@
 
 use super::{
     error::WalkError,
-    origin::Origin,
-    pixel::{AtPixel, Fragment},
+    pixel::{AtPixel, Fragment, Origin},
     raster::Raster,
     writer::Writer,
 };

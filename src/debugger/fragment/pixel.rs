@@ -1,12 +1,12 @@
-//! A pixel of a pass, ready to be walked.
+//! A pixel of a pass, ready to be walked, and what its value comes from.
 
-use super::origin::Origin;
 use eddy_engine::DrawInputs;
 use eddy_glsl::{
     ir::Output,
     walk::{Drawn, EntryInputs, Machine, Real},
     walkable::Walkable,
 };
+use eddy_project::Region;
 
 /// Says what there is to walk at a pixel.
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and nearly all are walked")]
@@ -38,5 +38,40 @@ impl Fragment<'_> {
     pub fn value<R: Real>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
         let cells = drawn.output(Output::Target(0), self.lane)?;
         (cells.len() == 4).then(|| std::array::from_fn(|i| cells[i].float()))
+    }
+}
+
+/// Says what leaves its value in a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The one program of a pass that draws no meshes.
+    Screen,
+    /// A fragment of a mesh: the last one that the depth test and `discard` let through.
+    Mesh(MeshFragment),
+    /// Nothing: the texel holds the zeros that a pass that draws meshes begins with.
+    Clear,
+    /// The value of the pass's boundary, which is drawn over what the pass draws.
+    Boundary,
+    /// Nothing: the texel lies outside of this region of the pass, and holds what it held before.
+    Outside(Region),
+}
+
+/// A fragment of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshFragment {
+    /// The draw of the pass, and the triangle of its mesh, from 0.
+    pub draw: usize,
+    pub triangle: usize,
+    /// The triangle's front is seen.
+    pub is_front: bool,
+}
+
+impl Origin {
+    /// The draw whose programs run.
+    pub fn draw(self) -> Option<usize> {
+        match self {
+            Origin::Mesh(fragment) => Some(fragment.draw),
+            Origin::Screen | Origin::Clear | Origin::Boundary | Origin::Outside(_) => None,
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! Runs a vertex stage on the processor, four vertices at a time.
 
-use super::corner::{Corner, CornerVarying};
 use eddy_engine::{DrawInputs, MeshInputs};
 use eddy_glsl::{
     Attribute,
@@ -118,4 +117,22 @@ fn components(vertex: &Vertex, attribute: Attribute) -> [Cell<Shadowed>; 4] {
 fn position<R: Real>(drawn: &Drawn<R>, lane: usize) -> [R; 4] {
     let cells = drawn.output(Output::Position, lane);
     std::array::from_fn(|i| cells.map_or(R::from_f64(f64::NAN), |cells| cells[i].float()))
+}
+
+/// The outputs of a vertex stage for one vertex, in both precisions.
+#[derive(Clone, Debug)]
+pub struct Corner {
+    /// In the clip space of a device: y = w is row 0, and depth goes from 0 to w.
+    pub position: [Shadowed; 4],
+    /// By their locations.
+    pub varyings: Vec<CornerVarying>,
+}
+
+/// Holds what a vertex hands on at one location.
+#[derive(Clone, Debug)]
+pub struct CornerVarying {
+    pub location: u32,
+    pub is_flat: bool,
+    /// One to four components.
+    pub cells: Vec<Cell<Shadowed>>,
 }

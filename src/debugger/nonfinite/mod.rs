@@ -3,7 +3,5 @@
 mod search;
 mod texels;
 
-pub use search::{BornAt, FirstNonfinite, Search, SearchEnd, SearchView};
+pub use search::{BornAt, FirstNonfinite, SearchEnd, SearchJob, search};
 pub use texels::{NonfiniteTexels, born, drawn, stored};
-
-pub use search::{SearchJob, Searching};

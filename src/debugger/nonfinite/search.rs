@@ -2,20 +2,14 @@
 
 use super::texels::{NonfiniteTexels, born, drawn, stored};
 use crate::trace::STEPS;
-use eddy_background::{Panicked, Worker};
+use eddy_background::{Control, Count};
 use eddy_diag::Span;
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot};
 use eddy_gpu::Gpu;
 use eddy_media as media;
 use eddy_project::TextLocation;
 use eddy_project::{CustomUniformValues, PassId, Project};
-use std::{
-    path::PathBuf,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, AtomicUsize, Ordering},
-    },
-};
+use std::{path::PathBuf, sync::Arc};
 
 /// The first texels that are no finite numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +38,7 @@ pub struct BornAt {
     pub numbers: String,
 }
 
-/// Says how a search ended.
+/// A search ended with one of these.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SearchEnd {
     Found(Box<FirstNonfinite>),
@@ -53,22 +47,7 @@ pub enum SearchEnd {
         first: i32,
         last: i32,
     },
-    Failed(String),
 }
-
-/// A search, from its begin on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Search<'s> {
-    /// So many frames have been looked through, of so many.
-    UnderWay {
-        done: usize,
-        of: usize,
-    },
-    Ended(&'s SearchEnd),
-}
-
-/// The state that a front end shows of it; `None` before the first.
-pub type SearchView<'s> = Option<Search<'s>>;
 
 /// Frames, and what they are drawn by.
 pub struct SearchJob {
@@ -82,141 +61,43 @@ pub struct SearchJob {
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
-#[derive(Default)]
-struct Progress {
-    done: AtomicUsize,
-    is_over: AtomicBool,
-}
-
-/// A search, if somebody has asked for one.
-pub struct Searching {
-    worker: Worker<(SearchJob, Arc<Progress>), Option<SearchEnd>>,
-    /// The frames are to be handed out.
-    pub is_due: bool,
-    /// Frames of the search under way.
-    of: usize,
-    progress: Arc<Progress>,
-    /// The progress that a front end knows of.
-    told: usize,
-    end: Option<SearchEnd>,
-}
-
-impl Searching {
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let tell = wake.clone();
-        let work = move |(job, progress): (SearchJob, Arc<Progress>)| search(job, &progress, &*tell);
-        let worker = Worker::new("first NaN", wake, work)?;
-        Ok(Self { worker, is_due: false, of: 0, progress: Arc::default(), told: 0, end: None })
-    }
-
-    /// Begins anew, or ends.
-    pub fn want(&mut self, is_wanted: bool) {
-        self.progress.is_over.store(true, Ordering::Relaxed);
-        (self.is_due, self.end, self.of) = (is_wanted, None, 0);
-    }
-
-    /// Another project is open.
-    pub fn forget(&mut self) {
-        self.want(false);
-        self.worker.forget();
-    }
-
-    pub fn submit(&mut self, job: SearchJob) {
-        self.progress = Arc::default();
-        self.of = job.frames.len();
-        self.worker.submit((job, self.progress.clone()));
-    }
-
-    pub fn failed(&mut self, why: &str) {
-        self.end = Some(SearchEnd::Failed(why.to_owned()));
-    }
-
-    /// Takes a search that has ended, and how far one under way has come. Says whether there is something new.
-    pub fn take(&mut self) -> bool {
-        match self.worker.take() {
-            None => {
-                let done = self.progress.done.load(Ordering::Relaxed);
-                return std::mem::replace(&mut self.told, done) != done;
-            }
-            Some(Ok(end)) => self.end = end.or(self.end.take()),
-            Some(Err(Panicked(why))) => self.failed(&format!("this is a bug in Eddy: the search failed ({why})")),
-        }
-        self.of = 0;
-        true
-    }
-
-    pub fn view(&self) -> SearchView<'_> {
-        if self.is_due || self.of > 0 {
-            return Some(Search::UnderWay { done: self.progress.done.load(Ordering::Relaxed), of: self.of });
-        }
-        self.end.as_ref().map(Search::Ended)
-    }
-}
-
-impl Drop for Searching {
-    fn drop(&mut self) {
-        // The thread is waited for.
-        self.progress.is_over.store(true, Ordering::Relaxed);
-    }
-}
-
-/// `None`: nobody wants it any more.
-fn search(job: SearchJob, progress: &Progress, tell: &dyn Fn()) -> Option<SearchEnd> {
+/// Draws the frames again by an engine of their own, and looks through the texels of each. Counts frames.
+pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, String> {
     let SearchJob { gpu, project, shown, size, media_dir, snapshot, frames } = job;
-    let failed = |why: String| Some(SearchEnd::Failed(why));
     let (media, _) = media::gather(&project, media_dir.as_deref());
     let mut wanted = vec![PassId::Image];
     wanted.extend((shown != PassId::Image && project.pass(&shown).is_some()).then_some(shown));
     let options = BuildOptions { wanted, ..BuildOptions::default() };
-    let built = match Program::build(&gpu, &project, &media, &options) {
-        Ok(built) => built,
-        Err(e) => return failed(e.to_string()),
-    };
-    let set = Engine::new(gpu, size.0, size.1).and_then(|mut engine| {
-        engine.set_program(built.program)?;
-        Ok(engine)
-    });
-    let mut engine = match set {
-        Ok(engine) => engine,
-        Err(e) => return failed(e.to_string()),
-    };
+    let built = Program::build(&gpu, &project, &media, &options).map_err(|e| e.to_string())?;
+    let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
+    engine.set_program(built.program).map_err(|e| e.to_string())?;
     if !engine.restore(&snapshot) {
-        return failed("the kept frames belong to another program: reset and search again".into());
+        return Err("the kept frames belong to another program: reset and search again".into());
     }
     let passes = drawn(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);
     if let Some(found) = look(&mut engine, &project, &passes, first - 1) {
-        return Some(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
+        return Ok(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
     }
-    for (inputs, values) in &frames {
-        if progress.is_over.load(Ordering::Relaxed) {
-            return None;
-        }
+    for (index, (inputs, values)) in frames.iter().enumerate() {
+        control.check()?;
+        control.report(Count { done: index, of: frames.len() });
         engine.set_custom_uniforms(values);
-        if let Err(e) = engine.draw(inputs) {
-            return failed(e.to_string());
-        }
+        engine.draw(inputs).map_err(|e| e.to_string())?;
         if let Some(found) = look(&mut engine, &project, &passes, inputs.frame) {
-            let born = match engine.inspect(&found.pass) {
-                Ok(read) => match born(&project, &found.pass, &read, found.texel, STEPS) {
-                    Ok(finding) => finding,
-                    Err(e) => return failed(e.to_string()),
-                },
-                Err(e) => return failed(e.to_string()),
-            };
+            let read = engine.inspect(&found.pass).map_err(|e| e.to_string())?;
+            let born = born(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
             let born = born.map(|finding| BornAt {
                 message: finding.kind.message(),
                 place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
                 text: finding.span.map_or_else(String::new, |span| written(&project, span)),
                 numbers: finding.numbers,
             });
-            return Some(SearchEnd::Found(Box::new(FirstNonfinite { born, ..found })));
+            return Ok(SearchEnd::Found(Box::new(FirstNonfinite { born, ..found })));
         }
-        progress.done.fetch_add(1, Ordering::Relaxed);
-        tell();
     }
     let last = frames.last().map_or(0, |(inputs, _)| inputs.frame);
-    Some(SearchEnd::Nowhere { first, last })
+    Ok(SearchEnd::Nowhere { first, last })
 }
 
 /// The first pass whose newest texels are not all finite.

@@ -5,7 +5,7 @@ use super::{
     history::{History, HistoryRecorder},
     travel::{self, Direction},
     ulps,
-    watch::{Watched, Watches},
+    watch_expression::{Watched, Watches},
 };
 use crate::fragment::{AtPixel, Fragment, MeshFragment, Origin, PassFragments};
 use eddy_diag::{SourceId, Span};

@@ -8,16 +8,15 @@ mod examine;
 mod history;
 mod number;
 mod recorder;
-mod step;
 pub mod travel;
-mod watch;
+mod watch_expression;
 
 pub use crate::fragment::{MeshFragment, Origin};
 pub use examine::{Breakpoint, Examiner, Printed, Traced};
 pub use history::{Call, History, Moment, MomentKind, Shown, Turn, Value};
 pub use number::Number;
-pub use step::{Event, Step};
-pub use watch::Watched;
+pub use recorder::{Event, Step};
+pub use watch_expression::Watched;
 
 use crate::fragment::{AtPixel, PassFragments, WalkError};
 use eddy_diag::Diagnostic;

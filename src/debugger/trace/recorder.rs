@@ -1,9 +1,6 @@
 //! Writes down what an observer of a walk sees, by the author's names.
 
-use super::{
-    number::Number,
-    step::{Event, Step},
-};
+use super::number::Number;
 use eddy_diag::Span;
 use eddy_glsl::{
     ast::Loc,
@@ -163,4 +160,28 @@ impl<R: Real> Observer<R> for Recorder<'_> {
         let loc = if view.op(value).is_free() { function.loc(place) } else { function.loc(value) };
         self.set(view, name, (function.ty(place), view.memory(place)), loc);
     }
+}
+
+/// Says what happened in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// A function of this name begins.
+    Enter(String),
+    /// The function that began last has ended.
+    Leave,
+    /// A loop begins its next turn, counted from 1 through all loops of the call. The last is the one whose test ends
+    /// the loop.
+    Turn(u64),
+    /// A variable, or a part of one, takes a value: its name as GLSL spells it, and its scalars in memory order.
+    Set { name: String, value: Vec<Number> },
+}
+
+/// A step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    pub event: Event,
+    /// Calls that the step lies in.
+    pub depth: u32,
+    /// The part of the text; none where it is no part of it.
+    pub span: Option<Span>,
 }

@@ -5,10 +5,10 @@ use super::{
     state::{Buffers, Page, title},
 };
 use crate::{
-    debugger::nonfinite::{Search, SearchEnd},
+    debugger::nonfinite::SearchEnd,
     engine::{PassCost, When},
     session::{
-        Session,
+        Session, Status,
         buffers::{Target, reason},
     },
 };
@@ -38,10 +38,10 @@ pub fn report(state: &Buffers, session: &Session) -> Value {
         })
     });
     let search = session.search().map(|search| match search {
-        Search::UnderWay { .. } => json!({ "state": "under way" }),
-        Search::Ended(SearchEnd::Nowhere { first, last }) => json!({ "state": "nowhere", "frames": [first, last] }),
-        Search::Ended(SearchEnd::Failed(why)) => json!({ "state": "failed", "why": why }),
-        Search::Ended(SearchEnd::Found(found)) => json!({
+        Status::UnderWay(_) => json!({ "state": "under way" }),
+        Status::Ended(Ok(SearchEnd::Nowhere { first, last })) => json!({ "state": "nowhere", "frames": [first, last] }),
+        Status::Ended(Err(why)) => json!({ "state": "failed", "why": why }),
+        Status::Ended(Ok(SearchEnd::Found(found))) => json!({
             "state": "found",
             "pass": found.pass.title(),
             "frame": found.frame,

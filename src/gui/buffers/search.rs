@@ -2,12 +2,12 @@
 
 use super::state::Buffers;
 use crate::{
-    debugger::nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, Search, SearchEnd},
+    debugger::nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, SearchEnd},
     gui::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session},
+    session::{Command, Count, Session, Status},
 };
 use egui::{Label, RichText, Ui};
 
@@ -19,7 +19,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOut
     }
     let p = theme::of(ui);
     ui.horizontal_wrapped(|ui| match search {
-        Some(Search::UnderWay { done, of }) => {
+        Some(Status::UnderWay(Count { done, of })) => {
             ui.spinner();
             ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
             if out.clicked("buffers:stop", &ui.button("Stop")) {
@@ -40,15 +40,15 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOut
             }
             find(ui, "Find first cause", out);
         }
-        Some(Search::Ended(end)) => {
+        Some(Status::Ended(end)) => {
             match end {
-                SearchEnd::Found(found) => first(state, ui, found, out),
-                SearchEnd::Nowhere { first, last } => {
+                Ok(SearchEnd::Found(found)) => first(state, ui, found, out),
+                Ok(SearchEnd::Nowhere { first, last }) => {
                     let text = format!("All texels of all passes are finite in frames {first} to {last}.");
                     let label = ui.add(Label::new(RichText::new(text).color(p.good)).wrap());
                     out.place("buffers:found", label.rect);
                 }
-                SearchEnd::Failed(why) => {
+                Err(why) => {
                     let label = ui.add(Label::new(RichText::new(why).color(p.error)).wrap());
                     out.place("buffers:found", label.rect);
                 }

@@ -10,8 +10,8 @@ use crate::{
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     lab::difference::{PictureDifference, Times},
-    playback::comparing::{Compared, Comparison},
-    session::{Command, Outcome, Session},
+    playback::comparing::Comparison,
+    session::{Command, Count, Outcome, Session, Status},
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
@@ -34,7 +34,7 @@ pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOut
         ui.spacing_mut().item_spacing.x = 3.0;
         views(state, ui, out);
     });
-    if let Some(Compared::Ended(Err(why))) = session.comparison() {
+    if let Some(Status::Ended(Err(why))) = session.comparison() {
         let label = ui.add(Label::new(RichText::new(why).color(theme::of(ui).error)).wrap());
         out.place("compare:trouble", label.rect);
     }
@@ -85,7 +85,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
 
 /// The button that begins or ends, and how far it is.
 fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    if let Some(Compared::UnderWay { done, of }) = session.comparison() {
+    if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
         if out.clicked("compare:stop", &ui.button("Stop")) {
             out.ask(Command::Compare(None));
         }

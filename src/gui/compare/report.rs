@@ -4,16 +4,19 @@ use super::{
     panel::{distance, pace},
     state::{Compare, Under, View},
 };
-use crate::{lab::Number, playback::comparing::Compared, session::Session};
+use crate::{
+    lab::Number,
+    session::{Session, Status},
+};
 use serde_json::{Value, json};
 
 pub fn report(state: &Compare, session: &Session) -> Value {
     let (name, why) = match session.comparison() {
         None => ("none", None),
-        Some(Compared::UnderWay { .. }) => ("under way", None),
-        Some(Compared::Ended(Err(why))) => ("failed", Some(why)),
-        Some(Compared::Ended(Ok(_))) if state.is_measuring() => ("measuring", None),
-        Some(Compared::Ended(Ok(_))) => ("ended", None),
+        Some(Status::UnderWay(_)) => ("under way", None),
+        Some(Status::Ended(Err(why))) => ("failed", Some(why)),
+        Some(Status::Ended(Ok(_))) if state.is_measuring() => ("measuring", None),
+        Some(Status::Ended(Ok(_))) => ("ended", None),
     };
     let figures = state.seen.as_ref().map(|seen| {
         let (comparison, apart) = (&seen.figures.comparison, &seen.figures.apart);

@@ -3,8 +3,8 @@
 use super::figures::{self, Figures};
 use crate::{
     lab::difference,
-    playback::comparing::{Baseline, Compared, Comparison},
-    session::Session,
+    playback::comparing::{Baseline, Comparison},
+    session::{Session, Status},
 };
 use egui::{TextureHandle, TextureOptions};
 use std::{
@@ -111,7 +111,7 @@ impl Compare {
         self.under = None;
         match session.comparison() {
             None => (self.seen, self.coming, self.of) = (None, None, None),
-            Some(Compared::Ended(Ok(done))) if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, done)) => {
+            Some(Status::Ended(Ok(done))) if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, done)) => {
                 self.of = Some(done.clone());
                 self.coming = Some(figures::begin(done.clone(), self.wake.clone()));
             }

@@ -3,8 +3,8 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
     gui::dock::Panel,
-    playback::comparing::{Baseline, Compared},
-    session::{Command, probe::ProbePlace},
+    playback::comparing::Baseline,
+    session::{Command, Status, probe::ProbePlace},
 };
 use egui::{
     Event, Id, Key, Modifiers, Pos2, Rect,
@@ -147,9 +147,7 @@ fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
     stage.state_mut().shell.set_open(Panel::Trace, true);
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
     stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
-    until(&mut stage, "a comparison", |stage| {
-        matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
-    });
+    until(&mut stage, "a comparison", |stage| matches!(stage.state().session.comparison(), Some(Status::Ended(Ok(_)))));
     let mut tried = Vec::new();
     let mut all = |stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)| {
         let count = try_all(stage, state, set_up);

@@ -4,8 +4,8 @@
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
 use crate::{
     gui::dock::Panel,
-    playback::comparing::{Baseline, Compared},
-    session::{Command, Level, Question, SessionOptions, probe::ProbePlace},
+    playback::comparing::Baseline,
+    session::{Command, Level, Question, SessionOptions, Status, probe::ProbePlace},
 };
 use egui::{Key, Modifiers};
 use std::time::{Duration, Instant};
@@ -96,9 +96,7 @@ fn every_panel_has_names() {
     stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
     stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
-    until(&mut stage, "a comparison", |stage| {
-        matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
-    });
+    until(&mut stage, "a comparison", |stage| matches!(stage.state().session.comparison(), Some(Status::Ended(Ok(_)))));
     for panel in Panel::ALL {
         stage.state_mut().shell.set_open(panel, true);
         stage.run_steps(4);

@@ -7,7 +7,7 @@ use crate::{
         ui_output::{ShellCommand, UiOutput},
     },
     playback::reduction::Unmeasured,
-    session::measuring::{Measure, Record},
+    session::measures::{Measure, Record},
 };
 use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 

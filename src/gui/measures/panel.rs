@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     gui::{theme, ui_output::UiOutput},
-    session::{Command, Session, measuring::Measure},
+    session::{Command, Session, measures::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 

@@ -9,7 +9,7 @@ use crate::{
         accessible,
         theme::{self, Palette},
     },
-    session::measuring::{Measure, Record, Sample},
+    session::measures::{Measure, Record, Sample},
 };
 use egui::{Painter, Pos2, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};

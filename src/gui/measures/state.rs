@@ -1,6 +1,6 @@
 //! Owns what the panel knows from frame to frame.
 
-use crate::session::{Command, measuring::Sample};
+use crate::session::{Command, measures::Sample};
 
 /// Says what a plot goes over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

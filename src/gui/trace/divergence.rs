@@ -4,14 +4,14 @@
 use super::parts;
 use crate::{
     debugger::{
-        divergence::{DivergenceFound, DivergenceView},
+        divergence::DivergenceFound,
         trace::{Number, Traced},
     },
     gui::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session},
+    session::{Command, Session, Status},
 };
 use egui::{Id, Label, RichText, Ui};
 
@@ -59,7 +59,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
             let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
             label.on_hover_text("ULPs: the number of single-precision values between the two");
         }
-        let is_searching = divergence == Some(DivergenceView::UnderWay);
+        let is_searching = matches!(divergence, Some(Status::UnderWay(())));
         if is_searching {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
@@ -71,19 +71,19 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     });
     out.place("trace:values", first.response.rect);
     match divergence {
-        Some(DivergenceView::Ended(Ok(parted))) => found(traced, parted, ui, out),
-        Some(DivergenceView::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
-        Some(DivergenceView::UnderWay) => {
+        Some(Status::Ended(Ok(result))) => found(traced, result, ui, out),
+        Some(Status::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
+        Some(Status::UnderWay(())) => {
             ui.colored_label(p.weak, "comparing assignments…");
         }
         None => {}
     }
 }
 
-fn found(traced: &Traced, parted: &DivergenceFound, ui: &mut Ui, out: &mut UiOutput) {
+fn found(traced: &Traced, result: &DivergenceFound, ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
-    let of = format!("{} of {} assignments compared", parted.compared, parted.of);
-    let Some(first) = &parted.first else {
+    let of = format!("{} of {} assignments compared", result.compared, result.of);
+    let Some(first) = &result.first else {
         let label = ui.colored_label(p.text, format!("No assignment differs: {of}"));
         out.place("trace:parted", label.rect);
         return;

@@ -2,11 +2,8 @@
 
 use super::{debugger::Debugger, moment::words};
 use crate::{
-    debugger::{
-        divergence::DivergenceView,
-        trace::{Printed, Watched},
-    },
-    session::Session,
+    debugger::trace::{Printed, Watched},
+    session::{Session, Status},
 };
 use serde_json::{Map, Value, json};
 
@@ -57,21 +54,21 @@ impl Debugger {
             "value": traced.value,
             "device": traced.device,
             "ulps": traced.ulps(),
-            "parted": parted(session),
+            "parted": divergence(session),
         })
     }
 }
 
 /// The search for where the device parts: its name, its line and how far it is apart there.
-fn parted(session: &Session) -> Value {
+fn divergence(session: &Session) -> Value {
     match session.divergence() {
         None => Value::Null,
-        Some(DivergenceView::UnderWay) => json!("under way"),
-        Some(DivergenceView::Ended(Err(why))) => json!({ "trouble": why }),
-        Some(DivergenceView::Ended(Ok(parted))) => json!({
-            "compared": parted.compared,
-            "name": parted.first.as_ref().map(|first| &first.assignment.name),
-            "ulps": parted.first.as_ref().map(|first| &first.ulps),
+        Some(Status::UnderWay(())) => json!("under way"),
+        Some(Status::Ended(Err(why))) => json!({ "trouble": why }),
+        Some(Status::Ended(Ok(found))) => json!({
+            "compared": found.compared,
+            "name": found.first.as_ref().map(|first| &first.assignment.name),
+            "ulps": found.first.as_ref().map(|first| &first.ulps),
         }),
     }
 }

@@ -4,11 +4,11 @@
 //! read while nobody looks.
 
 mod look;
+mod reads;
 mod reason;
-mod watching;
 
 pub use look::BufferLook;
+pub use reads::{BufferRead, BufferWatch, Target};
 pub use reason::reason;
-pub use watching::{BufferRead, BufferWatch, BuffersRead, BuffersWanted, Target};
 
-pub(super) use watching::Watching;
+pub(super) use reads::BufferReads;

@@ -1,4 +1,4 @@
-//! The way between a frame that is being drawn in pieces and those who may not want it any more.
+//! The hand-over between a frame that is being drawn in pieces and those who may not want it any more.
 
 use std::{
     sync::{Arc, Condvar, Mutex, MutexGuard},
@@ -16,35 +16,35 @@ pub enum FrameControl {
     GiveUp,
 }
 
-/// Holds the way of the frame that is being drawn. Every clone is the same gate.
+/// Holds what the frame does next that is being drawn. Every clone is the same gate.
 #[derive(Clone, Default)]
 pub struct Gate(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
-    way: Mutex<FrameControl>,
+    control: Mutex<FrameControl>,
     changed: Condvar,
 }
 
 impl Gate {
-    pub fn set(&self, way: FrameControl) {
-        let mut held = self.way();
-        if *held != way {
-            *held = way;
+    pub fn set(&self, control: FrameControl) {
+        let mut current = self.lock();
+        if *current != control {
+            *current = control;
             self.0.changed.notify_all();
         }
     }
 
     #[cfg(test)]
     pub fn get(&self) -> FrameControl {
-        *self.way()
+        *self.lock()
     }
 
     /// Waits as long as the frame is to wait. Says whether it goes on.
     pub fn pass(&self) -> bool {
-        let mut way = self.way();
+        let mut control = self.lock();
         loop {
-            let left = match *way {
+            let left = match *control {
                 FrameControl::GoOn => return true,
                 FrameControl::GiveUp => return false,
                 FrameControl::WaitUntil(until) => until.saturating_duration_since(Instant::now()),
@@ -52,13 +52,13 @@ impl Gate {
             if left.is_zero() {
                 return true;
             }
-            way = self.0.changed.wait_timeout(way, left).unwrap_or_else(|e| e.into_inner()).0;
+            control = self.0.changed.wait_timeout(control, left).unwrap_or_else(|e| e.into_inner()).0;
         }
     }
 
-    fn way(&self) -> MutexGuard<'_, FrameControl> {
+    fn lock(&self) -> MutexGuard<'_, FrameControl> {
         // A thread that panicked has left one of the three behind.
-        self.0.way.lock().unwrap_or_else(|e| e.into_inner())
+        self.0.control.lock().unwrap_or_else(|e| e.into_inner())
     }
 }
 
@@ -73,14 +73,14 @@ mod tests {
         assert!(gate.pass());
         gate.set(FrameControl::GiveUp);
         assert!(!gate.pass());
-        let after = |way: FrameControl| {
+        let after = |control: FrameControl| {
             let (gate, end) = (Gate::default(), Instant::now() + Duration::from_secs(60));
             gate.set(FrameControl::WaitUntil(end));
             let other = gate.clone();
             let passes = std::thread::spawn(move || other.pass());
             std::thread::sleep(Duration::from_millis(20));
             assert!(!passes.is_finished());
-            gate.set(way);
+            gate.set(control);
             let passes = passes.join().unwrap();
             assert!(Instant::now() < end, "it was told");
             passes

@@ -1,21 +1,15 @@
 //! The engine is asked to do a job at once, and gives an answer.
 
-use super::gate::Gate;
-use super::history::Travelled;
-use crate::{
-    buffers::{BuffersRead, BuffersWanted},
-    measuring::{Measured, MeasuresWanted},
-    probe::{NumbersWanted, ProbeNumbers},
-    seek::{Goal, Reach},
-    tracing::Taken,
+use super::{
+    gate::Gate,
+    history::Travelled,
+    task::{Delivery, Tasks},
 };
-use eddy_engine::{
-    CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook,
-};
-use eddy_playback::capture::Format;
-use eddy_playback::run::{Frame, Replay, ReplayFrom, Run};
+use crate::playback::{Goal, Reach};
+use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime, Picture, Program, ValueLook};
+use eddy_playback::run::Frame;
 use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};
-use std::{path::PathBuf, time::Duration};
+use std::time::Duration;
 
 /// Changes that wait for the engine, each the newest of its kind.
 #[derive(Default)]
@@ -77,16 +71,7 @@ impl PendingProgram {
     }
 }
 
-/// A picture that is to be written to a file.
-#[derive(Clone, Debug)]
-pub struct Capture {
-    pub pass: PassId,
-    pub format: Format,
-    pub folder: PathBuf,
-    pub stem: String,
-}
-
-/// One turn of the engine: first the changes in the order of their fields, then the frame, then what is read.
+/// One turn of the engine: first the changes in the order of their fields, then the frame, then the tasks.
 #[derive(Default)]
 pub struct Job {
     pub changes: Changes,
@@ -97,45 +82,14 @@ pub struct Job {
     pub stays: bool,
     /// The frame that is shown is to be drawn again, as it would be now.
     pub again: bool,
-    pub reads: Reads,
+    /// What is read back behind the frame.
+    pub tasks: Tasks,
     /// The project whose passes' costs are asked for: somebody looks at them.
     pub costs_of: Option<Project>,
     /// Tiles of a new program are tried before it; without, none.
     pub tile_limit: Option<TileLimit>,
     /// The frame may wait, or be given up; without, it is drawn at once.
     pub gate: Option<Gate>,
-}
-
-/// The things that are read once the frame is drawn.
-#[derive(Default)]
-pub struct Reads {
-    pub captures: Vec<Capture>,
-    /// Targets of passes that panels show small.
-    pub miniatures: Vec<(PassId, usize)>,
-    /// The numbers of the probe that is drawn.
-    pub numbers: Option<NumbersWanted>,
-    /// The target and the texels that somebody looks at closely.
-    pub buffers: Option<BuffersWanted>,
-    /// Numbers of passes.
-    pub measures: Option<MeasuresWanted>,
-    /// The frames up to the newest are to be handed out.
-    pub wants_replay: Option<ReplayFrom>,
-    /// The inputs of all frames up to this one are to be handed out.
-    pub wants_run: bool,
-    /// The picture that is shown is to be handed out.
-    pub wants_picture: bool,
-    /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
-    pub inspect: Option<PassId>,
-}
-
-impl Reads {
-    pub fn is_empty(&self) -> bool {
-        let Self { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, wants_picture, inspect } =
-            self;
-        let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
-        let is_kept = *wants_run || *wants_picture;
-        captures.is_empty() && !is_seen && inspect.is_none() && wants_replay.is_none() && !is_kept
-    }
 }
 
 /// Says when a program is too slow to be drawn whole unasked.
@@ -164,24 +118,8 @@ pub struct Done {
     pub travelled: Option<Option<Result<Travelled, EngineError>>>,
     /// The frames that one can go to.
     pub reach: Reach,
-    pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
-    /// One for each that was asked for and is drawn.
-    pub miniatures: Vec<((PassId, usize), Miniature)>,
-    /// The time that they took together.
-    pub miniatures_took: Duration,
-    /// The numbers that were asked for, and how long they took.
-    pub numbers: Option<(ProbeNumbers, Duration)>,
-    /// The targets that were looked at closely, and how long that took.
-    pub buffers: Option<(BuffersRead, Duration)>,
-    /// The numbers of passes that were asked for, and how long they took.
-    pub measured: Option<(Measured, Duration)>,
-    /// The frames that were asked for; `None` behind which they are: none are kept.
-    pub replay: Option<(ReplayFrom, Option<Replay>)>,
-    pub run: Option<Run>,
-    /// The picture that is shown, if it was asked for.
-    pub shown: Option<Picture>,
-    /// The inputs and the picture that were asked for of a pass.
-    pub inspected: Option<Result<Taken, EngineError>>,
+    /// The outputs of the tasks, in their order.
+    pub outputs: Vec<Delivery>,
     /// The display's picture, if it may have changed and is handed out.
     pub picture: Option<Result<Picture, EngineError>>,
     pub costs: Option<Vec<PassCost>>,

@@ -10,20 +10,22 @@ mod history;
 mod job;
 mod render_thread;
 mod renderer;
+mod task;
 
 pub(super) use device::Device;
 pub(super) use gate::FrameControl;
 pub(super) use history::Travelled;
-pub(super) use job::{Capture, Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, Reads, TileLimit};
+pub(super) use job::{Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, TileLimit};
 pub(super) use render_thread::{Open, beside};
+pub(super) use renderer::Renderer;
+pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 
-use crate::seek::Reach;
+use crate::playback::Reach;
 use eddy_engine::{CostClock, EngineError, PassCost, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
 use eddy_project::{CustomUniform, PassId, Project};
 use gate::Gate;
 use render_thread::RenderThread;
-use renderer::Renderer;
 use std::{
     sync::Arc,
     thread::JoinHandle,
@@ -39,8 +41,6 @@ pub(super) struct Drawing {
     backend: Backend,
     /// Goes with the next job.
     pub wanted: Changes,
-    /// Pictures to be written, oldest first.
-    pub captures: Vec<Capture>,
     facts: Facts,
     in_flight: Option<InFlight>,
     /// Threads that were given up and may still be at work.
@@ -61,8 +61,6 @@ struct InFlight {
     size: Option<(u32, u32)>,
     /// The origin of the program that it sets.
     program: Option<ProgramOrigin>,
-    /// The pictures that it is to read.
-    captures: Vec<Capture>,
     /// The thread opens its device; nothing of the author's is drawn yet.
     is_opening: bool,
     /// Another project has been opened since: what comes back is of one that is gone.
@@ -118,7 +116,6 @@ impl Drawing {
         Self {
             backend,
             wanted: Changes::default(),
-            captures: Vec::new(),
             facts: Facts { size, program: None, costs: Vec::new(), clock, reach: Reach::default() },
             in_flight: None,
             left: Vec::new(),
@@ -240,15 +237,15 @@ impl Drawing {
     }
 
     /// Says what the frame that is being drawn does, if it may wait.
-    pub fn steer(&self, way: FrameControl) {
+    pub fn steer(&self, control: FrameControl) {
         if let Backend::RenderThread(remote) = &self.backend {
-            remote.gate.set(way);
+            remote.gate.set(control);
         }
     }
 
     /// Returns what the frame does that is being drawn.
     #[cfg(test)]
-    pub fn way(&self) -> Option<FrameControl> {
+    pub fn frame_control(&self) -> Option<FrameControl> {
         match &self.backend {
             Backend::Inline { .. } => None,
             Backend::RenderThread(remote) => Some(remote.gate.get()),
@@ -266,8 +263,8 @@ impl Drawing {
         }
         // The program goes on, what the session keeps of it stays.
         let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
-        let (size, captures) = (job.changes.size, job.reads.captures.clone());
-        self.in_flight = Some(InFlight { since: now, size, program, captures, is_opening: false, is_stale: false });
+        let size = job.changes.size;
+        self.in_flight = Some(InFlight { since: now, size, program, is_opening: false, is_stale: false });
         match &mut self.backend {
             Backend::Inline { renderer, done, .. } => *done = Some(Box::new(renderer.work(job))),
             Backend::RenderThread(remote) => remote.thread.submit(job),
@@ -288,13 +285,13 @@ impl Drawing {
         if let Backend::RenderThread(remote) = &mut self.backend {
             remote.took = done.took;
         }
+        // Outputs that belong to a project that is gone have no ticket any more.
+        done.outputs.drain(..).for_each(|deliver| deliver());
         if job.is_stale {
             if let Some((size, Ok(()))) = &done.resized {
                 self.facts.size = *size;
             }
-            // Pictures that somebody asked for are still wanted.
-            let (captured, gave_up) = (std::mem::take(&mut done.captured), done.gave_up.take());
-            return Some(Done { captured, gave_up, ..Done::default() });
+            return Some(Done { gave_up: done.gave_up, ..Done::default() });
         }
         self.learn(job, &mut done);
         Some(done)
@@ -342,8 +339,7 @@ impl Drawing {
         }
     }
 
-    /// Gives up the thread and its device, and begins with others. The picture stays until there is another, and the
-    /// pictures that were to be read are read of that one.
+    /// Gives up the thread and its device, and begins with others. The picture stays until there is another.
     pub fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
@@ -353,9 +349,7 @@ impl Drawing {
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.facts.program = None;
         self.wanted = Changes::default();
-        if let Some(job) = self.in_flight.replace(InFlight::opening(now)) {
-            self.captures.splice(..0, job.captures);
-        }
+        self.in_flight = Some(InFlight::opening(now));
         Ok(())
     }
 
@@ -387,7 +381,7 @@ impl Drawing {
 
 impl InFlight {
     fn opening(since: Instant) -> Self {
-        Self { since, size: None, program: None, captures: Vec::new(), is_opening: true, is_stale: false }
+        Self { since, size: None, program: None, is_opening: true, is_stale: false }
     }
 }
 

@@ -54,10 +54,10 @@ impl RenderThread {
         is_cpu: bool,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<RenderThread> {
-        let (jobs, inbox) = channel::<Job>();
-        let (outbox, results) = channel();
+        let (jobs, queue) = channel::<Job>();
+        let (sender, results) = channel();
         let tell = move |done: Done| {
-            let is_heard = outbox.send(done).is_ok();
+            let is_heard = sender.send(done).is_ok();
             wake();
             is_heard
         };
@@ -80,7 +80,7 @@ impl RenderThread {
             if !tell(Done { restarted: Some(Ok(())), ..Done::default() }) {
                 return;
             }
-            while let Ok(job) = inbox.recv() {
+            while let Ok(job) = queue.recv() {
                 let began = Instant::now();
                 let done = caught(|| renderer.work(job)).map(|done| Done { took: began.elapsed(), ..done });
                 let is_over = done.is_err();

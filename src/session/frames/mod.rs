@@ -2,22 +2,13 @@
 
 use super::{
     Session,
-    compile::{self, Compiled, Done, Job},
+    compile::{Compiled, Done, Source},
     drawing::{FrameControl, PendingProgram},
-    view::{About, Level, Meanwhile, Outcome, TabDiagnostic, Tick},
+    view::{About, Level, Tick},
 };
-use eddy_background::Panicked;
-use eddy_diag::Severity;
 use eddy_engine::EngineError;
 use eddy_gpu::GpuError;
-use std::{
-    sync::atomic::Ordering,
-    time::{Duration, Instant},
-};
-
-/// A compile of so long goes before frames of the program that it takes the place of: they would take its processors,
-/// and nobody sees a pause of so long.
-const BRIEF: Duration = Duration::from_millis(100);
+use std::time::Instant;
 
 impl Session {
     /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one a
@@ -35,20 +26,20 @@ impl Session {
         self.take_compiled();
         self.analyse();
         self.take_analysed();
-        self.changed |= self.tracing.take();
+        self.changed |= self.tracing.poll();
         self.take_audited();
-        self.changed |= self.searching.take() | self.comparing.take();
+        self.changed |= self.searching.background.poll() | self.comparing.background.poll();
         self.fit_canvas();
         self.keep_unsaved();
         self.follow_measures();
         self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.
-        let is_picture_new = std::mem::take(&mut self.run.is_picture_new);
-        self.run.waits_for_painting = is_picture_new && self.drawing.shares_processor();
-        if !self.run.waits_for_painting {
+        let is_picture_new = std::mem::take(&mut self.picture.is_new);
+        self.picture.waits_for_painting = is_picture_new && self.drawing.shares_processor();
+        if !self.picture.waits_for_painting {
             frame_drawn |= self.draw_due_frames(true);
         }
-        frame_drawn |= std::mem::take(&mut self.has_drawn);
+        frame_drawn |= std::mem::take(&mut self.picture.has_drawn);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
@@ -57,20 +48,20 @@ impl Session {
     /// end; the next tick tells what has changed.
     pub fn attend(&mut self, now: Instant) {
         self.now = now;
-        self.has_drawn |= self.take_drawn(false);
+        self.picture.has_drawn |= self.take_drawn(false);
         self.take_compiled();
         self.steer_frame();
-        if self.drawing.wanted.program.is_some() || self.run.is_program_new {
+        if self.drawing.wanted.program.is_some() || self.picture.is_program_new {
             self.fit_canvas();
-            self.has_drawn |= self.draw_due_frames(false);
+            self.picture.has_drawn |= self.draw_due_frames(false);
         }
     }
 
     /// Begins with a frame that waited until the picture of the last tick was painted, as it is now.
     pub fn painted(&mut self, now: Instant) {
-        if std::mem::take(&mut self.run.waits_for_painting) {
+        if std::mem::take(&mut self.picture.waits_for_painting) {
             self.now = now;
-            self.has_drawn |= self.draw_due_frames(true);
+            self.picture.has_drawn |= self.draw_due_frames(true);
         }
     }
 
@@ -87,7 +78,7 @@ impl Session {
     /// first frame is with the engine.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
-        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new))
+        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.picture.is_program_new))
     }
 
     /// The newest text is being compiled, and will be soon if it takes as long as the one before.
@@ -95,75 +86,37 @@ impl Session {
         self.gives_way_until().is_some()
     }
 
-    /// Until when frames wait for the compile that is under way: one that takes longer than expected, as of a text that
-    /// was pasted, does not hold the picture.
     fn gives_way_until(&self) -> Option<Instant> {
-        let until = self.compile.newest_since? + BRIEF;
-        (self.compile.edits.quiet() <= BRIEF && self.now < until).then_some(until)
+        self.compile.holds_frames_until(self.now)
     }
 
     fn wake_at(&self) -> Option<Instant> {
-        let is_running = self.run.clock.is_playing()
-            && !self.run.is_covered
-            && self.drawing.has_program()
-            && !self.run.is_device_lost;
+        let is_running = self.playback.is_running() && self.drawing.has_program() && !self.halting.is_device_gone();
         // The end of a frame that is being drawn wakes.
-        let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
-        let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
+        let is_busy = self.drawing.is_busy() || self.picture.waits_for_painting;
+        let is_held = self.halting.is_halted() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
-        let is_free = self.halting.halt.is_none() && !self.drawing.is_busy() && !self.gives_way();
-        let replayed = self.replay_due().filter(|_| is_running && is_free);
-        let is_next_due = is_next_due && !self.is_replaying();
+        let is_free = !self.halting.is_halted() && !self.drawing.is_busy() && !self.gives_way();
+        let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
+        let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
-        let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
+        let deadlines = [self.compile.deadline(), self.disk.deadline(), self.drawing_deadline(), resumes];
         let next = is_next_due.then_some(self.now).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
     fn start_compile(&mut self) {
-        if std::mem::take(&mut self.compile.edited) {
-            self.compile.edits.touch(self.now);
-            self.compile.edited_at = Some(self.now);
-        }
-        let is_due = self.compile.edits.take_due(self.now);
-        if is_due {
-            self.compile.fallback = None;
-        }
-        let is_compile = std::mem::take(&mut self.compile.is_wanted) || is_due || self.compile.fallback.is_some();
-        // A look must not take the place of a compile under way, and a compile looks too.
-        let is_look = self.compile.is_look_wanted && !self.compiler.is_busy();
-        if !is_compile && !is_look {
-            return;
-        }
-        self.compile.is_look_wanted = false;
-        let fallback = self.compile.fallback.take();
-        let is_fallback = fallback.is_some();
-        if is_compile {
-            self.compile.edits.cancel();
-            self.compile.newest_since = (!is_fallback).then_some(self.now);
-            self.changed = true;
-        }
-        self.compile.jobs.fetch_add(1, Ordering::Relaxed);
-        self.compiler.submit(Job {
-            is_fallback,
-            project: fallback.unwrap_or_else(|| self.documents.current().clone()),
-            shown: self.run.shown.clone(),
-            opened: self.disk.opened,
-            include_edit: (is_compile && self.compile.includes_read != self.compile.include_edits)
-                .then_some(self.compile.include_edits)
-                .filter(|_| !is_fallback),
-            probe: self.probing.order(),
-            is_look: !is_compile,
-        });
+        let (project, shown) = (self.documents.current(), &self.picture.shown);
+        let source = Source { project, shown, opened: self.disk.opened(), probe: self.watched.probing.order() };
+        self.changed |= self.compile.start(self.now, source);
     }
 
     fn take_compiled(&mut self) {
-        let Some(result) = self.compiler.take() else { return };
-        let done = match result {
-            Ok(Done { files, is_changed, includes, compiled }) => {
-                let has_new_files = self.disk.media_files != files || includes.is_some();
-                self.disk.media_files = files;
+        let compiled = match self.compile.take() {
+            None => return,
+            Some(Ok(Done { files, is_changed, includes, compiled })) => {
+                let has_new_files = self.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
                     self.take_includes(includes, edit);
                 }
@@ -173,133 +126,73 @@ impl Session {
                 if is_changed {
                     self.compile_soon();
                 }
+                let is_compiling = self.is_compile_under_way();
                 let Some(compiled) = compiled else {
                     // A look at the files, which made the compiler seem busy.
-                    let is_under_way = self.is_compile_under_way();
-                    self.changed |= std::mem::replace(&mut self.compile.state.compiling, is_under_way) != is_under_way;
+                    self.changed |= self.compile.set_compiling(is_compiling);
                     return;
                 };
-                self.compile.newest_since = None;
                 Ok(compiled)
             }
-            Err(panicked) => {
-                self.compile.newest_since = None;
-                Err(panicked)
-            }
+            Some(Err(why)) => Err(why),
         };
         self.changed = true;
-        self.compile.state.compiling = self.is_compile_under_way();
-        match done {
-            Err(Panicked(reason)) => {
-                let what = format!("this is a bug in Eddy: the compiler failed ({reason})");
-                self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
+        self.compile.set_compiling(self.is_compile_under_way());
+        match compiled {
+            Err(what) => {
+                self.compile.set_failure(&what);
                 self.auditing.map = None;
-                self.compile.state.last = Some(self.failed());
-                let goes_on = if self.drawing.has_program() { "; the last working version keeps running" } else { "" };
+                let has_program = self.drawing.has_program();
+                self.compile.fail(has_program);
+                let goes_on = if has_program { "; the last working version keeps running" } else { "" };
                 self.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
             }
             Ok(compiled) => self.take_program(compiled),
         }
     }
 
-    fn is_compile_due(&self) -> bool {
-        self.compile.edited || self.compile.is_wanted || self.compile.edits.is_waiting()
-    }
-
     /// The picture is of an older text than the newest.
     pub(super) fn is_compile_under_way(&self) -> bool {
-        let is_coming = self.drawing.is_program_coming() && !self.halting.is_held();
-        self.is_compile_due() || self.compiler.is_busy() || is_coming
+        self.compile.is_busy() || (self.drawing.is_program_coming() && !self.halting.is_held())
     }
 
     fn take_program(&mut self, compiled: Compiled) {
         let Compiled { project, is_fallback, program, diagnostics, took, probe } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
-            self.compile.diagnostics = diagnostics;
+            self.compile.diagnose(diagnostics, took);
             self.auditing.map = None;
-            self.compile.diagnostics.extend(self.compile.read.iter().cloned());
-            self.compile.diagnostics.sort_by_key(|d| std::cmp::Reverse(d.severity));
-            self.compile.edits.set_quiet(compile::quiet_after(took, self.options.edit_debounce));
         }
         let (program, millis) = match program {
             Ok(Some(built)) => built,
             Ok(None) if is_fallback => return,
-            Ok(None) => {
-                self.compile.state.last = Some(self.failed());
-                return;
-            }
+            Ok(None) => return self.compile.fail(self.drawing.has_program()),
             Err(e) => return self.refused(&e),
         };
         let millis = (!is_fallback).then_some(millis);
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
-            self.compile.state.last = Some(self.compiled(millis));
+            self.compile.succeed(millis);
         }
         self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.
         self.custom_uniforms_turned();
-        self.probing.built(probe);
+        self.watched.probing.built(probe);
         self.drawing.wanted.shown = Some(self.pictured());
-        self.drawing.wanted.look = self.probing.take_look(true);
-        self.compile.state.compiling = self.is_compile_under_way();
-    }
-
-    /// A text that gave a program.
-    pub(super) fn compiled(&self, millis: f64) -> Outcome {
-        let count = |s| self.compile.diagnostics.iter().filter(|d| d.severity == s).count();
-        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-        match errors {
-            0 => Outcome::Ok { millis, warnings },
-            _ => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
-        }
-    }
-
-    /// A text that gave no program, for the reasons that are in the list.
-    pub(super) fn failed(&self) -> Outcome {
-        let errors = self.compile.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        let meanwhile = if self.drawing.has_program() { Meanwhile::LastGood } else { Meanwhile::Nothing };
-        Outcome::Failed { errors, meanwhile }
+        self.drawing.wanted.look = self.watched.probing.take_look(true);
+        self.compile.set_compiling(self.is_compile_under_way());
     }
 
     /// The machine refused what the newest text asks for: said in the list of errors, too, where errors are counted.
     pub(super) fn refused(&mut self, error: &EngineError) {
-        self.compile.diagnostics.insert(0, TabDiagnostic::nowhere(&error.to_string()));
-        self.compile.state.last = Some(self.failed());
+        self.compile.add_failure(&error.to_string());
+        self.compile.fail(self.drawing.has_program());
         self.stop_drawing(error);
-    }
-
-    /// Gives the engine the size the canvas shall have.
-    pub(super) fn fit_canvas(&mut self) {
-        let Some(size) = self.canvas.size() else { return };
-        let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
-        self.drawing.wanted.size = is_new.then_some(size);
-        if !is_new && self.canvas.refused.is_none() {
-            self.settled(About::CanvasSize);
-        }
-    }
-
-    /// The device does not take a size for the canvas.
-    pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
-        self.canvas.refused = Some(size);
-        let (width, height) = self.drawing.size();
-        let text = format!("{error}; the picture stays at {width}x{height}");
-        self.notice_about(About::CanvasSize, Level::Error, text);
-        self.canvas.replayed = None;
-        self.end_replay("its resolution cannot be drawn on this GPU");
     }
 
     /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
     pub fn tell_of(&mut self, error: &GpuError) {
         self.notice_once(About::Window, Level::Error, &error.to_string());
-    }
-}
-
-impl super::state::Canvas {
-    /// Pixels, at least one each way; `None` before the viewport is known.
-    fn size(&self) -> Option<(u32, u32)> {
-        let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
-        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 

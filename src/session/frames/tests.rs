@@ -2,11 +2,12 @@
 
 use super::super::{
     Command, SessionOptions,
-    compile::{Done, Job},
+    compile::{BRIEF, Job},
     drawing::Drawing,
+    view::{Meanwhile, Outcome},
 };
 use super::*;
-use eddy_background::Worker;
+use eddy_background::Background;
 use eddy_gpu::{Gpu, testing};
 use eddy_project::{PassId, Tab};
 use std::{
@@ -32,8 +33,9 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
     let options = SessionOptions { edit_debounce: Duration::ZERO, ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
-    let planted = Worker::new("compile", Arc::new(|| ()), |_: Job| -> Done { panic!("planted") }).unwrap();
-    let healthy = std::mem::replace(&mut session.compiler, planted);
+    let work = |_: Job, _: &_| panic!("planted");
+    let planted = Background::new("compile", "the compiler", Arc::new(|| ()), work).unwrap();
+    let healthy = session.compile.replace_worker(planted);
     let tab = Tab::Pass(PassId::Image);
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
@@ -45,7 +47,7 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
     assert!(session.is_dirty());
     assert_eq!(session.text(&tab), text);
 
-    session.compiler = healthy;
+    session.compile.replace_worker(healthy);
     session.apply(Command::CompileNow);
     tick_until(&mut session, "a program again", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
     assert_eq!(session.text(&tab), text);
@@ -67,16 +69,16 @@ fn a_text_that_compiled_fast_is_compiled_at_each_key() {
     session.apply(Command::CompileNow);
     tick_until(&mut session, "the mistake", |s| matches!(s.compile_state().last, Some(Outcome::Failed { .. })));
     let before = session.diagnostics().to_vec();
-    session.compile.edits.set_quiet(compile::quiet_after(Duration::from_millis(1), session.options.edit_debounce));
+    session.compile.expect(Duration::from_millis(1));
     edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
     // The compile may have come back within the tick.
-    let is_compiled = session.compile.newest_since.is_some() || session.diagnostics() != before;
-    assert!(!session.compile.edits.is_waiting() && is_compiled, "the tick of the key compiles");
+    let is_compiled = session.compile.is_busy() || session.diagnostics() != before;
+    assert!(session.compile.deadline().is_none() && is_compiled, "the tick of the key compiles");
     tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
     // A slow one is waited for.
-    session.compile.edits.set_quiet(compile::quiet_after(Duration::from_secs(7200), session.options.edit_debounce));
+    session.compile.expect(Duration::from_secs(7200));
     edit(&mut session, "third");
-    assert!(session.compile.edits.is_waiting() && session.compile.newest_since.is_none());
+    assert!(session.compile.deadline().is_some() && session.compile.take().is_none());
 }
 
 #[test]
@@ -115,12 +117,12 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
     assert!(session.transport().playing && matches!(session.compile_state().last, Some(Outcome::Ok { .. })));
 
     session.drawing.device().wait().unwrap().lose();
-    tick_until(&mut session, "the end of drawing", |s| s.run.is_device_lost);
-    let told = session.notices().len();
+    tick_until(&mut session, "the end of drawing", |s| s.halting.is_device_gone());
+    let count = session.notices().len();
     for _ in 0..20 {
         session.tick(Instant::now());
     }
-    assert_eq!((session.notices().len(), session.transport().playing), (told, false), "{:?}", session.notices());
+    assert_eq!((session.notices().len(), session.transport().playing), (count, false), "{:?}", session.notices());
 }
 
 #[test]
@@ -128,8 +130,9 @@ fn a_compile_that_takes_longer_than_the_one_before_holds_no_frames() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let began = Instant::now();
-    session.compile.edits.set_quiet(Duration::ZERO);
-    (session.now, session.compile.newest_since) = (began, Some(began));
+    session.compile.expect(Duration::ZERO);
+    session.now = began;
+    session.compile.set_newest_since(Some(began));
     assert!(session.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
     session.now = began + BRIEF;
     assert!(!session.gives_way());
@@ -159,13 +162,13 @@ fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() 
         return;
     }
     for _ in 0..3 {
-        tick_until(&mut session, "a new picture", |s| s.run.waits_for_painting);
+        tick_until(&mut session, "a new picture", |s| s.picture.waits_for_painting);
         assert!(!session.drawing.is_busy(), "nothing is drawn before it is painted");
         assert!(session.wake_at().is_none_or(|at| at > session.now), "nor is a frame of the window asked for");
         let before = session.transport().frame;
         session.painted(Instant::now());
         assert!(session.drawing.is_busy() || session.transport().frame > before);
-        assert!(!session.run.waits_for_painting);
+        assert!(!session.picture.waits_for_painting);
     }
 }
 
@@ -174,18 +177,19 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let now = Instant::now();
-    (session.now, session.compile.newest_since) = (now, None);
-    session.compile.edits.set_quiet(Duration::ZERO);
-    let way = |session: &Session| {
+    session.now = now;
+    session.compile.set_newest_since(None);
+    session.compile.expect(Duration::ZERO);
+    let control = |session: &Session| {
         session.steer_frame();
-        session.drawing.way().unwrap()
+        session.drawing.frame_control().unwrap()
     };
-    assert_eq!(way(&session), FrameControl::GoOn);
-    session.compile.newest_since = Some(now);
-    assert_eq!(way(&session), FrameControl::WaitUntil(now + BRIEF));
+    assert_eq!(control(&session), FrameControl::GoOn);
+    session.compile.set_newest_since(Some(now));
+    assert_eq!(control(&session), FrameControl::WaitUntil(now + BRIEF));
     session.now = now + BRIEF;
-    assert_eq!(way(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
-    session.compile.newest_since = None;
+    assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
+    session.compile.set_newest_since(None);
     // A text that gives a program: as soon as that is there, the frame before it is not finished.
     let tab = Tab::Pass(PassId::Image);
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
@@ -197,10 +201,10 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
         session.start_compile();
         session.take_compiled();
     }
-    assert_eq!(way(&session), FrameControl::GiveUp);
-    let before = session.programs_drawn;
-    tick_until(&mut session, "the program's first frame", |s| s.programs_drawn > before);
-    assert_eq!(session.drawing.way(), Some(FrameControl::GoOn), "what comes after it is drawn");
+    assert_eq!(control(&session), FrameControl::GiveUp);
+    let before = session.picture.programs_drawn;
+    tick_until(&mut session, "the program's first frame", |s| s.picture.programs_drawn > before);
+    assert_eq!(session.drawing.frame_control(), Some(FrameControl::GoOn), "what comes after it is drawn");
 }
 
 #[test]
@@ -208,9 +212,9 @@ fn the_first_frame_of_a_program_and_one_that_is_drawn_while_time_stands_do_not_w
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());
-    session.run.is_program_new = true;
+    session.picture.is_program_new = true;
     assert!(!session.is_one_of_many(), "the first one");
-    session.run.is_program_new = false;
+    session.picture.is_program_new = false;
     assert!(session.is_one_of_many());
     session.drawing.wanted.reset = true;
     assert!(!session.is_one_of_many(), "a change goes with it");

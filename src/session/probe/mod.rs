@@ -8,6 +8,10 @@ mod statistics;
 
 pub use statistics::{BINS, Statistics};
 
+use crate::{
+    drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
+    read_back::{Moment, ReadBack},
+};
 use eddy_diag::follow;
 use eddy_engine::{BuildOptions, Paint, Pixels, Sources, ValueLook};
 use eddy_glsl::{Probe, ProbedExpression};
@@ -84,8 +88,11 @@ pub(super) struct Probing {
     is_due: bool,
     /// The time when they came, and how long that took.
     taken: Option<(Instant, Duration)>,
-    /// The engine was told of it.
-    told: Option<ValueLook>,
+    /// The way in which the engine shows it.
+    engine_look: Option<ValueLook>,
+    ticket: Ticket<Option<ProbeNumbers>>,
+    /// Numbers have come that the way of showing them may depend on.
+    has_news: bool,
 }
 
 struct Wanted {
@@ -96,11 +103,22 @@ struct Wanted {
     is_gone: bool,
 }
 
-/// The numbers that are asked for with a job.
+/// Reads the values of the probe, and makes their figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NumbersWanted {
-    pub components: u8,
-    pub range: Option<(f32, f32)>,
+struct ReadNumbers {
+    components: u8,
+    range: Option<(f32, f32)>,
+}
+
+impl RenderTask for ReadNumbers {
+    /// A program without a probe has none.
+    type Output = Option<ProbeNumbers>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let pixels = renderer.engine_mut().read(&BuildOptions::probed()).ok()?;
+        let statistics = Statistics::new(&pixels, self.components, self.range, true);
+        Some(ProbeNumbers { pixels, statistics })
+    }
 }
 
 impl Probing {
@@ -166,12 +184,17 @@ impl Probing {
 
     /// Returns how the engine is to show what it draws, where that is new to it; always with another program.
     pub fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
-        let look = self.engine_look();
-        let is_new = std::mem::replace(&mut self.told, look) != look;
+        let look = self.value_look();
+        let is_new = std::mem::replace(&mut self.engine_look, look) != look;
         (is_new || is_other_program).then_some(look)
     }
 
-    fn engine_look(&self) -> Option<ValueLook> {
+    /// Returns whether numbers have come since the last call.
+    pub fn take_news(&mut self) -> bool {
+        std::mem::take(&mut self.has_news)
+    }
+
+    fn value_look(&self) -> Option<ValueLook> {
         let Some(Ok(value)) = &self.built else { return None };
         let ProbeLook { range, paint, channel } = self.look;
         let channel = channel.filter(|channel| *channel < value.components);
@@ -187,7 +210,7 @@ impl Probing {
     }
 
     /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
-    pub fn take_due(&mut self, now: Instant, is_running: bool) -> Option<NumbersWanted> {
+    fn due(&mut self, now: Instant, is_running: bool) -> Option<ReadNumbers> {
         let Some(Ok(value)) = &self.built else { return None };
         let is_early = |(at, took): (Instant, Duration)| now.saturating_duration_since(at) < EVERY.max(SHARE * took);
         if !self.is_due || (is_running && self.taken.is_some_and(is_early)) {
@@ -195,16 +218,32 @@ impl Probing {
         }
         self.is_due = false;
         self.taken = Some((now, self.taken.map_or(Duration::ZERO, |(_, took)| took)));
-        Some(NumbersWanted { components: value.components, range: self.look.range })
+        Some(ReadNumbers { components: value.components, range: self.look.range })
+    }
+}
+
+impl ReadBack for Probing {
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
+        if let Some(task) = self.due(at.now, at.is_playing) {
+            self.ticket = tasks.add(task);
+        }
     }
 
-    /// Takes what has come back, with a frame or without one.
-    pub fn drew(&mut self, has_frame: bool, numbers: Option<(ProbeNumbers, Duration)>) {
-        self.is_due |= has_frame && numbers.is_none();
-        if let Some((numbers, took)) = numbers.filter(|_| self.is_drawn()) {
+    fn receive(&mut self, has_frame: bool) -> bool {
+        let Some(Finished { output: Some(numbers), took }) = self.ticket.take() else {
+            self.is_due |= has_frame;
+            return false;
+        };
+        if self.is_drawn() {
             self.taken = self.taken.map(|(at, _)| (at, took));
             self.numbers = Some(Arc::new(numbers));
         }
+        self.has_news = true;
+        true
+    }
+
+    fn begin_next_project(&mut self) {
+        *self = Self::default();
     }
 }
 

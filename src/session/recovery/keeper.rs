@@ -49,10 +49,10 @@ pub(crate) struct Recovery {
 impl Recovery {
     /// `wake` is called on the thread when there are news.
     pub fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
-        let (jobs, inbox) = mpsc::channel();
-        let (outbox, news) = mpsc::channel();
-        let keeper = Keeper { folder, outbox, wake, own: None, offered: HashMap::new(), is_trouble_told: false };
-        let thread = std::thread::Builder::new().name("recovery".into()).spawn(move || keeper.run(&inbox))?;
+        let (jobs, queue) = mpsc::channel();
+        let (sender, news) = mpsc::channel();
+        let keeper = Keeper { folder, sender, wake, own: None, offered: HashMap::new(), is_failure_reported: false };
+        let thread = std::thread::Builder::new().name("recovery".into()).spawn(move || keeper.run(&queue))?;
         Ok(Recovery { jobs: Some(jobs), news, thread: Some(thread) })
     }
 
@@ -110,23 +110,23 @@ impl Drop for Recovery {
 
 struct Keeper {
     folder: PathBuf,
-    outbox: Sender<News>,
+    sender: Sender<News>,
     wake: Arc<dyn Fn() + Send + Sync>,
     /// The open project's slot, while it has something unsaved.
     own: Option<Slot>,
     /// Slots whose work was found and not yet decided on.
     offered: HashMap<PathBuf, Slot>,
-    is_trouble_told: bool,
+    is_failure_reported: bool,
 }
 
 impl Keeper {
-    fn run(mut self, inbox: &Receiver<Job>) {
+    fn run(mut self, queue: &Receiver<Job>) {
         let mut waiting: Option<(Instant, Box<Project>)> = None;
         loop {
             let job = match &waiting {
-                None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                None => queue.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some((since, _)) => match GATHER.checked_sub(since.elapsed()) {
-                    Some(left) => inbox.recv_timeout(left),
+                    Some(left) => queue.recv_timeout(left),
                     None => Err(RecvTimeoutError::Timeout),
                 },
             };
@@ -138,14 +138,14 @@ impl Keeper {
                 Ok(Job::Forget) => {
                     waiting = None;
                     let ended = self.own.take().map_or(Ok(()), |slot| slot.end(&self.folder));
-                    self.told("removed", ended);
+                    self.report_failure("removed", ended);
                 }
                 Ok(job) => self.settle(job),
                 Err(end) => {
                     if let Some((_, project)) = waiting.take() {
                         let written = self.write(&project);
-                        self.is_trouble_told &= written.is_err();
-                        self.told("written", written);
+                        self.is_failure_reported &= written.is_err();
+                        self.report_failure("written", written);
                     }
                     if end == RecvTimeoutError::Disconnected {
                         return;
@@ -161,11 +161,11 @@ impl Keeper {
             Job::Adopt(file) => {
                 let own = std::mem::replace(&mut self.own, self.offered.remove(&file));
                 let ended = own.map_or(Ok(()), |slot| slot.end(&self.folder));
-                self.told("removed", ended);
+                self.report_failure("removed", ended);
             }
             Job::Discard(file) => {
                 let ended = self.offered.remove(&file).map_or(Ok(()), |slot| slot.end(&self.folder));
-                self.told("removed", ended);
+                self.report_failure("removed", ended);
             }
             // The lock ends with the slot, and the file stays.
             Job::PutOff(file) => drop(self.offered.remove(&file)),
@@ -187,7 +187,7 @@ impl Keeper {
         replaced::sweep(&self.folder, SystemTime::now());
         let slots = match Slot::left_behind(&self.folder) {
             Ok(slots) => slots,
-            Err(e) => return self.told("looked for", Err(e)),
+            Err(e) => return self.report_failure("looked for", Err(e)),
         };
         let mut found = Vec::new();
         for slot in slots {
@@ -198,7 +198,7 @@ impl Keeper {
                 }
                 Read::Nothing => {
                     let ended = slot.end(&self.folder);
-                    self.told("removed", ended);
+                    self.report_failure("removed", ended);
                 }
                 Read::Unreadable(why) => {
                     let file = slot.data.display();
@@ -213,10 +213,10 @@ impl Keeper {
         self.say(News::Found(found));
     }
 
-    /// Tells of trouble once, until a file is written again.
-    fn told(&mut self, what: &str, result: io::Result<()>) {
+    /// Reports a failure once, until a file is written again.
+    fn report_failure(&mut self, what: &str, result: io::Result<()>) {
         let Err(e) = result else { return };
-        if !std::mem::replace(&mut self.is_trouble_told, true) {
+        if !std::mem::replace(&mut self.is_failure_reported, true) {
             let folder = self.folder.display();
             self.say(News::Trouble(format!(
                 "unsaved work is not protected against a crash: a recovery file could not be {what} in {folder}: \
@@ -227,7 +227,7 @@ impl Keeper {
 
     fn say(&self, news: News) {
         // A session that is gone wants no news.
-        if self.outbox.send(news).is_ok() {
+        if self.sender.send(news).is_ok() {
             (self.wake)();
         }
     }

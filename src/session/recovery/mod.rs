@@ -6,16 +6,16 @@
 //! process, so a file that nobody holds was left behind by one that was killed. Knows nothing of questions: what was
 //! left behind is handed out as [`Left`]. What a save has replaced is kept in the same folder for a while.
 
+mod actions;
 mod keeper;
 mod left;
 mod replaced;
-mod safekeeping;
 mod slot;
 
-pub(super) use keeper::{News, Recovery};
-pub(super) use left::Left;
+pub(super) use actions::UnsavedWork;
+use keeper::{News, Recovery};
+use left::Left;
 pub use replaced::{KEPT_DAYS, place_for_replaced};
-pub(super) use safekeeping::Safekeeping;
 use std::{env, path::PathBuf};
 
 /// Returns the folder for recovery files: in `XDG_STATE_HOME` where that is set, else where the platform keeps such

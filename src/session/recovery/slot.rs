@@ -36,7 +36,7 @@ impl Slot {
             if data.exists() {
                 continue;
             }
-            if let Held::Mine(lock) = hold(&data)? {
+            if let Lock::Acquired(lock) = acquire(&data)? {
                 return Ok(Slot { data, _lock: lock });
             }
         }
@@ -55,12 +55,12 @@ impl Slot {
         for path in entries.flatten().map(|entry| entry.path()) {
             let extension = path.extension().unwrap_or_default();
             if extension == DATA && path.is_file() {
-                if let Held::Mine(lock) = hold(&path)? {
+                if let Lock::Acquired(lock) = acquire(&path)? {
                     slots.push(Slot { data: path, _lock: lock });
                 }
             } else if extension == LOCK && !path.with_extension(DATA).exists() {
                 // Its process ended before it wrote anything.
-                if let Held::Mine(_lock) = hold(&path.with_extension(DATA))? {
+                if let Lock::Acquired(_lock) = acquire(&path.with_extension(DATA))? {
                     remove(&path)?;
                 }
             }
@@ -76,19 +76,21 @@ impl Slot {
     }
 }
 
-enum Held {
-    Mine(Option<File>),
-    Others,
+enum Lock {
+    /// `None` on a file system that has no locks.
+    Acquired(Option<File>),
+    /// Another process has it.
+    Taken,
 }
 
 /// Takes the lock of a slot if no other process has it.
-fn hold(data: &Path) -> io::Result<Held> {
+fn acquire(data: &Path) -> io::Result<Lock> {
     let file = File::options().create(true).truncate(false).write(true).open(data.with_extension(LOCK))?;
     match file.try_lock() {
-        Ok(()) => Ok(Held::Mine(Some(file))),
-        Err(TryLockError::WouldBlock) => Ok(Held::Others),
+        Ok(()) => Ok(Lock::Acquired(Some(file))),
+        Err(TryLockError::WouldBlock) => Ok(Lock::Taken),
         // A file system without locks: better unguarded than not kept.
-        Err(TryLockError::Error(_)) => Ok(Held::Mine(None)),
+        Err(TryLockError::Error(_)) => Ok(Lock::Acquired(None)),
     }
 }
 

@@ -5,8 +5,8 @@
 //! held before the frame is put back ([`History::rewind`]), the change is made, and the frame is drawn
 //! ([`History::prepare_again`]). That state is kept, for the next time.
 
-use super::{BUDGET, Frame, History, before::Before};
-use eddy_engine::{Engine, EngineError, FrameInputs};
+use super::{BUDGET, Frame, History};
+use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
 use std::{sync::Arc, time::Duration};
 
 impl History {
@@ -86,7 +86,7 @@ impl History {
     }
 
     /// Returns the inputs of the frame that is shown, for the engine to draw it again with the program, the canvas and
-    /// the values of now; [`History::drew_again`] follows. `None` where what it was drawn from cannot be had any more.
+    /// the values of now; [`History::frame_drawn_again`] follows. `None` where what it was drawn from cannot be had any more.
     pub fn prepare_again(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
         if !self.rewind(engine, false)? {
             return Ok(None);
@@ -109,7 +109,7 @@ impl History {
     }
 
     /// The frame has been drawn again.
-    pub fn drew_again(&mut self, took: Duration) {
+    pub fn frame_drawn_again(&mut self, took: Duration) {
         self.again.rewound = None;
         self.drawn += 1;
         self.learn(took);
@@ -129,5 +129,34 @@ impl History {
             self.canvas = Some(size);
         }
         is_on_the_way
+    }
+}
+
+/// Holds what the targets held before a frame, on the canvas that they had then.
+pub struct Before {
+    /// The frame's number in the run.
+    pub number: u64,
+    pub size: (u32, u32),
+    pub snapshot: Arc<Snapshot>,
+}
+
+/// Holds what is needed to draw the frame again that is shown.
+#[derive(Default)]
+pub struct Again {
+    /// The targets hold what they held before this frame, which is the one that is shown.
+    pub rewound: Option<u64>,
+    pub before: Option<Before>,
+}
+
+impl Again {
+    /// Another program draws from now on.
+    pub fn change_program(&mut self) {
+        // Its targets may be others.
+        self.before = None;
+    }
+
+    /// A frame is drawn that was not drawn before: what follows it is another run.
+    pub fn drop_behind(&mut self, number: u64) {
+        self.before.take_if(|before| before.number > number);
     }
 }

@@ -3,11 +3,10 @@
 //! before it, or from the reset that the run began with. Far back snapshots are few (`thinning`).
 
 mod again;
-mod before;
 mod thinning;
 
-use crate::seek::{Goal, Reach};
-use before::Again;
+use crate::playback::{Goal, Reach};
+use again::Again;
 use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
 use eddy_playback::run::{Frame, Replay, ReplayFrom, Run};
 use eddy_project::CustomUniformValues;
@@ -131,7 +130,7 @@ impl History {
             && let Some(inputs) = self.prepare_again(engine)?
         {
             engine.draw(&inputs)?;
-            self.drew_again(self.took);
+            self.frame_drawn_again(self.took);
         }
         // On the way to a frame that is not wanted any more.
         if self.put_canvas_back(engine)? {
@@ -170,7 +169,7 @@ impl History {
     }
 
     /// A frame has been drawn.
-    pub fn drew(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
+    pub fn frame_drawn(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
         self.learn(took);
         self.frames.push_back(Frame { inputs, values: self.values.clone(), size });
         self.drawn += 1;

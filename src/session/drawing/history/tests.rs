@@ -13,7 +13,7 @@ fn of_a_long_run_the_newest_frames_are_kept() {
     let mut history = History::default();
     for frame in 0..1000 {
         history.forget(100);
-        history.drew(FrameInputs::at_fixed_step(frame, 60.0), SIZE, Duration::from_millis(1));
+        history.frame_drawn(FrameInputs::at_fixed_step(frame, 60.0), SIZE, Duration::from_millis(1));
         let reach = history.reach();
         assert_eq!((reach.shown, reach.ahead), (frame as u64, 0));
         assert_eq!(reach.is_whole, frame < 100);
@@ -28,7 +28,7 @@ fn of_a_long_run_the_newest_frames_are_kept() {
 fn a_time_is_that_of_the_last_frame_which_is_not_later() {
     let mut history = History::default();
     for frame in 0..100 {
-        history.drew(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
+        history.frame_drawn(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
     }
     let number = |secs| history.number(Goal::Time(secs));
     assert_eq!([number(0.0), number(2.05), number(2.1), number(99.0)], [0, 20, 21, 99].map(Some));
@@ -53,7 +53,7 @@ fn step(history: &mut History, engine: &mut Engine, frame: i32) {
     let inputs = FrameInputs::at_fixed_step(frame, 60.0);
     history.before_frame(engine).unwrap();
     engine.draw(&inputs).unwrap();
-    history.drew(inputs, engine.size(), Duration::from_millis(96));
+    history.frame_drawn(inputs, engine.size(), Duration::from_millis(96));
 }
 
 #[test]

@@ -3,22 +3,11 @@
 use super::{
     gate::Gate,
     history::History,
-    job::{Capture, Changes, Done, DrawnFrame, Job, Reads, TileLimit},
+    job::{Changes, Done, DrawnFrame, Job, TileLimit},
 };
-use crate::{
-    buffers::{BufferRead, BuffersRead, BuffersWanted},
-    measuring::{Measured, MeasuresWanted},
-    probe::{NumbersWanted, ProbeNumbers, Statistics},
-};
-use eddy_debugger::nonfinite::NonfiniteTexels;
-use eddy_engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program};
+use eddy_engine::{CostClock, Engine, EngineError, FrameInputs, PassTime, Program};
 use eddy_gpu::Gpu;
-use eddy_playback::reduction::Quantity;
-use eddy_project::PassId;
-use std::{
-    collections::HashMap,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// A tile's time tells something where it is at least such a part of a frame's limit; less is lost in what else the
 /// machine does.
@@ -59,11 +48,24 @@ impl Renderer {
         &self.engine
     }
 
+    pub fn engine_mut(&mut self) -> &mut Engine {
+        &mut self.engine
+    }
+
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Returns `iFrame` and `iTime` of what the targets hold; `None` before the first frame.
+    pub fn shown(&self) -> Option<(i32, f64)> {
+        self.shown
+    }
+
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, travel, stays, again, reads, costs_of, tile_limit, gate } = job;
+        let Job { changes, frame, travel, stays, again, tasks, costs_of, tile_limit, gate } = job;
         let mut done = Done::default();
         // Another program draws its own frame.
-        if changes.program.is_none() || !reads.is_empty() {
+        if changes.program.is_none() || !tasks.is_empty() {
             done.is_display_new |= self.finish();
         }
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
@@ -94,7 +96,7 @@ impl Renderer {
             done.is_display_new |= self.engine.size() != size;
             let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some(), gate.as_ref()));
             match &drawn {
-                Ok(drawn) => self.history.drew(inputs, self.engine.size(), drawn.took),
+                Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
                 Err(_) => self.history.begin(false),
             }
             done.frame = Some(drawn);
@@ -108,7 +110,7 @@ impl Renderer {
         if self.hands_out && (done.is_display_new || has_drawn) && is_whole && !is_between {
             done.picture = Some(self.engine.picture());
         }
-        self.read_behind(reads, &mut done);
+        done.outputs = tasks.run(self);
         done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
         done.clock = Some(self.engine.cost_clock());
         done
@@ -138,30 +140,10 @@ impl Renderer {
         };
         done.is_display_new |= self.engine.size() != size;
         match &drawn {
-            Ok(drawn) => self.history.drew_again(drawn.took),
+            Ok(drawn) => self.history.frame_drawn_again(drawn.took),
             Err(_) => self.history.begin(false),
         }
         done.frame = Some(drawn);
-    }
-
-    /// Reads what is asked for of the targets as they are now.
-    fn read_behind(&mut self, reads: Reads, done: &mut Done) {
-        let Reads { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, wants_picture, inspect } =
-            reads;
-        done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
-        // A pass that nobody reads is not drawn, and has none.
-        let began = Instant::now();
-        let picture = |target: (PassId, usize)| Some((self.engine.miniature(&target.0, target.1).ok()?, target));
-        done.miniatures =
-            miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
-        done.miniatures_took = began.elapsed();
-        done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
-        done.buffers = buffers.map(|wanted| self.buffers(&wanted));
-        done.measured = measures.and_then(|wanted| self.measure(wanted));
-        done.replay = wants_replay.map(|from| (from, self.history.replay(from)));
-        done.run = wants_run.then(|| self.history.run());
-        done.shown = if wants_picture { self.engine.picture().ok() } else { None };
-        done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
     }
 
     /// `canvas`: the size that the picture has had.
@@ -312,53 +294,6 @@ impl Renderer {
         }
         (self.whole_took, self.is_given_up) = (began.elapsed(), false);
         Ok(DrawnFrame { cpu_micros, times, took: self.whole_took })
-    }
-
-    /// Reads the values of the probe back, with their figures. A program without a probe has none.
-    fn numbers(&mut self, wanted: NumbersWanted) -> Option<(ProbeNumbers, Duration)> {
-        let began = Instant::now();
-        let pixels = self.engine.read(&BuildOptions::probed()).ok()?;
-        let statistics = Statistics::new(&pixels, wanted.components, wanted.range, true);
-        Some((ProbeNumbers { pixels, statistics }, began.elapsed()))
-    }
-
-    /// Reads what somebody looks at closely. A target that is not drawn has nothing.
-    fn buffers(&mut self, wanted: &BuffersWanted) -> (BuffersRead, Duration) {
-        let began = Instant::now();
-        let shown = wanted.shown.as_ref().and_then(|((pass, index), look)| {
-            let components = self.engine.format(pass, *index)?.components();
-            let pixels = self.engine.read_target(pass, *index).ok()?;
-            let statistics = Statistics::new(&pixels, components as u8, look.range, false);
-            let values = look.values(components as u8, &statistics);
-            let picture = self.engine.picture_of_values(pass, *index, &values).ok()?;
-            let nonfinite = NonfiniteTexels::find(&pixels, components);
-            let target = (pass.clone(), *index);
-            Some(BufferRead { target, components: components as u8, pixels, picture, statistics, nonfinite })
-        });
-        let under = wanted.under.and_then(|at| self.engine.texels_at(at).ok());
-        (BuffersRead { shown, under }, began.elapsed())
-    }
-
-    /// Measures what the targets hold, each of which is read once. Nothing has a number before the first frame.
-    fn measure(&mut self, wanted: MeasuresWanted) -> Option<(Measured, Duration)> {
-        let began = Instant::now();
-        let (frame, time_secs) = self.shown?;
-        let mut read: HashMap<(PassId, usize), Option<(Pixels, usize)>> = HashMap::new();
-        let mut value = |quantity: &Quantity| {
-            let target = (quantity.pass.clone(), quantity.target);
-            let texels = read.entry(target).or_insert_with_key(|(pass, index)| {
-                let stored = self.engine.format(pass, *index)?.components();
-                Some((self.engine.read_target(pass, *index).ok()?, stored))
-            });
-            texels.as_ref().map(|(pixels, stored)| quantity.of(pixels, *stored))
-        };
-        let values = wanted.iter().map(|(serial, quantity)| (*serial, value(quantity))).collect();
-        Some((Measured { frame, time_secs, values }, began.elapsed()))
-    }
-
-    fn read(&mut self, capture: Capture) -> (Capture, Result<Pixels, EngineError>) {
-        let pixels = self.engine.read(&capture.pass);
-        (capture, pixels)
     }
 }
 

@@ -1,10 +1,14 @@
 //! Tests of what an engine does for a job.
 
 use super::*;
-use crate::drawing::{gate::FrameControl, job::PendingProgram};
+use crate::{
+    drawing::{Tasks, gate::FrameControl, job::PendingProgram},
+    read_back::ReadPicture,
+};
+use eddy_engine::BuildOptions;
 use eddy_gpu::testing;
 use eddy_media as media;
-use eddy_project::presets;
+use eddy_project::{PassId, presets};
 
 #[test]
 fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
@@ -68,18 +72,14 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
             // Something else is asked: the frame is finished first.
             0 => assert_eq!(picture(given_up.work(Job::default())), Some(expected)),
             1 => {
-                let capture = Capture {
-                    pass: PassId::Image,
-                    format: eddy_playback::capture::Format::Npy,
-                    folder: "".into(),
-                    stem: "".into(),
-                };
-                let reads = || Reads { captures: vec![capture.clone()], ..Reads::default() };
                 let read = |renderer: &mut Renderer, program: Option<Program>| {
                     let program = program.map(|program| PendingProgram { program, origin: None });
                     let changes = Changes { program, ..Changes::default() };
-                    let done = renderer.work(Job { changes, reads: reads(), ..Job::default() });
-                    done.captured.into_iter().next().unwrap().1.unwrap().texels
+                    let mut tasks = Tasks::default();
+                    let mut ticket = tasks.add(ReadPicture);
+                    let done = renderer.work(Job { changes, tasks, ..Job::default() });
+                    done.outputs.into_iter().for_each(|deliver| deliver());
+                    ticket.take().unwrap().output.unwrap().bytes
                 };
                 assert_eq!(read(&mut given_up, Some(build())), read(&mut whole, None), "also beside a program");
             }

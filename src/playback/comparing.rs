@@ -1,0 +1,229 @@
+//! The open project held against another one: both draw the frames since the reset from the same inputs, beside the
+//! picture, which goes on.
+
+use crate::{
+    revision,
+    run::{Frame, Run},
+};
+use eddy_background::{Control, Count};
+use eddy_diag as diag;
+use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
+use eddy_gpu::{Gpu, GpuOptions};
+use eddy_media as media;
+use eddy_project::{self as project, Origin, PassId, Project};
+use std::{
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Frames that a project draws in its turn.
+const TURN: i32 = 4;
+/// Turns that are timed, and when there are no more: a person waits.
+const TURNS: usize = 12;
+const LEAST_TURNS: usize = 3;
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Names what the open project is compared with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// The project as it was last saved, read or begun.
+    LastSave,
+    /// A PROJECT of the command line: a folder, a file, or a preset's name.
+    Project(String),
+    /// The project in a revision of its git repository.
+    Revision(String),
+}
+
+impl Baseline {
+    /// Returns the name of the reference.
+    pub fn name(&self) -> String {
+        match self {
+            Baseline::LastSave => "the last save".to_owned(),
+            Baseline::Project(spec) => spec.clone(),
+            Baseline::Revision(revision) => format!("revision {revision}"),
+        }
+    }
+}
+
+/// The pictures of two projects, and the times that they took in turns.
+#[derive(Debug)]
+pub struct Comparison {
+    pub against: Baseline,
+    pub pass: PassId,
+    /// `iFrame` of the pictures.
+    pub frame: i32,
+    pub ours: Pixels,
+    pub theirs: Pixels,
+    /// Milliseconds a frame of ours and of theirs, one pair a turn.
+    pub turns: Vec<(f64, f64)>,
+    /// Frames that both have drawn for it.
+    pub frames: usize,
+    /// The run's first frames are no longer kept: both began later, from empty buffers.
+    pub is_cut: bool,
+    /// The revision of the project that was compared.
+    pub revision: u64,
+}
+
+/// Holds the projects that are to be compared, and the frames that both draw.
+pub struct CompareJob {
+    pub gpu: Gpu,
+    pub project: Project,
+    /// The open project as it is on disk.
+    pub saved: Project,
+    pub against: Baseline,
+    pub revision: u64,
+    pub shown: PassId,
+    pub media_dir: Option<PathBuf>,
+    /// The other project may be one that the driver takes minutes for.
+    pub trial: Option<Trial>,
+    pub run: Run,
+}
+
+/// Compares two projects; counts frames. Fails where there is no other project, or one of both cannot be drawn.
+pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, String> {
+    let CompareJob { gpu, project, saved, against, revision, shown, media_dir, trial, run } = job;
+    let Run { mut frames, is_whole } = run;
+    let last = frames.last().cloned().ok_or("no frame has been drawn yet")?;
+    // Files of a revision are there for as long as they are read.
+    let copy;
+    let other = match (&against, &project.origin) {
+        (Baseline::LastSave, _) => saved,
+        (Baseline::Project(spec), _) => load(spec, spec)?,
+        (Baseline::Revision(name), Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) => {
+            copy = revision::at(&path.to_string_lossy(), name).map_err(|e| e.to_string())?;
+            let loaded = load(&copy.project.to_string_lossy(), &against.name());
+            loaded.map_err(|why| [vec![why], copy.notes()].concat().join("\n"))?
+        }
+        (Baseline::Revision(_), _) => return Err("only a project saved in a git repository has revisions".into()),
+    };
+    let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassId::Image };
+    // What a frame leaves nothing to the next is drawn alone.
+    let is_stateless = project.stateful_passes().is_empty() && other.stateful_passes().is_empty();
+    if is_stateless {
+        frames.drain(..frames.len() - 1);
+    }
+    let is_cut = !is_whole && !is_stateless;
+    // A project that nobody has drawn yet may lose its device: it is not the one that draws the picture, where there is
+    // another.
+    let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
+    let side = |project: &Project, name: &str| {
+        let made = Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size, trial.clone());
+        made.map_err(|why| format!("{name}: {why}"))
+    };
+    let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
+    for (index, frame) in frames.iter().enumerate() {
+        control.check()?;
+        control.report(Count { done: index, of: frames.len() });
+        ours.draw(frame).and_then(|()| theirs.draw(frame)).map_err(|e| e.to_string())?;
+    }
+    control.report(Count { done: frames.len(), of: frames.len() });
+    let read = |side: &mut Side| side.engine.read(&pass).map_err(|e| e.to_string());
+    let (a, b) = (read(&mut ours)?, read(&mut theirs)?);
+    if (a.width, a.height) != (b.width, b.height) {
+        return Err(format!(
+            "cannot compare pictures of different sizes: {} is {}x{} here, but {}x{} in {}",
+            pass.title(),
+            a.width,
+            a.height,
+            b.width,
+            b.height,
+            against.name()
+        ));
+    }
+    let turns = take_turns(&mut ours, &mut theirs, &last.inputs, control).map_err(|e| e.to_string())?;
+    let (frame, frames) = (last.inputs.frame, frames.len());
+    Ok(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_cut, revision })
+}
+
+fn load(spec: &str, name: &str) -> Result<Project, String> {
+    Ok(project::load(spec).map_err(|e| format!("cannot open {name}: {e}"))?.project)
+}
+
+/// An engine that draws one of both.
+struct Side {
+    engine: Engine,
+}
+
+impl Side {
+    fn new(
+        gpu: &Gpu,
+        project: &Project,
+        pass: &PassId,
+        media_dir: Option<&Path>,
+        (width, height): (u32, u32),
+        trial: Option<Trial>,
+    ) -> Result<Self, String> {
+        let (media, _) = media::gather(project, media_dir);
+        let mut wanted = vec![PassId::Image];
+        wanted.extend((*pass != PassId::Image).then(|| pass.clone()));
+        // Also what does not change: it is timed.
+        let options = BuildOptions { wanted, skip: false, trial, ..BuildOptions::default() };
+        let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;
+        let mut engine = Engine::new(gpu.clone(), width, height).map_err(|e| e.to_string())?;
+        engine.set_program(built.program).map_err(|e| e.to_string())?;
+        engine.set_custom_uniforms(&project.custom_uniform_values);
+        Ok(Self { engine })
+    }
+
+    /// Draws a frame as it was drawn, and waits for it.
+    fn draw(&mut self, frame: &Frame) -> Result<(), EngineError> {
+        if frame.size != self.engine.size() {
+            self.engine.resize(frame.size.0, frame.size.1)?;
+        }
+        self.engine.set_custom_uniforms(&frame.values);
+        self.engine.draw(&frame.inputs)?;
+        Ok(self.engine.gpu().wait()?)
+    }
+
+    /// The milliseconds of a frame: the mean of the turn that begins so many frames behind the last.
+    fn turn(&mut self, last: &FrameInputs, ahead: i32) -> Result<f64, EngineError> {
+        let began = Instant::now();
+        for by in ahead + 1..=ahead + TURN {
+            let time_secs = last.time_secs + f64::from(by) * f64::from(last.time_delta_secs);
+            let inputs = FrameInputs { frame: last.frame + by, time_secs, ..last.clone() };
+            self.engine.draw(&inputs)?;
+            self.engine.gpu().wait()?;
+        }
+        Ok(began.elapsed().as_secs_f64() * 1e3 / f64::from(TURN))
+    }
+}
+
+/// Times of both, in turns, so that a machine that is busy is busy for both.
+fn take_turns(
+    ours: &mut Side,
+    theirs: &mut Side,
+    last: &FrameInputs,
+    control: &Control<Count>,
+) -> Result<Vec<(f64, f64)>, EngineError> {
+    // Drivers compile for the machine when a pipeline is first used.
+    ours.turn(last, 0)?;
+    theirs.turn(last, 0)?;
+    let began = Instant::now();
+    let mut turns = Vec::new();
+    while turns.len() < TURNS && !control.is_cancelled() {
+        if turns.len() >= LEAST_TURNS && began.elapsed() > PATIENCE {
+            break;
+        }
+        let ahead = TURN * (turns.len() as i32 + 1);
+        // Each goes first as often as the other.
+        turns.push(if turns.len() % 2 == 0 {
+            let first = ours.turn(last, ahead)?;
+            (first, theirs.turn(last, ahead)?)
+        } else {
+            let first = theirs.turn(last, ahead)?;
+            (ours.turn(last, ahead)?, first)
+        });
+    }
+    Ok(turns)
+}
+
+/// The first of what an author has to mend, with its place.
+fn first_error(error: &BuildError) -> String {
+    match error {
+        BuildError::Engine(error) => error.to_string(),
+        BuildError::Diagnostics { diagnostics, sources } => {
+            let first = diagnostics.iter().find(|d| d.severity == diag::Severity::Error);
+            first.map_or_else(|| error.to_string(), |first| diag::render(first, sources))
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The audit that a person asks for of the picture that is shown: taken of the pass after a frame, done on a thread of
+//! its own, listed with the problems until the next compile.
+
+use super::{
+    Session,
+    drawing::{Tasks, Ticket},
+    read_back::{Inspect, Inspected},
+    view::{About, Level, TabDiagnostic},
+};
+use eddy_background::{Background, Wake};
+use eddy_debugger::{
+    audit::{self, Audit, AuditedPixel, Class, Finding},
+    trace::STEPS,
+};
+use eddy_diag::{Diagnostic, Severity};
+use eddy_engine::{EngineError, Sources};
+use eddy_project::{PassId, Project};
+use std::collections::HashMap;
+
+/// Says how many pixels are looked at, across and up.
+const PIXELS: (u32, u32) = (32, 18);
+/// Pixels that are listed.
+const WORST: usize = 5;
+
+/// Holds what came of it.
+pub(super) struct AuditSummary {
+    pub pass: PassId,
+    pub pixels: usize,
+    /// The largest difference of a component between the device and double precision.
+    pub error: f64,
+    pub findings: Vec<TabDiagnostic>,
+    pub map: AuditMap,
+}
+
+/// Says how far pixels of a pass are off double precision, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuditMap {
+    pub pass: PassId,
+    /// The pass's picture.
+    pub size: (u32, u32),
+    pub pixels: usize,
+    pub cells: Vec<AuditCell>,
+    /// The largest errors, the largest first; those without any are left out.
+    pub worst: Vec<WorstPixel>,
+}
+
+/// A part of a picture that one pixel stands for: its corners, from 0 to 1 across and up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AuditCell {
+    pub from: [f32; 2],
+    pub to: [f32; 2],
+    /// The largest difference of a component; infinite where the device or double precision alone has a number.
+    pub error: f64,
+}
+
+/// A pixel, what the device has drawn there, and what double precision makes of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPixel {
+    pub pixel: (u32, u32),
+    pub error: f64,
+    pub device: [f32; 4],
+    pub double: [f64; 4],
+}
+
+pub(super) struct Auditing {
+    background: Background<(Project, Inspected), (), AuditSummary>,
+    input: Ticket<Result<Inspected, EngineError>>,
+    /// Holds what is shown of the newest one, as long as that frame is.
+    pub map: Option<AuditMap>,
+    /// The count of frames when the input was taken.
+    of_frame: u64,
+}
+
+impl Auditing {
+    pub fn new(wake: Wake) -> std::io::Result<Self> {
+        let work = |(project, inspected): (Project, Inspected), _: &_| audit_pass(&project, inspected);
+        let background = Background::new("audit", "the CPU interpreter", wake, work)?;
+        Ok(Self { background, input: Ticket::default(), map: None, of_frame: 0 })
+    }
+
+    pub fn request_input(&mut self, shown: &PassId, tasks: &mut Tasks) {
+        if self.background.take_request() {
+            self.input = tasks.add(Inspect(shown.clone()));
+        }
+    }
+
+    /// The device that the input was asked of is gone.
+    pub fn renew_request(&mut self) {
+        self.background.renew_request();
+    }
+
+    pub fn begin_next_project(&mut self) {
+        self.background.clear();
+        (self.input, self.map) = (Ticket::default(), None);
+    }
+}
+
+impl Session {
+    /// Returns how far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while
+    /// what was found of them is listed.
+    pub fn audit_map(&self) -> Option<&AuditMap> {
+        self.auditing.map.as_ref()
+    }
+
+    pub(super) fn ask_audit(&mut self) {
+        self.settled(About::Audit);
+        if self.is_playing() {
+            self.pause();
+        }
+        self.auditing.background.request();
+    }
+
+    /// Hands on what the audited pass read.
+    pub(super) fn audit(&mut self) {
+        let Some(input) = self.auditing.input.take() else { return };
+        match (input.output, self.drawing.project().cloned()) {
+            (Ok(inspected), Some(project)) => {
+                self.auditing.of_frame = self.picture.frames_drawn;
+                self.auditing.background.start((project, inspected));
+            }
+            (Ok(_), None) => self.auditing.background.cancel(),
+            (Err(e), _) => {
+                self.auditing.background.cancel();
+                self.not_checked(&e.to_string());
+            }
+        }
+    }
+
+    /// Takes an audit that has ended.
+    pub(super) fn take_audited(&mut self) {
+        let Some(result) = self.auditing.background.take() else { return };
+        self.changed = true;
+        let AuditSummary { pass, pixels, error, findings, map } = match result {
+            Ok(summary) => summary,
+            Err(why) => return self.not_checked(&why),
+        };
+        // A frame of another size was drawn meanwhile, and is the picture that is shown.
+        let is_shown = self.auditing.of_frame == self.picture.frames_drawn;
+        if !is_shown && !self.is_playing() {
+            self.auditing.background.request();
+            return;
+        }
+        let count = match findings.len() {
+            0 => "no undefined behaviour and no operation with large errors".to_owned(),
+            1 => "one finding is in the list of problems".to_owned(),
+            n => format!("{n} findings are in the list of problems"),
+        };
+        let pass = pass.title();
+        let text = format!(
+            "largest error of {pass} against double precision: {error:.1e} in {pixels} sampled \
+                            pixels; {count}"
+        );
+        self.notice(Level::Info, text);
+        self.compile.add_findings(findings);
+        self.auditing.map = Some(map).filter(|_| is_shown);
+    }
+
+    /// Another picture is shown than the one that the map is of.
+    pub(super) fn picture_is_other(&mut self) {
+        self.picture.frames_drawn += 1;
+        self.auditing.map = None;
+    }
+
+    fn not_checked(&mut self, why: &str) {
+        self.notice_about(About::Audit, Level::Warning, format!("cannot check the picture: {why}"));
+    }
+}
+
+fn audit_pass(project: &Project, inspected: Inspected) -> Result<AuditSummary, String> {
+    let Inspected { pass, inputs, picture } = inspected;
+    let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass was removed")?;
+    let pixels = audit::grid(PIXELS, &project.passes[index].settings, inputs.size);
+    let found = audit::audit(&Sources::new(project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
+    let stored = project.passes[index].settings.format.components();
+    let texel = |(x, y): (u32, u32)| picture.texels.get((y * picture.width + x) as usize).copied().unwrap_or_default();
+    let error = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored).into_iter().fold(0.0, f64::max);
+    let mut worst: Vec<WorstPixel> = found
+        .pixels
+        .iter()
+        .map(|pixel| WorstPixel {
+            pixel: pixel.pixel,
+            error: error(pixel),
+            device: texel(pixel.pixel),
+            double: pixel.double,
+        })
+        .collect();
+    let known: HashMap<(u32, u32), f64> = worst.iter().map(|worst| (worst.pixel, worst.error)).collect();
+    let size = inputs.size;
+    let cells = audit::cells(PIXELS, &project.passes[index].settings, size).into_iter().zip(&pixels);
+    let cells =
+        cells.filter_map(|((from, to), pixel)| Some(AuditCell { from, to, error: *known.get(pixel)? })).collect();
+    worst.sort_by(|a, b| b.error.total_cmp(&a.error));
+    let largest = worst.first().map_or(0.0, |worst| worst.error);
+    worst.retain(|worst| worst.error > 0.0);
+    worst.truncate(WORST);
+    let map = AuditMap { pass: pass.clone(), size, pixels: found.pixels.len(), cells, worst };
+    let sources = project.sources();
+    let findings =
+        found.findings.iter().map(|finding| TabDiagnostic::new(&diagnostic(finding, &found), &sources, project));
+    Ok(AuditSummary { pass, pixels: found.pixels.len(), error: largest, findings: findings.collect(), map })
+}
+
+fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {
+    let severity = match finding.kind.class() {
+        Class::Nonfinite | Class::Undefined => Severity::Warning,
+        Class::Rounding | Class::Decided => Severity::Note,
+    };
+    let ((x, y), count) = (finding.pixel, audit.pixels.len());
+    let mut hint = format!("in {} of {count} pixels, for example {x},{y}", finding.pixels);
+    if finding.is_constant() {
+        hint.clone_from(&finding.numbers);
+    } else if !finding.numbers.is_empty() {
+        hint = format!("{}, {hint}", finding.numbers);
+    }
+    if let Some((error, left)) = finding.error {
+        hint = format!("{hint}; the error of {error:.1e} would be {left:.1e} if this were exact");
+    }
+    Diagnostic::new(severity, finding.span, finding.kind.message()).hint(hint)
+}

@@ -1,0 +1,104 @@
+//! The size of the picture: what is asked for, and what the device takes.
+
+use super::{
+    Session,
+    view::{About, Level},
+};
+use eddy_engine::EngineError;
+
+/// The size that the picture shall have.
+#[derive(Default)]
+pub(super) struct Canvas {
+    pub viewport: Option<(u32, u32)>,
+    pub asked: CanvasSize,
+    /// The size that was asked for before any project was opened: each begins with it.
+    pub usual: CanvasSize,
+    /// The size of a recording that is played, or was until now.
+    pub replayed: Option<(u32, u32)>,
+    /// A size the device did not take; not tried again.
+    pub refused: Option<(u32, u32)>,
+}
+
+/// The size that a person has asked for, for the open project.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CanvasSize {
+    /// Canvas pixels to viewport pixels.
+    pub scale: f32,
+    pub fixed: Option<(u32, u32)>,
+}
+
+impl Default for CanvasSize {
+    fn default() -> Self {
+        Self { scale: 1.0, fixed: None }
+    }
+}
+
+impl Canvas {
+    /// Each project begins with the size that was asked for before any was opened.
+    pub fn begin_next_project(&mut self) {
+        *self = Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() };
+    }
+
+    pub fn set_viewport(&mut self, size: (u32, u32)) {
+        if self.viewport != Some(size) {
+            (self.viewport, self.refused) = (Some(size), None);
+        }
+    }
+
+    /// Makes both sides smaller.
+    pub fn shrink(&mut self, factor: f64) {
+        let side = |side: u32| ((f64::from(side) * factor) as u32).max(1);
+        match &mut self.asked.fixed {
+            Some((width, height)) => (*width, *height) = (side(*width), side(*height)),
+            None => self.asked.scale *= factor as f32,
+        }
+    }
+
+    /// Pixels, at least one each way; `None` before the viewport is known.
+    fn size(&self) -> Option<(u32, u32)> {
+        let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
+        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+    }
+}
+
+impl Session {
+    pub(super) fn set_scale(&mut self, scale: f32) {
+        self.settled(About::Scale);
+        if scale.is_finite() && scale > 0.0 {
+            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
+        } else {
+            self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
+        }
+    }
+
+    /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
+    pub(super) fn ask_size(&mut self, size: CanvasSize) {
+        self.end_replay("the resolution was changed");
+        self.canvas.replayed = None;
+        self.canvas.asked = size;
+        if self.projects_opened == 0 {
+            self.canvas.usual = size;
+        }
+        self.canvas.refused = None;
+    }
+
+    /// Gives the engine the size the canvas shall have.
+    pub(super) fn fit_canvas(&mut self) {
+        let Some(size) = self.canvas.size() else { return };
+        let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
+        self.drawing.wanted.size = is_new.then_some(size);
+        if !is_new && self.canvas.refused.is_none() {
+            self.settled(About::CanvasSize);
+        }
+    }
+
+    /// The device does not take a size for the canvas.
+    pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
+        self.canvas.refused = Some(size);
+        let (width, height) = self.drawing.size();
+        let text = format!("{error}; the picture stays at {width}x{height}");
+        self.notice_about(About::CanvasSize, Level::Error, text);
+        self.canvas.replayed = None;
+        self.end_replay("its resolution cannot be drawn on this GPU");
+    }
+}

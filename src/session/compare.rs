@@ -1,0 +1,84 @@
+//! The open project is compared with another one, from the inputs that its frames had.
+
+use super::{
+    Session,
+    drawing::{Tasks, Ticket},
+    read_back::TakeRun,
+};
+use eddy_background::{Background, Count, Status, Wake};
+use eddy_playback::{
+    comparing::{Baseline, CompareJob, Comparison, compare},
+    run::Run,
+};
+use std::sync::Arc;
+
+pub(super) struct Comparing {
+    pub background: Background<CompareJob, Count, Arc<Comparison>>,
+    against: Option<Baseline>,
+    input: Ticket<Run>,
+}
+
+impl Comparing {
+    pub fn new(wake: Wake) -> std::io::Result<Self> {
+        let work = |job: CompareJob, control: &_| compare(job, control).map(Arc::new);
+        let background = Background::new("comparison", "the comparison", wake, work)?;
+        Ok(Self { background, against: None, input: Ticket::default() })
+    }
+
+    /// Begins anew, or stops. The last comparison stays until there is another.
+    pub fn want(&mut self, against: Option<Baseline>) {
+        self.background.cancel();
+        if against.is_some() {
+            self.background.request();
+        }
+        (self.against, self.input) = (against, Ticket::default());
+    }
+
+    pub fn begin_next_project(&mut self) {
+        self.want(None);
+        self.background.clear();
+    }
+
+    pub fn request_input(&mut self, tasks: &mut Tasks) {
+        if self.background.take_request() {
+            self.input = tasks.add(TakeRun);
+        }
+    }
+}
+
+impl Session {
+    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)), which counts frames.
+    pub fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
+        self.comparing.background.status()
+    }
+
+    /// The newest comparison is not of the project as it stands now.
+    pub fn is_comparison_old(&self) -> bool {
+        matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.documents.revision())
+    }
+
+    /// Hands on the frames that both projects draw.
+    pub(super) fn compare(&mut self) {
+        let Comparing { background, against, input } = &mut self.comparing;
+        let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };
+        self.changed = true;
+        let Some(project) = self.drawing.project().cloned() else {
+            return background.fail("nothing has been drawn yet");
+        };
+        let media_dir = self.options.media_dir.clone();
+        match self.drawing.device().wait() {
+            Err(e) => background.fail(e.to_string()),
+            Ok(gpu) => background.start(CompareJob {
+                gpu,
+                project,
+                saved: self.documents.saved().clone(),
+                against,
+                revision: self.documents.revision(),
+                shown: self.picture.shown.clone(),
+                trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
+                media_dir,
+                run: input.output,
+            }),
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! The project's files: when they are to be read again, and what is known of them.
+//!
+//! Owns the watch on the project's folders ([`watcher`]), the wait until what somebody writes is whole, and the stamps of
+//! pictures and models ([`stamps`]). Texts are the documents'; what a change does to them is in `reload`.
+
+mod reload;
+pub mod stamps;
+mod watcher;
+
+use super::{debounce::Debounce, documents::Documents, options::SessionOptions};
+use eddy_background::Wake;
+use eddy_playback::capture;
+use eddy_project::{self as project, Loaded, Origin, Project, confine, limits};
+use std::{
+    collections::BTreeSet,
+    mem::take,
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+use watcher::FolderWatcher;
+
+/// The files of the open project.
+pub(super) struct DiskSync {
+    watcher: Option<FolderWatcher>,
+    watch_debounce: Duration,
+    /// Files that make no whole project are read again for so long.
+    retry_for: Duration,
+    changes: Debounce,
+    /// Look in the next tick, whatever the watcher says.
+    is_check_wanted: bool,
+    /// Since when what is on disk makes no whole project.
+    unsettled_since: Option<Instant>,
+    /// The last words about such files, so that they are said once.
+    reported: Option<String>,
+    /// `eddy.toml` as it was last read or written.
+    manifest: Option<Vec<u8>>,
+    /// Counts the times a project was opened or took a new place.
+    opened: u64,
+    /// Pictures, models and the files these name, as the last compile found them.
+    media_files: Vec<PathBuf>,
+    pub reset_on_reload: bool,
+}
+
+/// The project on disk, if it can be used.
+enum OnDisk {
+    Project(Box<Loaded>),
+    /// It makes no whole project, perhaps because somebody is writing it just now.
+    Unusable(String),
+}
+
+/// What a look at the disk has found.
+enum Check {
+    /// Nothing was due, or the files are being written.
+    Nothing,
+    Project(Box<Loaded>),
+    /// The files make no whole project. `why` is there where it has not been said before.
+    Unusable {
+        why: Option<String>,
+    },
+}
+
+impl DiskSync {
+    pub fn new(options: &SessionOptions) -> Self {
+        let (watch_debounce, retry_for) = (options.watch_debounce, options.retry_for);
+        Self {
+            watcher: None,
+            watch_debounce,
+            retry_for,
+            changes: Debounce::with_limit(watch_debounce, 8 * watch_debounce),
+            is_check_wanted: false,
+            unsettled_since: None,
+            reported: None,
+            manifest: None,
+            opened: 0,
+            media_files: Vec::new(),
+            reset_on_reload: false,
+        }
+    }
+
+    pub fn begin_next_project(&mut self) {
+        self.changes = Debounce::with_limit(self.watch_debounce, 8 * self.watch_debounce);
+        (self.is_check_wanted, self.unsettled_since) = (false, None);
+        (self.reported, self.manifest) = (None, None);
+        self.media_files.clear();
+        self.has_moved();
+    }
+
+    /// The project lies in another place than before.
+    pub fn has_moved(&mut self) {
+        self.opened += 1;
+    }
+
+    /// Counts the times a project was opened or took a new place.
+    pub fn opened(&self) -> u64 {
+        self.opened
+    }
+
+    /// Looks at the files in the next tick.
+    pub fn want_check(&mut self) {
+        self.is_check_wanted = true;
+    }
+
+    /// Returns when changes of the files have been quiet for long enough.
+    pub fn deadline(&self) -> Option<Instant> {
+        self.changes.deadline()
+    }
+
+    /// Takes the pictures, models and other files that a compile has read. Returns whether they are others than before.
+    pub fn set_media_files(&mut self, files: Vec<PathBuf>) -> bool {
+        let is_new = self.media_files != files;
+        self.media_files = files;
+        is_new
+    }
+
+    /// Reads the files where the watcher says so and the quiet has lasted.
+    fn check(&mut self, now: Instant, documents: &Documents) -> Check {
+        if self.watcher.as_ref().is_some_and(FolderWatcher::take_changed) {
+            self.changes.touch(now);
+        }
+        let is_due = self.changes.take_due(now);
+        if !(take(&mut self.is_check_wanted) || is_due) {
+            return Check::Nothing;
+        }
+        let since = *self.unsettled_since.get_or_insert(now);
+        let is_last_try = now.saturating_duration_since(since) >= self.retry_for;
+        let found = Self::read(documents, is_last_try);
+        if matches!(found, Some(OnDisk::Unusable(_))) && !is_last_try {
+            self.changes.touch(now);
+            return Check::Nothing;
+        }
+        self.unsettled_since = None;
+        match found {
+            None => Check::Nothing,
+            Some(OnDisk::Project(project)) => {
+                self.reported = None;
+                Check::Project(project)
+            }
+            Some(OnDisk::Unusable(why)) => {
+                let is_new = self.reported.as_ref() != Some(&why);
+                self.reported = Some(why.clone());
+                Check::Unusable { why: Some(why).filter(|_| is_new) }
+            }
+        }
+    }
+
+    /// `None` for a project that lies in no file. On the last try files that are gone or empty are taken as meant.
+    fn read(documents: &Documents, is_last_try: bool) -> Option<OnDisk> {
+        let path = match &documents.saved().origin {
+            Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path,
+            Origin::Unsaved | Origin::Preset(_) => return None,
+        };
+        let mut read = match project::load(&path.to_string_lossy()) {
+            Ok(read) => read,
+            Err(e) => return Some(OnDisk::Unusable(e.to_string())),
+        };
+        let loaded = &mut read.project;
+        for tab in documents.saved().tabs() {
+            let Some(known) = documents.saved().source(&tab) else { continue };
+            match loaded.source_mut(&tab) {
+                // Editors truncate a file before they write it.
+                Some(source) if source.text.is_empty() && !known.text.is_empty() => {
+                    if !is_last_try && !documents.is_missing(&tab) {
+                        return Some(OnDisk::Unusable(format!("{} is empty", source.name)));
+                    }
+                    source.text = known.text.clone();
+                }
+                Some(_) => {}
+                // ... or move it away.
+                None if !is_last_try
+                    && !documents.is_missing(&tab)
+                    && known.path.as_ref().is_some_and(|p| !p.exists()) =>
+                {
+                    return Some(OnDisk::Unusable(format!("{} was removed", known.name)));
+                }
+                None => {}
+            }
+        }
+        Some(OnDisk::Project(Box::new(read)))
+    }
+
+    /// Returns whether every file is as it was read, or as it would be written.
+    fn is_as_read(&self, documents: &Documents) -> bool {
+        let (saved, current) = (documents.saved(), documents.current());
+        let is_text_known = saved.tabs().iter().all(|tab| {
+            let Some(source) = saved.source(tab) else { return true };
+            let mine = current.source(tab).map(|s| s.text.as_bytes());
+            source.path.as_ref().is_none_or(|path| match confine::read_own(path, limits::GLSL_TEXT) {
+                Ok(bytes) => {
+                    bytes == source.text.as_bytes()
+                        || Some(&*bytes) == mine
+                        || bytes.is_empty() && documents.is_missing(tab)
+                }
+                // Gone: there is nothing to overwrite. Anything else is not what was read.
+                Err(e) => e.is_missing(),
+            })
+        });
+        is_text_known && read_manifest(saved).is_none_or(|now| Some(now) == self.manifest)
+    }
+
+    /// What lies on disk is what the documents say.
+    fn remember(&mut self, documents: &Documents) {
+        self.manifest = read_manifest(documents.saved());
+    }
+
+    /// Watches the folders of all files that the project reads, as far as the last compile has found them. Returns what
+    /// cannot be watched, in words; `None` where the folders are the same as before.
+    fn watch(&mut self, project: &Project, wake: &Wake) -> Option<Vec<String>> {
+        let folders = folders(project, &self.media_files);
+        if folders.is_empty() {
+            self.watcher = None;
+            return None;
+        }
+        if self.watcher.as_ref().is_some_and(|w| *w.folders() == folders) {
+            return None;
+        }
+        // What changed after it was read and before the watch began: nobody tells of it.
+        self.is_check_wanted = true;
+        Some(match FolderWatcher::new(folders, wake.clone()) {
+            Ok((watcher, failed)) => {
+                self.watcher = Some(watcher);
+                let text =
+                    |(folder, error): (PathBuf, _)| format!("cannot watch {} for changes: {error}", folder.display());
+                failed.into_iter().map(text).collect()
+            }
+            Err(e) => vec![format!("cannot watch files for changes: {e}")],
+        })
+    }
+}
+
+fn manifest_path(project: &Project) -> Option<PathBuf> {
+    match &project.origin {
+        Origin::Folder { path, has_manifest: true } => Some(path.join("eddy.toml")),
+        _ => None,
+    }
+}
+
+fn read_manifest(project: &Project) -> Option<Vec<u8>> {
+    manifest_path(project)?;
+    confine::read(&capture::base_folder(project)?, "eddy.toml", limits::MANIFEST).ok()
+}
+
+/// Passes and channels as `eddy.toml` would say them.
+fn manifest_text(project: &Project) -> String {
+    let mut named = project.clone();
+    for pass in named.passes.iter_mut().filter(|p| p.source.path.is_none()) {
+        pass.source.name = format!("{}.glsl", pass.id.key());
+    }
+    let old = read_manifest(project).and_then(|bytes| String::from_utf8(bytes).ok());
+    let has_common_file = capture::base_folder(project).is_some_and(|p| p.join("common.glsl").is_file());
+    project::write_manifest(&named, old.as_deref(), &project.name, has_common_file)
+}
+
+/// Every folder a file of the project lies in; none for a project that lies nowhere.
+fn folders(project: &Project, media: &[PathBuf]) -> BTreeSet<PathBuf> {
+    let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
+    let texts = project.tab_sources().chain(project.includes.iter().map(|i| &i.source));
+    let files = texts.filter_map(|s| s.path.as_ref()).chain(media);
+    let parents = files.filter_map(|f| Some(f.parent()?.to_owned())).filter(|p| p.is_dir());
+    parents.chain([base]).collect()
+}

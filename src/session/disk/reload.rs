@@ -1,0 +1,177 @@
+//! A session follows the project's files when they change under it.
+
+use super::{Check, DiskSync, OnDisk, manifest_path, manifest_text};
+use crate::{
+    Session,
+    command::Question,
+    documents::{self, Merge},
+    view::{About, Level},
+};
+use eddy_playback::capture;
+use eddy_project::{self as project, Included, Loaded, Tab};
+use std::fs;
+
+impl Session {
+    /// Looks at the disk where the watch says so and the quiet has lasted.
+    pub(crate) fn check_disk(&mut self) {
+        match self.disk.check(self.now, &self.documents) {
+            Check::Nothing => {}
+            Check::Project(project) => {
+                self.settled(About::Files);
+                self.merge(*project);
+            }
+            Check::Unusable { why } => {
+                self.tell_gone();
+                if let Some(why) = why {
+                    self.settled(About::Files);
+                    let text = format!("{why}\nThe texts and the picture here are unchanged");
+                    self.notice_about(About::Files, Level::Warning, text);
+                }
+            }
+        }
+    }
+
+    fn merge(&mut self, disk: Loaded) {
+        let merge = self.documents.merge(disk.project);
+        self.note_reading(&disk.warnings, &disk.sources);
+        merge.gone.iter().for_each(|tab| self.tell_one_gone(tab));
+        self.tell_gone();
+        self.ask_conflicts(&merge);
+        if merge.changes_project() {
+            let names: Vec<String> = merge.taken.iter().map(Tab::title).collect();
+            let what = if names.is_empty() { "passes and channels".to_owned() } else { project::listed(&names) };
+            self.notice(Level::Info, format!("reloaded {what}"));
+            if self.disk.reset_on_reload {
+                self.compile.reset_when_built();
+            }
+            if merge.took_structure {
+                self.passes.clear();
+            }
+            self.after_reload();
+        }
+        let before = self.project().includes.clone();
+        self.read_includes();
+        if self.project().includes != before {
+            self.compile_soon();
+        }
+        self.disk_is_known();
+        self.compile.look();
+    }
+
+    /// The project here was changed from outside the editor.
+    pub(crate) fn after_reload(&mut self) {
+        self.text_generation += 1;
+        self.compile.includes_changed();
+        self.show_image_if_gone();
+        self.compile_soon();
+    }
+
+    /// Reads what the texts include where no compile has done it yet: included files are saved with the project.
+    pub(crate) fn settle_includes(&mut self) {
+        if self.compile.unread_includes().is_some() {
+            self.read_includes();
+        }
+    }
+
+    fn read_includes(&mut self) {
+        let mut project = self.project().clone();
+        project.read_includes();
+        self.take_includes(project.includes, self.compile.include_edits());
+    }
+
+    /// Takes what the texts include as it was read for an edit of them.
+    pub(crate) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
+        self.compile.includes_are_read(edit);
+        // An editor that shows one takes it anew.
+        self.text_generation += u64::from(self.documents.take_includes(includes));
+    }
+
+    fn ask_conflicts(&mut self, merge: &Merge) {
+        let texts =
+            merge.conflicts.iter().map(|c| (Some(c.tab.clone()), c.file.clone(), c.mine.clone(), c.disk.clone()));
+        let mut all: Vec<_> = texts.collect();
+        if merge.structure_conflict {
+            let file = manifest_path(self.documents.saved()).unwrap_or_else(|| {
+                let base = capture::base_folder(self.project()).unwrap_or_default();
+                base.join("eddy.toml")
+            });
+            let (mine, disk) = (manifest_text(self.documents.current()), manifest_text(self.documents.saved()));
+            all.push((None, file, mine.into(), disk.into()));
+        }
+        for (tab, file, mine, disk) in all {
+            // A newer text on disk takes the place of the one a question shows.
+            self.dialog.questions.retain(|q| !matches!(q, Question::Conflict { tab: t, .. } if *t == tab));
+            let diff = documents::diff(&disk, &mine);
+            self.ask(Question::Conflict { tab, file, mine, disk, diff });
+        }
+    }
+
+    /// Tells of files that are gone or empty, once each.
+    fn tell_gone(&mut self) {
+        let saved = self.documents.saved();
+        // A file that others include has an error at the line that does.
+        let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.documents.is_tab_dirty(tab);
+        let is_gone = |tab: &Tab| {
+            let path = saved.source(tab).and_then(|s| s.path.as_ref());
+            path.is_some_and(|p| fs::metadata(p).map_or(true, |m| m.len() == 0))
+                && saved.source(tab).is_some_and(|s| !s.text.is_empty())
+        };
+        let gone: Vec<Tab> = saved.tabs().into_iter().filter(is_own).filter(is_gone).collect();
+        if gone.is_empty() {
+            self.settled(About::MissingFile);
+        }
+        let new = self.documents.set_missing(gone.into_iter().collect());
+        new.iter().for_each(|tab| self.tell_one_gone(tab));
+    }
+
+    fn tell_one_gone(&mut self, tab: &Tab) {
+        let name = self.project().source(tab).map_or_else(|| tab.title(), |s| s.name.clone());
+        self.notice_about(
+            About::MissingFile,
+            Level::Warning,
+            format!("{name} was deleted or emptied outside Eddy; its tab keeps the text, and saving writes it again"),
+        );
+    }
+
+    /// Returns whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What
+    /// has changed is merged first, and conflicts are asked.
+    pub(crate) fn disk_is_as_read(&mut self) -> bool {
+        if self.disk.is_as_read(&self.documents) {
+            return true;
+        }
+        match DiskSync::read(&self.documents, true) {
+            Some(OnDisk::Project(project)) => {
+                let questions = self.dialog.questions.len();
+                self.merge(*project);
+                self.dialog.questions.len() == questions
+            }
+            Some(OnDisk::Unusable(why)) => {
+                self.notice_about(
+                    About::Saving,
+                    Level::Error,
+                    format!(
+                        "not saved: the files have changed on disk and cannot be read. {why}\nFix them, or save to \
+                         another folder"
+                    ),
+                );
+                false
+            }
+            None => true,
+        }
+    }
+
+    /// Remembers that what lies on disk is what `documents` says, and watches it.
+    pub(crate) fn disk_is_known(&mut self) {
+        self.watch_what_is_read();
+        self.disk.remember(&self.documents);
+    }
+
+    /// Watches the folders of all files that the project reads, as far as the last compile has found them.
+    pub(crate) fn watch_what_is_read(&mut self) {
+        let Some(failed) = self.disk.watch(self.documents.current(), &self.wake) else { return };
+        self.settled(About::Watching);
+        for text in failed {
+            self.notice_about(About::Watching, Level::Warning, text);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The watch on a project's folders.
+//!
+//! Says only that something changed; what it was is found by reading, because editors save in place, by rename, in
+//! bursts and in halves. Folders are watched and not files: a file that is replaced by rename would be lost.
+
+use notify::{EventKind, RecursiveMode, Watcher, event::AccessKind, event::AccessMode};
+use std::{
+    collections::BTreeSet,
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+pub struct FolderWatcher {
+    // Dropping it ends the watch.
+    _watcher: notify::RecommendedWatcher,
+    folders: BTreeSet<PathBuf>,
+    changed: Arc<AtomicBool>,
+}
+
+impl FolderWatcher {
+    /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that
+    /// cannot be watched come back with the reason.
+    pub fn new(
+        folders: BTreeSet<PathBuf>,
+        wake: Arc<dyn Fn() + Send + Sync>,
+    ) -> Result<(FolderWatcher, Vec<(PathBuf, notify::Error)>), notify::Error> {
+        let changed = Arc::new(AtomicBool::new(false));
+        let flag = changed.clone();
+        let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+            // An error may stand for events that were lost: look, too.
+            if event.is_ok_and(|e| !e.need_rescan() && is_reading(&e.kind)) {
+                return;
+            }
+            flag.store(true, Ordering::Release);
+            wake();
+        })?;
+        let failed = folders
+            .iter()
+            .filter_map(|f| watcher.watch(f, RecursiveMode::NonRecursive).err().map(|e| (f.clone(), e)))
+            .collect();
+        Ok((FolderWatcher { _watcher: watcher, folders, changed }, failed))
+    }
+
+    pub fn folders(&self) -> &BTreeSet<PathBuf> {
+        &self.folders
+    }
+
+    /// Returns whether anything has happened since the last call.
+    pub fn take_changed(&self) -> bool {
+        self.changed.swap(false, Ordering::Acquire)
+    }
+}
+
+/// Our own reading of the files must not look like a change of them.
+fn is_reading(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::Access(access) if *access != AccessKind::Close(AccessMode::Write))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::{
+        fs,
+        time::{Duration, Instant},
+    };
+
+    fn until(what: &str, mut condition: impl FnMut() -> bool) {
+        let end = Instant::now() + Duration::from_secs(10);
+        while !condition() {
+            assert!(Instant::now() < end, "never: {what}");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    #[test]
+    fn sees_every_way_of_saving_and_not_our_reading() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("image.glsl");
+        fs::write(&file, "a").unwrap();
+        let (watch, failed) = FolderWatcher::new([dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
+        assert!(failed.is_empty());
+        fs::write(&file, "b").unwrap();
+        until("a write in place", || watch.take_changed());
+        fs::write(dir.path().join("image.glsl~"), "c").unwrap();
+        until("a new file", || watch.take_changed());
+        fs::rename(dir.path().join("image.glsl~"), &file).unwrap();
+        until("a rename over it", || watch.take_changed());
+        fs::remove_file(&file).unwrap();
+        until("a removal", || watch.take_changed());
+        fs::write(&file, "d").unwrap();
+        until("a write after the removal", || watch.take_changed());
+        // Let the events of that write pass, until none comes for a while.
+        until("quiet", || {
+            std::thread::sleep(Duration::from_millis(50));
+            !watch.take_changed()
+        });
+        for _ in 0..5 {
+            fs::read(&file).unwrap();
+            fs::read_dir(dir.path()).unwrap().count();
+        }
+        // Whatever the reads could raise has been delivered by then.
+        std::thread::sleep(Duration::from_millis(50));
+        assert!(!watch.take_changed(), "reading is no change");
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_told() {
+        let dir = tempfile::tempdir().unwrap();
+        let gone = dir.path().join("gone");
+        let (_, failed) = FolderWatcher::new([gone.clone(), dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();
+        assert_eq!(failed.len(), 1);
+        assert_eq!(failed[0].0, gone);
+    }
+}

@@ -1,0 +1,278 @@
+//! A session halts its picture, goes on with it, and gives up a device that does not come back.
+
+use super::{HaltControl, Overdue, Verdict};
+use crate::{
+    Session,
+    drawing::ProgramOrigin,
+    view::{About, Halt, Level},
+};
+use std::time::{Duration, Instant};
+
+/// The end waits so long for a frame that is being drawn.
+const FAREWELL: Duration = Duration::from_millis(500);
+
+impl Session {
+    /// Looks whether a frame has been drawn for too long.
+    pub(crate) fn watch_drawing(&mut self) {
+        let Some(age) = self.overdue() else { return };
+        if !self.halting.is_halted() {
+            let since = self.now.checked_sub(age).unwrap_or(self.now);
+            self.halt_with(Halt::Drawing { limit: self.halting.limit(), since });
+        }
+        match self.halting.judge_overdue(age, self.is_newer_wanted()) {
+            Overdue::Wait => {}
+            Overdue::MakeRoom => {
+                let lost = self.drawing.lost_threads();
+                if HaltControl::may_take_device(self.now, self.compile.edited_at(), lost) {
+                    self.start_anew();
+                    self.end_halt_of_frame();
+                    self.compile_soon();
+                }
+            }
+            Overdue::GiveUp => self.give_up_frame(age),
+        }
+    }
+
+    fn give_up_frame(&mut self, age: Duration) {
+        let secs = age.as_secs_f64().round();
+        self.halting.give_up_frame();
+        self.start_anew();
+        let is_good = self.fall_back(&format!(
+            "a frame of this code did not finish within {secs} s, and its GPU device was dropped; change the code, or \
+             compile again to retry"
+        ));
+        self.end_halt_of_frame();
+        let what =
+            if is_good { "a new device draws the last good code" } else { "a new device waits for your next edit" };
+        self.notice_about(
+            About::Code,
+            Level::Error,
+            format!("the GPU did not finish a frame within {secs} s: {what}. Your text is unchanged"),
+        );
+    }
+
+    /// The next moment in which [`Session::watch_drawing`] may have something to do.
+    pub(crate) fn drawing_deadline(&self) -> Option<Instant> {
+        self.halting.deadline(self.now, self.drawing.draws_since(), self.is_newer_wanted())
+    }
+
+    /// Returns how long the engine has been drawing, if that is too long.
+    fn overdue(&self) -> Option<Duration> {
+        self.halting.overdue(self.now, self.drawing.draws_since()).filter(|_| self.drawing.is_apart())
+    }
+
+    /// The user has something else to draw than what the engine is at.
+    fn is_newer_wanted(&self) -> bool {
+        let wanted = &self.drawing.wanted;
+        wanted.restart || wanted.program.is_some() || self.compile.is_newer_wanted(self.now)
+    }
+
+    /// Gives up the device that draws, with its threads, for a fresh one. No program is on that yet.
+    fn start_anew(&mut self) {
+        if let Err(e) = self.drawing.start_anew(self.now) {
+            self.halting.lose_device();
+            self.notice_about(
+                About::Window,
+                Level::Error,
+                format!("cannot start a thread for drawing: {e}. Save your texts and restart Eddy"),
+            );
+            return;
+        }
+        if let Err(e) = self.compile.change_device(self.drawing.device(), &self.options, self.wake.clone()) {
+            let text = format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy");
+            self.notice_about(About::Window, Level::Error, text);
+        }
+        self.watched.captures.retry();
+        self.searching.background.renew_request();
+        self.comparing.background.renew_request();
+        self.auditing.renew_request();
+        self.tracing.renew_request();
+        // Its buffers begin anew, and so must what they go by.
+        self.end_replay("the GPU device was replaced");
+        self.playback.change_device();
+        self.watched.costs.forget();
+        self.changed = true;
+    }
+
+    /// The device was lost, or the thread that draws has stumbled.
+    pub(crate) fn engine_is_gone(&mut self, why: &str) {
+        let is_again = self.halting.device_is_lost(self.now, self.compile.edited_at());
+        if is_again {
+            self.playback.clock.pause();
+            self.halting.lose_device();
+            self.notice(
+                Level::Error,
+                format!("{why}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
+            );
+            return;
+        }
+        self.start_anew();
+        if self.halting.is_new() {
+            self.fall_back(&format!("the GPU device was lost in the first frame of this code ({why})"));
+        } else {
+            self.compile_soon();
+        }
+        self.end_halt_of_frame();
+        self.notice(Level::Error, format!("{why}. Drawing continues on a new device; your texts are unchanged"));
+    }
+
+    fn halt_with(&mut self, halt: Halt) {
+        self.halting.start(halt, self.playback.clock.is_playing(), self.drawing.project());
+        self.playback.clock.pause();
+        self.changed = true;
+    }
+
+    /// Lets everything that is drawn from now on take its time.
+    fn end_halt(&mut self) {
+        let Some(halt) = self.halting.end() else { return };
+        self.changed = true;
+        match halt {
+            Halt::Forecast { .. } => self.playback.is_again_due = true,
+            Halt::Opened { .. } => _ = self.compile.set_compiling(self.is_compile_under_way()),
+            Halt::Drawing { .. } | Halt::Drawn { .. } => {}
+        }
+    }
+
+    /// Goes on after a halt, unless the project was opened paused.
+    fn end_halt_of_frame(&mut self) {
+        if !self.halting.is_held() {
+            self.end_halt();
+            self.resume();
+        }
+    }
+
+    /// Goes on as it was before the halt.
+    fn resume(&mut self) {
+        if self.halting.take_resuming() {
+            self.playback.resume();
+        }
+    }
+
+    pub(crate) fn go_on_drawing(&mut self) {
+        self.halting.allow_more(self.now);
+        self.end_halt();
+        self.resume();
+    }
+
+    /// Ends a halt, for who plays or steps on: whether it ran before does not count any more.
+    pub(crate) fn override_halt(&mut self) {
+        self.halting.allow_more(self.now);
+        self.end_halt();
+        self.halting.forget_resuming();
+    }
+
+    /// Goes on with fewer pixels: as few as bring a frame below the limit, by what it took.
+    pub(crate) fn draw_smaller(&mut self) {
+        if !self.halting.is_halted() {
+            return;
+        }
+        self.end_replay("the resolution was changed");
+        self.canvas.replayed = None;
+        let is_overdue = self.overdue().is_some();
+        let factor = self.halting.smaller_by(self.now);
+        self.canvas.shrink(factor);
+        self.end_halt();
+        if is_overdue {
+            self.start_anew();
+            self.compile_soon();
+        }
+        self.resume();
+    }
+
+    pub(crate) fn draw_last_good(&mut self) {
+        if self.halting.good().is_none() || !self.halting.is_halted() {
+            return;
+        }
+        let is_overdue = self.overdue().is_some();
+        let limit = self.halting.limit().as_secs_f64();
+        self.end_halt();
+        if is_overdue {
+            self.start_anew();
+        } else {
+            self.drawing.drop_program();
+        }
+        self.fall_back(&format!(
+            "a frame of this code takes longer than {limit} s: the picture shows the previous code; change the \
+             code, or compile again to retry"
+        ));
+        self.resume();
+    }
+
+    /// Draws the last good code, if there is any, instead of the newest, and says why where errors are said.
+    fn fall_back(&mut self, why: &str) -> bool {
+        self.compile.add_failure(why);
+        let is_good = self.compile.fall_back(self.halting.good().cloned());
+        self.compile.fail(self.drawing.has_program());
+        self.compile.set_compiling(self.is_compile_under_way());
+        self.changed = true;
+        is_good
+    }
+
+    /// New code is about to reach the device.
+    pub(crate) fn mark_new_code(&mut self) {
+        let origin = self.drawing.wanted.program.as_ref().and_then(|coming| coming.origin.as_ref());
+        let newest = origin.filter(|origin| origin.millis.is_some()).map(|ProgramOrigin { project, .. }| project);
+        self.halting.begin_code(newest);
+    }
+
+    pub(crate) fn halt_for_new_program(&mut self, forecast: Option<Duration>) {
+        self.end_halt_of_frame();
+        if let Some(would_take) = forecast {
+            self.halt_with(Halt::Forecast { limit: self.halting.limit(), would_take });
+        }
+    }
+
+    /// A frame has been drawn.
+    pub(crate) fn frame_took(&mut self, took: Duration) {
+        let newest = self.drawing.project().filter(|_| self.drawing.is_newest_program());
+        match self.halting.frame_took(took, newest, self.drawing.is_apart()) {
+            Verdict::Halt(halt) => self.halt_with(halt),
+            Verdict::EndHalt => {
+                self.end_halt();
+                self.resume();
+            }
+            Verdict::GoOn => {}
+        }
+    }
+
+    /// Another project has been opened.
+    pub(crate) fn halt_for_new_project(&mut self) {
+        let is_overdue = self.overdue().is_some();
+        self.halting.begin_next_project(is_overdue);
+        if self.halting.finds_trouble_of(self.documents.current()) {
+            self.hold_after(true);
+        }
+    }
+
+    pub(crate) fn hold(&mut self) {
+        if !self.halting.is_held() {
+            self.hold_after(false);
+        }
+    }
+
+    fn hold_after(&mut self, after_trouble: bool) {
+        self.halting.hold(self.playback.clock.is_playing(), after_trouble);
+        self.playback.clock.pause();
+        self.changed = true;
+    }
+
+    /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
+    /// process ends them.
+    pub fn end(&mut self) -> bool {
+        let has_lost = !self.comparing.background.end(FAREWELL);
+        !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0 || has_lost
+    }
+}
+
+impl Drop for Session {
+    /// Nobody waits long for a frame, and not at all for a device that does not come back.
+    fn drop(&mut self) {
+        self.comparing.background.end(FAREWELL);
+        if !self.drawing.rest(FAREWELL) {
+            self.compile.leave();
+            return;
+        }
+        self.drawing.close();
+        self.halting.close();
+    }
+}

@@ -1,0 +1,217 @@
+//! The comments, which of them is looked at, when they are due, and what was measured.
+
+use super::record::{Record, Sample};
+use crate::{
+    drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
+    read_back::{Moment, ReadBack},
+};
+use eddy_engine::Pixels;
+use eddy_playback::reduction::{self, Quantity, Unmeasured};
+use eddy_project::{PassId, Project, TextLocation};
+use std::{
+    collections::HashMap,
+    time::{Duration, Instant},
+};
+
+/// Measuring takes this part of the time at most: each time waits for the device.
+const SHARE: u32 = 20;
+
+/// A comment that asks for a number, and the number over time.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    /// Another one for every comment, as long as its text stays.
+    pub serial: u64,
+    /// The quantity that is asked for, as it was written.
+    pub text: String,
+    pub place: TextLocation,
+    pub quantity: Result<Quantity, Unmeasured>,
+    pub record: Record,
+    /// Frames have been drawn since the newest sample that were not measured because nobody looked, or could not be.
+    has_gap: bool,
+}
+
+impl Measure {
+    /// The tab and the line, as `Image:12`.
+    pub fn whereabouts(&self) -> String {
+        format!("{}:{}", self.place.title(), self.place.line)
+    }
+}
+
+/// Measures quantities of what the targets hold, by the serial of their comment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasureQuantities(pub Vec<(u64, Quantity)>);
+
+impl RenderTask for MeasureQuantities {
+    /// Nothing has a number before the first frame.
+    type Output = Option<Measured>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let (frame, time_secs) = renderer.shown()?;
+        let engine = renderer.engine_mut();
+        // Each target is read once.
+        let mut read: HashMap<(PassId, usize), Option<(Pixels, usize)>> = HashMap::new();
+        let mut value = |quantity: &Quantity| {
+            let target = (quantity.pass.clone(), quantity.target);
+            let texels = read.entry(target).or_insert_with_key(|(pass, index)| {
+                let stored = engine.format(pass, *index)?.components();
+                Some((engine.read_target(pass, *index).ok()?, stored))
+            });
+            texels.as_ref().map(|(pixels, stored)| quantity.of(pixels, *stored))
+        };
+        let values = self.0.iter().map(|(serial, quantity)| (*serial, value(quantity))).collect();
+        Some(Measured { frame, time_secs, values })
+    }
+}
+
+/// Holds what came back of a frame. A quantity whose target is not drawn has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    pub frame: i32,
+    pub time_secs: f64,
+    pub values: Vec<(u64, Option<f64>)>,
+}
+
+#[derive(Default)]
+pub(crate) struct Measuring {
+    measures: Vec<Measure>,
+    /// The state of the project that the comments are of.
+    read_at: Option<(u64, u64)>,
+    next_serial: u64,
+    /// Those that somebody looks at.
+    seen: Vec<u64>,
+    /// The frame that was drawn, or what is looked at, is newer than what was measured.
+    is_due: bool,
+    asked_at: Option<Instant>,
+    /// The time that it took.
+    took: Duration,
+    /// The frame that was drawn last, or is being drawn.
+    frame: Option<i32>,
+    /// The number of frames that have been measured.
+    count: u64,
+    pub(super) ticket: Ticket<Option<Measured>>,
+}
+
+impl Measuring {
+    /// Reads the comments again where the project has changed. A comment whose text stays keeps its record, wherever it
+    /// stands. Says whether something may be another than before.
+    pub fn follow(&mut self, project: &Project, state: (u64, u64)) -> bool {
+        if self.read_at.replace(state) == Some(state) {
+            return false;
+        }
+        let sources = project.texts();
+        let mut before = std::mem::take(&mut self.measures);
+        for comment in reduction::declared(project) {
+            let Some(place) = TextLocation::new(comment.span, &sources, project) else { continue };
+            let same = before.iter().position(|old| old.text == comment.text && old.place.text == place.text);
+            let measure = match same.map(|at| before.remove(at)) {
+                Some(old) => Measure { place, quantity: comment.quantity, ..old },
+                None => {
+                    self.next_serial += 1;
+                    Measure {
+                        serial: self.next_serial,
+                        text: comment.text,
+                        place,
+                        quantity: comment.quantity,
+                        record: Record::default(),
+                        has_gap: false,
+                    }
+                }
+            };
+            self.measures.push(measure);
+        }
+        true
+    }
+
+    /// Every record begins anew.
+    pub fn clear(&mut self) {
+        self.measures.iter_mut().for_each(|measure| measure.record = Record::default());
+    }
+
+    pub fn measures(&self) -> &[Measure] {
+        &self.measures
+    }
+
+    /// Returns how many frames have been measured.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Only these are looked at from now on.
+    pub fn watch(&mut self, seen: Vec<u64>) {
+        self.is_due |= seen.iter().any(|serial| !self.seen.contains(serial));
+        self.seen = seen;
+    }
+
+    /// A new frame is about to be drawn. What was measured of it before, and of later ones, is of another run.
+    pub fn begin_frame(&mut self, frame: i32) {
+        let is_next = self.frame.is_none_or(|before| frame == before.saturating_add(1));
+        for measure in &mut self.measures {
+            measure.record.keep_before(frame);
+            measure.has_gap |= !is_next || !self.seen.contains(&measure.serial);
+        }
+        self.frame = Some(frame);
+    }
+
+    /// The frame that is shown is drawn again: what was measured of it is measured anew.
+    pub fn draw_again(&mut self, frame: i32) {
+        self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
+        self.is_due = true;
+    }
+
+    /// A frame of the run is shown again; what lies ahead may come otherwise.
+    pub fn go_to(&mut self, frame: i32) {
+        let is_far = self.frame.is_none_or(|before| frame > before.saturating_add(1));
+        for measure in &mut self.measures {
+            measure.record.keep_before(frame.saturating_add(1));
+            measure.has_gap |= is_far;
+        }
+        (self.frame, self.is_due) = (Some(frame), true);
+    }
+
+    /// Returns what is to be measured now, of the frame that is to be drawn if there is one. While time runs, another
+    /// comes anyway, and it waits for its turn.
+    pub(super) fn due(&mut self, now: Instant, has_frame: bool, is_running: bool) -> Option<MeasureQuantities> {
+        self.is_due |= has_frame;
+        let is_early = self.asked_at.is_some_and(|at| now.saturating_duration_since(at) < SHARE * self.took);
+        if !self.is_due || self.seen.is_empty() || (is_running && is_early) {
+            return None;
+        }
+        let is_seen = |measure: &&Measure| self.seen.contains(&measure.serial);
+        let one = |measure: &Measure| Some((measure.serial, measure.quantity.clone().ok()?));
+        let wanted: Vec<(u64, Quantity)> = self.measures.iter().filter(is_seen).filter_map(one).collect();
+        (self.is_due, self.asked_at) = (false, Some(now));
+        (!wanted.is_empty()).then_some(MeasureQuantities(wanted))
+    }
+}
+
+impl ReadBack for Measuring {
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
+        if let Some(task) = self.due(at.now, at.has_frame, at.is_playing || at.is_seeking) {
+            self.ticket = tasks.add(task);
+        }
+    }
+
+    fn receive(&mut self, has_frame: bool) -> bool {
+        let Some(Finished { output: Some(measured), took }) = self.ticket.take() else {
+            self.is_due |= has_frame;
+            return false;
+        };
+        (self.took, self.count) = (took, self.count + 1);
+        let Measured { frame, time_secs, values } = measured;
+        for (serial, value) in values {
+            let Some(measure) = self.measures.iter_mut().find(|measure| measure.serial == serial) else { continue };
+            match value {
+                Some(value) => {
+                    let has_gap = std::mem::take(&mut measure.has_gap);
+                    measure.record.push(Sample { frame, time_secs, value }, has_gap);
+                }
+                None => measure.has_gap = true,
+            }
+        }
+        true
+    }
+    fn begin_next_project(&mut self) {
+        // Another project's comments may have the same texts.
+        *self = Self { next_serial: self.next_serial, count: self.count, ..Self::default() };
+    }
+}

@@ -1,0 +1,79 @@
+//! Numbers of passes over time, which `//@probe` comments ask for.
+//!
+//! Owns which comments there are, what of them is measured and how often, and the record of each. Reading texels is the
+//! engine's, and what a quantity is `reduction`'s. Nothing is measured while nobody looks.
+
+mod csv;
+mod measuring;
+mod record;
+
+pub use measuring::Measure;
+pub(super) use measuring::Measuring;
+pub use record::{Cell, MOST, Record, Sample};
+
+use super::{
+    Session,
+    buffers::reason,
+    view::{About, Level},
+};
+use eddy_playback::{capture, reduction::Unmeasured};
+use std::borrow::Cow;
+
+impl Session {
+    /// Every comment of the project that asks for a number, and what has been measured while somebody looked at it
+    /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
+    pub fn measures(&self) -> &[Measure] {
+        self.watched.measuring.measures()
+    }
+
+    /// Returns how many frames have been measured since the session began.
+    pub fn measured_frames(&self) -> u64 {
+        self.watched.measuring.count()
+    }
+
+    /// Returns why nothing is measured for a comment. What is known of passes that are not drawn is said while somebody
+    /// looks at the costs ([`Command::WatchCosts`](super::Command::WatchCosts)).
+    pub fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
+        let pass = match &measure.quantity {
+            Err(unmeasured) => return Some(Cow::Borrowed(unmeasured)),
+            Ok(quantity) => &quantity.pass,
+        };
+        if !self.drawing.has_program() || self.drawing.draws(pass) {
+            return None;
+        }
+        let known = reason(pass, self.drawing.costs()).unwrap_or_else(|| "not drawn".to_owned());
+        let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
+        Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
+    }
+
+    /// Takes up what has become of the comments.
+    pub(super) fn follow_measures(&mut self) {
+        let state = (self.disk.opened(), self.documents.revision());
+        self.changed |= self.watched.measuring.follow(self.documents.current(), state);
+    }
+
+    /// Writes what has been measured to a new file beside the pictures.
+    pub(super) fn save_measures(&mut self) {
+        let measures = self.watched.measuring.measures();
+        if measures.iter().all(|measure| measure.record.newest().is_none()) {
+            self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
+            return;
+        }
+        let project = self.documents.current();
+        let folder = capture::folder_for(project, &self.options.pictures);
+        let stem = format!("{}-measured", capture::file_stem(&project.name));
+        let name = |n: u32| format!("{stem}-{n:04}.csv");
+        match capture::write_new(&folder, name, &stem, |out| csv::write(out, measures)) {
+            Ok(path) => {
+                self.notice(Level::Info, format!("saved {}", path.display()));
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = Some(path);
+                }
+            }
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

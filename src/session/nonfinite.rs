@@ -1,0 +1,67 @@
+//! The search for the first NaN, in frames that are drawn again beside the picture.
+
+use super::{
+    Session,
+    drawing::{Tasks, Ticket},
+    read_back::TakeReplay,
+};
+use eddy_background::{Background, Count, Status, Wake};
+use eddy_debugger::nonfinite::{SearchEnd, SearchJob, search};
+use eddy_playback::run::{Replay, ReplayFrom};
+
+pub(super) struct Searching {
+    pub background: Background<SearchJob, Count, SearchEnd>,
+    input: Ticket<Option<Replay>>,
+}
+
+impl Searching {
+    pub fn new(wake: Wake) -> std::io::Result<Self> {
+        let background = Background::new("first NaN", "the search", wake, search)?;
+        Ok(Self { background, input: Ticket::default() })
+    }
+
+    /// Begins anew, or ends.
+    pub fn want(&mut self, is_wanted: bool) {
+        self.background.clear();
+        self.input = Ticket::default();
+        if is_wanted {
+            self.background.request();
+        }
+    }
+
+    pub fn request_input(&mut self, tasks: &mut Tasks) {
+        if self.background.take_request() {
+            self.input = tasks.add(TakeReplay(ReplayFrom::Oldest));
+        }
+    }
+}
+
+impl Session {
+    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)), which counts frames.
+    pub fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
+        self.searching.background.status()
+    }
+
+    /// Hands on the frames among which the first NaN is looked for.
+    pub(super) fn search_frames(&mut self) {
+        let Searching { background, input } = &mut self.searching;
+        let Some(input) = input.take() else { return };
+        self.changed = true;
+        let (Some(Replay { snapshot, frames }), Some(project)) = (input.output, self.drawing.project().cloned()) else {
+            return background
+                .fail("no earlier frames are kept: reset and play again; very large buffers are never kept");
+        };
+        match self.drawing.device().wait() {
+            Err(e) => background.fail(e.to_string()),
+            Ok(gpu) => background.start(SearchJob {
+                gpu,
+                project,
+                shown: self.picture.shown.clone(),
+                size: self.drawing.size(),
+                media_dir: self.options.media_dir.clone(),
+                snapshot,
+                frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
+        }
+    }
+}

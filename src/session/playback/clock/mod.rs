@@ -1,0 +1,223 @@
+//! `iTime`, `iTimeDelta`, `iFrame` and `iFrameRate` over real time, as `shadertoy.md` section 4 has them.
+//!
+//! Reads no clock itself: whoever draws says what time it is.
+
+use std::time::{Duration, Instant};
+
+/// `iTimeDelta` where there is no frame before to measure from.
+const NOMINAL_DELTA_SECS: f64 = 1.0 / 60.0;
+/// `iFrameRate` is measured anew only after more than this.
+const RATE_WINDOW: Duration = Duration::from_millis(500);
+
+/// The four time uniforms of one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameTime {
+    pub frame: i32,
+    pub time_secs: f64,
+    pub time_delta_secs: f32,
+    pub frame_rate: f32,
+}
+
+/// Time of a running picture. Starts playing, at frame 0.
+#[derive(Clone, Debug)]
+pub struct Clock {
+    is_playing: bool,
+    /// Real time and `iTime` that belong together; `None` makes the next frame the one to count from.
+    anchor: Option<(Instant, f64)>,
+    /// `iTime` of the newest frame, or where the next one starts.
+    time_secs: f64,
+    /// Number of the next frame.
+    frame: i32,
+    rate: f32,
+    /// Since when, and how many frames.
+    rate_window: Option<(Instant, u32)>,
+    /// `iTime` that steps count from, and how many were made: adding up 1/60 would drift from frame/60.
+    steps: Option<(f64, u32)>,
+    /// `iTime` against real time.
+    speed: f64,
+    /// Frames in a second of `iTime`, where each takes the same time whatever it really takes.
+    fixed_rate: Option<f64>,
+}
+
+/// Frames in a second of a step, unless another rate is asked for.
+const STEP_RATE: f64 = 60.0;
+
+impl Default for Clock {
+    fn default() -> Self {
+        Self {
+            is_playing: true,
+            anchor: None,
+            time_secs: 0.0,
+            frame: 0,
+            rate: 60.0,
+            rate_window: None,
+            steps: None,
+            speed: 1.0,
+            fixed_rate: None,
+        }
+    }
+}
+
+impl Clock {
+    /// A clock whose first frame is at a time and has a number; `None`: the one that a run at 60 frames a second has
+    /// about then.
+    pub fn at(time_secs: f64, frame: Option<i32>, is_playing: bool) -> Self {
+        let time_secs = if time_secs.is_finite() { time_secs.max(0.0) } else { 0.0 };
+        let frame = frame.unwrap_or((time_secs * STEP_RATE).round() as i32).max(0);
+        Self { is_playing, time_secs, frame, ..Self::default() }
+    }
+
+    pub fn is_playing(&self) -> bool {
+        self.is_playing
+    }
+
+    /// `iTime` of the newest frame.
+    pub fn time_secs(&self) -> f64 {
+        self.time_secs
+    }
+
+    /// Number of the next frame: how many have been drawn since the reset.
+    pub fn next_frame_number(&self) -> i32 {
+        self.frame
+    }
+
+    /// Goes on from the newest frame's time.
+    pub fn play(&mut self) {
+        if !self.is_playing {
+            self.is_playing = true;
+            self.rebase();
+        }
+    }
+
+    pub fn pause(&mut self) {
+        self.is_playing = false;
+    }
+
+    /// Time and frame number to zero. Playing or paused, speed and step stay as they are.
+    pub fn reset(&mut self) {
+        let Self { is_playing, speed, fixed_rate, .. } = *self;
+        *self = Self { is_playing, speed, fixed_rate, ..Self::default() };
+    }
+
+    /// Seconds of `iTime` in a second.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Has time run faster or slower than real time. What is no number above 0 changes nothing.
+    pub fn set_speed(&mut self, speed: f64) {
+        if speed.is_finite() && speed > 0.0 {
+            self.speed = speed;
+            self.rebase();
+        }
+    }
+
+    /// Frames in a second of `iTime`, if each takes the same time.
+    pub fn fixed_rate(&self) -> Option<f64> {
+        self.fixed_rate
+    }
+
+    /// Has every frame take the same time; `None`: as long as it really takes. A rate that is no number above 0 changes
+    /// nothing.
+    pub fn set_fixed_rate(&mut self, rate: Option<f64>) {
+        if rate.is_none_or(|rate| rate.is_finite() && rate > 0.0) {
+            self.fixed_rate = rate;
+            self.rebase();
+        }
+    }
+
+    /// Frames in a second of what [`step_frame`](Self::step_frame) draws.
+    pub fn step_rate(&self) -> f64 {
+        self.fixed_rate.unwrap_or(STEP_RATE)
+    }
+
+    /// The next frame is the one that a run at a fixed step has at about this time. Playing or paused stays as it is.
+    pub fn jump(&mut self, time_secs: f64) {
+        self.rebase();
+        self.time_secs = time_secs;
+        self.frame = (time_secs * self.step_rate()).round() as i32;
+    }
+
+    /// A frame that was drawn before is shown again: the next one is the one after it. Pauses.
+    pub fn go_to(&mut self, frame: i32, time_secs: f64) {
+        self.pause();
+        self.rebase();
+        self.time_secs = time_secs;
+        self.frame = frame.saturating_add(1);
+    }
+
+    /// A frame with a time and a number of its own is drawn. Playing or paused stays as it is.
+    pub fn draw(&mut self, frame: i32, time_secs: f64, rate: f32) {
+        self.rebase();
+        (self.time_secs, self.rate) = (time_secs, rate);
+        self.frame = frame.saturating_add(1);
+    }
+
+    /// The next frame counts from the newest one's time, however much real time has passed: after a pause, or when the
+    /// window got the focus back.
+    pub fn rebase(&mut self) {
+        self.anchor = None;
+        self.rate_window = None;
+        self.steps = None;
+    }
+
+    /// A frame of the running picture.
+    pub fn running_frame(&mut self, now: Instant) -> FrameTime {
+        let (time, delta) = match (self.fixed_rate, self.anchor) {
+            (Some(_), _) => self.step(),
+            (None, None) => {
+                self.anchor = Some((now, self.time_secs));
+                (self.time_secs, NOMINAL_DELTA_SECS)
+            }
+            (None, Some((since, from))) => {
+                let time = from + self.speed * now.saturating_duration_since(since).as_secs_f64();
+                (time, time - self.time_secs)
+            }
+        };
+        if self.fixed_rate.is_none() {
+            self.steps = None;
+        }
+        let (since, frames) = self.rate_window.get_or_insert((now, 0));
+        let elapsed = now.saturating_duration_since(*since);
+        if elapsed > RATE_WINDOW {
+            self.rate = (f64::from(*frames) / elapsed.as_secs_f64()) as f32;
+            (*since, *frames) = (now, 0);
+        }
+        *frames += 1;
+        self.emit(time, delta)
+    }
+
+    /// A frame forced while paused: `iTime` is frozen, `iFrame` is not.
+    pub fn forced_frame(&mut self) -> FrameTime {
+        self.emit(self.time_secs, NOMINAL_DELTA_SECS)
+    }
+
+    /// One frame further by a step, and paused. The first frame after a reset is the one at 0.
+    pub fn step_frame(&mut self) -> FrameTime {
+        self.pause();
+        let (time, delta) = self.step();
+        self.emit(time, delta)
+    }
+
+    /// Time and delta of the frame that is one step further.
+    fn step(&mut self) -> (f64, f64) {
+        let rate = self.step_rate();
+        let (from, steps) = self.steps.get_or_insert((self.time_secs, 0));
+        if self.frame > 0 {
+            *steps += 1;
+        }
+        // Divided as a fixed-step run does, so that both give the same bits.
+        (*from + f64::from(*steps) / rate, 1.0 / rate)
+    }
+
+    fn emit(&mut self, time_secs: f64, delta_secs: f64) -> FrameTime {
+        self.time_secs = time_secs;
+        let frame = self.frame;
+        // Two years of frames at 60 a second fit; beyond them the number stands still.
+        self.frame = self.frame.saturating_add(1);
+        FrameTime { frame, time_secs, time_delta_secs: delta_secs as f32, frame_rate: self.rate }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,375 @@
+//! Plays a recording in the open project: every frame gets its recorded time, date, mouse, keys, canvas and
+//! values of uniforms, from frame 0 on, and is drawn as [`eddy_playback::offline`] draws it.
+//!
+//! Input on the picture does not reach it meanwhile. A person takes over by [`Command::StopReplay`]: the
+//! picture goes on live from the frame that is shown. Nothing of the project is changed by it: canvas and values are
+//! the recording's until the picture is reset, or another size is asked for.
+//!
+//! [`Command::StopReplay`]: crate::Command::StopReplay
+
+use super::{
+    Playback,
+    seek::{Goal, Reach},
+};
+use eddy_playback::recording::{Change, ReadError, RecordedFrame, Recording};
+use eddy_project::CustomUniformValues;
+use std::{
+    fs::File,
+    io::BufReader,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        mpsc::{Receiver, TryRecvError, channel},
+    },
+    time::{Duration, Instant},
+};
+
+/// A frame that is later than this is drawn at once, and the frames after it count from it: a machine that is slower
+/// than the one that recorded draws every frame, and does not hurry after a hitch.
+const LATE: Duration = Duration::from_millis(100);
+/// The same frame is not shown longer: nobody waits for what the recording machine waited for.
+const LONGEST: Duration = Duration::from_millis(250);
+/// A recording of a faster screen has further frames drawn in the same tick, but not more than these.
+const MOST_A_TICK: u32 = 4;
+/// A further frame of the same tick is so late.
+const BEHIND: Duration = Duration::from_millis(8);
+
+/// A tick that comes so long before a frame is due draws it: else a screen of the same rate would show some twice.
+const EARLY: Duration = Duration::from_millis(4);
+
+/// Everything about the recording that is played, or that was played last.
+#[derive(Default)]
+pub struct Replay {
+    pub reading: Option<Reading>,
+    pub playing: Option<Playing>,
+    /// The engine has the values of uniforms that the recording gave it, and not the project's.
+    pub has_values: bool,
+    /// The next job's frame follows the one before as that was drawn.
+    pub follows: bool,
+}
+
+/// A file that is being read.
+pub struct Reading {
+    pub file: PathBuf,
+    result: Receiver<Result<Recording, ReadError>>,
+}
+
+impl Reading {
+    /// Begins to read, on a thread of its own: a long recording takes seconds. `wake` is called when it is there.
+    pub fn begin(file: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+        let (sender, result) = channel();
+        let path = file.clone();
+        std::thread::Builder::new().name("recording".into()).spawn(move || {
+            let read = File::open(&path).map_err(ReadError::Io).and_then(|file| Recording::read(BufReader::new(file)));
+            // A receiver that is gone no longer wants it.
+            let _ = sender.send(read);
+            wake();
+        })?;
+        Ok(Self { file, result })
+    }
+
+    /// Returns what was read, once it is.
+    pub fn take(&self) -> Option<Result<Recording, ReadError>> {
+        match self.result.try_recv() {
+            Ok(read) => Some(read),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(ReadError::Io(std::io::Error::other("reading it failed")))),
+        }
+    }
+}
+
+/// A recording that is being played.
+pub struct Playing {
+    pub file: PathBuf,
+    recording: Arc<Recording>,
+    /// The frame that is drawn next.
+    next: usize,
+    /// The first frame since the newest reset: the engine counts its run from there.
+    run: usize,
+    /// A time and the recorded time that belongs to it.
+    anchor: Option<(Instant, f64)>,
+    newest: Option<Instant>,
+    /// Frames that were drawn in the tick of this time.
+    in_tick: (Option<Instant>, u32),
+}
+
+/// A front end shows this of a recording that is played.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReplayView {
+    pub file: PathBuf,
+    /// The frames that have been drawn, of how many.
+    pub drawn: usize,
+    pub frames: usize,
+}
+
+impl Playing {
+    pub fn new(file: PathBuf, recording: Recording) -> Self {
+        let recording = Arc::new(recording);
+        Self { file, recording, next: 0, run: 0, anchor: None, newest: None, in_tick: (None, 0) }
+    }
+
+    pub fn view(&self) -> ReplayView {
+        ReplayView { file: self.file.clone(), drawn: self.next, frames: self.recording.frames.len() }
+    }
+
+    pub fn is_at_start(&self) -> bool {
+        self.next == 0
+    }
+
+    pub fn is_over(&self) -> bool {
+        self.next >= self.recording.frames.len()
+    }
+
+    /// Returns the frame that was drawn last, or before the first one that first one.
+    pub fn newest(&self) -> Option<&RecordedFrame> {
+        self.recording.frames.get(self.next.saturating_sub(1))
+    }
+
+    /// Returns the values of uniforms that the picture is drawn with.
+    pub fn values(&self) -> Option<&CustomUniformValues> {
+        self.newest().map(|frame| &frame.values)
+    }
+
+    /// The engine shows the frame of this number of its run: the one after it is next.
+    pub fn go_to(&mut self, number: u64) {
+        let next = self.run.saturating_add(usize::try_from(number).unwrap_or(usize::MAX)).saturating_add(1);
+        self.next = next.min(self.recording.frames.len());
+        (self.anchor, self.newest) = (None, None);
+    }
+
+    /// Returns whether the next frame is due at a time, where recorded time runs at a speed.
+    pub fn is_due(&mut self, now: Instant, speed: f64) -> bool {
+        let Some(frame) = self.recording.frames.get(self.next) else { return false };
+        let due = frame.inputs.time_secs;
+        if self.in_tick.0 != Some(now) {
+            self.in_tick = (Some(now), 0);
+        }
+        // Time was set back, or stood.
+        let Some((since, from)) = self.anchor.filter(|(_, from)| due >= *from) else {
+            self.anchor = Some((now, due));
+            return self.in_tick.1 == 0;
+        };
+        let at = from + speed * now.saturating_duration_since(since).as_secs_f64();
+        let late = Duration::try_from_secs_f64(((at - due) / speed).max(0.0)).unwrap_or(Duration::MAX);
+        let is_stuck = self.newest.is_some_and(|newest| now.saturating_duration_since(newest) >= LONGEST);
+        if late > LATE || is_stuck {
+            self.anchor = Some((now, due));
+        }
+        let is_due = at + speed * EARLY.as_secs_f64() >= due || is_stuck;
+        match self.in_tick.1 {
+            0 => is_due,
+            n => is_due && late > BEHIND && n < MOST_A_TICK,
+        }
+    }
+
+    /// Returns when the next frame is due, as far as a time knows that where recorded time runs at a speed.
+    pub fn due_at(&self, now: Instant, speed: f64) -> Instant {
+        let secs = self.recording.frames.get(self.next).map(|frame| frame.inputs.time_secs);
+        let Some(((since, from), secs)) = self.anchor.zip(secs) else { return now };
+        let due = Duration::try_from_secs_f64((secs - from) / speed).ok().and_then(|wait| since.checked_add(wait));
+        let latest = self.newest.map(|newest| newest + LONGEST);
+        [due, latest].into_iter().flatten().min().unwrap_or(now)
+    }
+
+    /// Takes the next frame, and says whether the canvas, the values and the buffers are others than before it.
+    pub fn take(&mut self, now: Instant) -> Option<(RecordedFrame, Change)> {
+        let (change, _) = self.recording.change(self.next)?;
+        let frame = self.recording.frames[self.next].clone();
+        if change.reset {
+            self.run = self.next;
+        }
+        self.next += 1;
+        self.newest = Some(now);
+        self.in_tick = (Some(now), if self.in_tick.0 == Some(now) { self.in_tick.1 + 1 } else { 1 });
+        Some((frame, change))
+    }
+}
+
+/// Returns the name of a file, for a person.
+pub fn name(file: &Path) -> String {
+    file.file_name().map_or_else(|| file.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+/// The next frame of a recording, and what changes before it.
+pub struct ReplayedFrame {
+    pub frame: RecordedFrame,
+    pub change: Change,
+    /// It is the last one.
+    pub is_last: bool,
+}
+
+impl Playback {
+    pub fn is_replaying(&self) -> bool {
+        self.replay.playing.is_some()
+    }
+
+    /// Returns when the next frame of the recording that is played is due.
+    pub fn replay_due(&self, now: Instant) -> Option<Instant> {
+        Some(self.replay.playing.as_ref()?.due_at(now, self.clock.speed()))
+    }
+
+    /// Begins with a recording.
+    pub fn start_replay(&mut self, file: PathBuf, recording: Recording) {
+        self.release_inputs();
+        self.clock.play();
+        self.replay.playing = Some(Playing::new(file, recording));
+    }
+
+    /// Nothing is held any more: what is pressed when a recording begins is not in it.
+    fn release_inputs(&mut self) {
+        self.mouse.release();
+        self.keyboard.release_all();
+    }
+
+    /// Ends the recording that is played at the frame that is shown. The picture goes on from it as it was: playing or
+    /// paused.
+    pub fn stop_replay(&mut self) -> Option<ReplayView> {
+        let playing = self.replay.playing.take()?;
+        let view = playing.view();
+        if let Some(frame) = playing.newest().filter(|_| view.drawn > 0) {
+            // What the hand does next begins where the recorded one was.
+            self.mouse.follow(frame.inputs.mouse, frame.inputs.drag);
+            self.keyboard = frame.inputs.keyboard.clone();
+            self.release_inputs();
+        }
+        self.rebase();
+        Some(view)
+    }
+
+    /// The last frame has been handed in: the picture stays there.
+    pub fn finish_replay(&mut self) -> Option<ReplayView> {
+        let view = self.stop_replay()?;
+        self.seeking.cancel();
+        self.steps = 0;
+        self.clock.pause();
+        Some(view)
+    }
+
+    /// Returns the frame of the recording that is due now. `is_step`: one is asked for, whatever the time. `may_run`: else
+    /// one may be drawn. `may_start`: the newest text draws, on which what follows the first frame depends.
+    pub fn next_replayed(
+        &mut self,
+        now: Instant,
+        is_step: bool,
+        may_run: bool,
+        may_start: bool,
+    ) -> Option<ReplayedFrame> {
+        // Nothing that a hand does forces a frame.
+        self.is_frame_due = false;
+        if !(is_step || self.is_running() && may_run) {
+            return None;
+        }
+        let speed = self.clock.speed();
+        let playing = self.replay.playing.as_mut()?;
+        let is_early = playing.is_at_start() && !may_start;
+        if is_early || !(is_step || playing.is_due(now, speed)) {
+            return None;
+        }
+        let (frame, change) = playing.take(now)?;
+        let is_last = playing.is_over();
+        self.replay.follows = true;
+        self.is_again_due = false;
+        let inputs = &frame.inputs;
+        self.clock.draw(inputs.frame, inputs.time_secs, inputs.frame_rate);
+        Some(ReplayedFrame { frame, change, is_last })
+    }
+
+    /// Shows the recording at a time.
+    pub fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
+        let resumes = self.is_playing();
+        let is_at_start = self.replay.playing.as_ref().is_some_and(Playing::is_at_start);
+        self.seeking.cancel();
+        self.steps = 0;
+        self.clock.pause();
+        if !is_at_start {
+            self.seeking.goal = Some(Goal::Time(secs));
+        }
+        self.seeking.until = (is_at_start || secs > reach.last_secs).then_some(secs);
+        self.seeking.resumes = resumes;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eddy_engine::FrameInputs;
+
+    fn playing(times: &[f64]) -> Playing {
+        let frame = |(n, secs): (usize, &f64)| RecordedFrame {
+            inputs: FrameInputs { time_secs: *secs, ..FrameInputs::at_fixed_step(n as i32, 60.0) },
+            size: (4, 4),
+            values: CustomUniformValues::new(),
+            reset: false,
+        };
+        let frames = times.iter().enumerate().map(frame).collect();
+        Playing::new("a.replay".into(), Recording { project: String::new(), frames })
+    }
+
+    /// Returns how many frames are drawn in each tick of a screen of so many pictures a second.
+    fn drawn(playing: &mut Playing, hertz: f64, ticks: usize, speed: f64) -> Vec<u32> {
+        let start = Instant::now();
+        let tick = |n: usize| {
+            let now = start + Duration::from_secs_f64(n as f64 / hertz);
+            let mut count = 0;
+            while playing.is_due(now, speed) {
+                playing.take(now).unwrap();
+                count += 1;
+            }
+            count
+        };
+        (0..ticks).map(tick).collect()
+    }
+
+    #[test]
+    fn frames_come_at_the_times_they_were_recorded_at() {
+        let times: Vec<f64> = (0..60).map(|n| f64::from(n) / 30.0).collect();
+        let drawn_at_60 = drawn(&mut playing(&times), 60.0, 8, 1.0);
+        assert_eq!(drawn_at_60.iter().sum::<u32>(), 4, "{drawn_at_60:?}");
+        assert!(drawn_at_60.iter().all(|n| *n <= 1), "{drawn_at_60:?}");
+        let twice = drawn(&mut playing(&times), 60.0, 8, 2.0);
+        assert_eq!(twice.iter().sum::<u32>(), 8, "{twice:?}");
+        // 144 frames a second on a screen of 60.
+        let times: Vec<f64> = (0..144).map(|n| f64::from(n) / 144.0).collect();
+        let mut fast = playing(&times);
+        let count: u32 = drawn(&mut fast, 60.0, 61, 1.0).iter().sum();
+        assert!((140..=144).contains(&count), "{count}");
+    }
+
+    #[test]
+    fn a_slow_machine_skips_nothing_and_a_pause_in_the_recording_is_short() {
+        let times: Vec<f64> = (0..60).map(|n| f64::from(n) / 60.0).collect();
+        // Two pictures a second.
+        assert_eq!(drawn(&mut playing(&times), 2.0, 5, 1.0).iter().filter(|n| **n == 0).count(), 0);
+        let mut hitch = playing(&[0.0, 5.0, 5.016]);
+        let start = Instant::now();
+        let at = |millis: u64| start + Duration::from_millis(millis);
+        assert!(hitch.is_due(at(0), 1.0) && hitch.take(at(0)).is_some());
+        assert!(!hitch.is_due(at(200), 1.0));
+        assert!(hitch.is_due(at(251), 1.0) && hitch.take(at(251)).is_some());
+        assert!(!hitch.is_due(at(252), 1.0) && hitch.is_due(at(270), 1.0));
+    }
+
+    #[test]
+    fn time_that_was_set_back_or_stood_is_followed() {
+        let mut back = playing(&[3.0, 0.0, 0.0, 0.0, 0.016]);
+        let start = Instant::now();
+        for n in 0..5 {
+            let now = start + Duration::from_millis(17 * n);
+            assert!(back.is_due(now, 1.0), "frame {n}");
+            back.take(now).unwrap();
+        }
+        assert!(back.is_over() && !back.is_due(start + Duration::from_secs(9), 1.0));
+    }
+
+    #[test]
+    fn a_frame_of_the_engines_run_is_one_of_the_recording() {
+        let mut all = playing(&[0.0, 0.1, 0.0, 0.1, 0.2]);
+        Arc::get_mut(&mut all.recording).unwrap().frames[2].reset = true;
+        let now = Instant::now();
+        (0..5).for_each(|_| drop(all.take(now)));
+        all.go_to(1);
+        assert_eq!(all.view().drawn, 4, "the frame after the reset's second one");
+        all.go_to(99);
+        assert!(all.is_over());
+    }
+}

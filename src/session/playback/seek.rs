@@ -1,0 +1,261 @@
+//! Seeking: to a frame that was drawn before, to a time, round and round a range, and to the same frame by new code.
+//!
+//! A project whose passes read nothing of the last frame has a picture for each time, which is drawn at once. Any other
+//! is where its frames have brought it: one that was drawn is drawn again from the inputs that it had, and a later time
+//! is reached by drawing every frame on the way, at a fixed step.
+
+use super::Playback;
+use crate::drawing::Travelled;
+use std::mem::take;
+
+/// A frame of the run that is to be shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// So many frames after the one that is shown; negative: before it.
+    By(i64),
+    /// The frame of this number, the run's first being 0.
+    Frame(u64),
+    /// The last frame whose `iTime` is not above so many seconds, or the first that can be shown.
+    Time(f64),
+    /// The same as `Frame`, by a new program: every frame is drawn again from the run's beginning.
+    Anew(u64),
+}
+
+/// The frames that one can go to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// The number of frames before the one that is shown, and behind it.
+    pub back: u64,
+    pub ahead: u64,
+    /// `iTime` of the first and the last of them, in seconds.
+    pub first_secs: f64,
+    pub last_secs: f64,
+    /// The number of the frame that is shown, and whether the inputs of all frames since the last reset are kept.
+    pub shown: u64,
+    pub is_whole: bool,
+}
+
+/// A range of `iTime`, in seconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeRange {
+    pub from: f64,
+    pub to: f64,
+}
+
+impl TimeRange {
+    /// Returns the range between two times, whichever is first. `None`: there is none between them.
+    pub fn new(a: f64, b: f64) -> Option<TimeRange> {
+        let (from, to) = (a.min(b).max(0.0), a.max(b));
+        (from.is_finite() && to.is_finite() && from < to).then_some(TimeRange { from, to })
+    }
+}
+
+#[derive(Default)]
+pub struct Seeking {
+    /// The frame that the engine is to be asked for.
+    pub goal: Option<Goal>,
+    /// The engine has been asked.
+    pub is_under_way: bool,
+    /// The project has just been opened: its first program goes there.
+    pub awaits_program: bool,
+    /// The frames are drawn that lead to where the project was left.
+    pub is_taking_up: bool,
+    /// `iTime` up to which frames are drawn at a fixed step, once the goal is reached.
+    pub until: Option<f64>,
+    /// The picture runs on from there.
+    pub resumes: bool,
+    /// The part that is played again and again.
+    pub range: Option<TimeRange>,
+    /// A new program draws all frames since the last reset again, from the same inputs.
+    pub keeps_inputs: bool,
+}
+
+impl Seeking {
+    /// Ends a seek wherever it has come to.
+    pub fn cancel(&mut self) {
+        (self.goal, self.is_under_way, self.until, self.resumes) = (None, false, None, false);
+        (self.awaits_program, self.is_taking_up) = (false, false);
+    }
+
+    pub fn is_seeking(&self) -> bool {
+        self.goal.is_some() || self.is_under_way || self.until.is_some()
+    }
+}
+
+impl Playback {
+    /// Goes so many frames back, and pauses.
+    pub fn step_back(&mut self, by: usize) {
+        self.clock.pause();
+        self.steps = 0;
+        let before = self.take_steps_of_goal();
+        self.seeking.goal = Some(Goal::By(before.saturating_sub(i64::try_from(by).unwrap_or(i64::MAX))));
+    }
+
+    /// One frame further: the next one of the run, where one has gone back, else a new one. `ahead`: the frames of the
+    /// run behind the one that is shown.
+    pub fn step_forward(&mut self, ahead: u64) {
+        self.clock.pause();
+        let before = self.take_steps_of_goal();
+        let is_ahead = i64::try_from(ahead).is_ok_and(|ahead| ahead > before);
+        if self.steps == 0 && is_ahead && !self.is_frame_due {
+            self.seeking.goal = Some(Goal::By(before + 1));
+        } else {
+            self.steps = self.steps.saturating_add(1);
+        }
+    }
+
+    /// Returns the steps that were asked for and not gone yet.
+    fn take_steps_of_goal(&mut self) -> i64 {
+        let goal = self.seeking.goal;
+        self.seeking.cancel();
+        if let Some(Goal::By(frames)) = goal { frames } else { 0 }
+    }
+
+    /// Shows the picture at a time. Playing or paused stays as it is. Returns whether frames are drawn from the beginning:
+    /// then the buffers are to be reset.
+    pub fn seek(&mut self, secs: f64, reach: Reach, has_state: bool) -> bool {
+        let resumes = self.is_playing();
+        self.seeking.cancel();
+        self.steps = 0;
+        if !has_state {
+            self.clock.jump(secs);
+            self.is_frame_due = true;
+            return false;
+        }
+        self.clock.pause();
+        let is_from_reset = self.clock.next_frame_number() == 0 || secs < reach.first_secs;
+        if is_from_reset {
+            self.reset();
+        } else {
+            self.seeking.goal = Some(Goal::Time(secs));
+        }
+        self.seeking.until = (is_from_reset || secs > reach.last_secs).then_some(secs);
+        self.seeking.resumes = resumes;
+        is_from_reset
+    }
+
+    /// Draws all frames since the reset again, up to the one of this number.
+    pub fn draw_anew(&mut self, shown: u64) {
+        let resumes = self.is_playing();
+        self.seeking.cancel();
+        self.clock.pause();
+        self.forget_due_frames();
+        self.seeking.goal = Some(Goal::Anew(shown));
+        self.seeking.resumes = resumes;
+    }
+
+    /// Returns the beginning of the range that is played where its end has come.
+    pub fn loop_start(&self) -> Option<f64> {
+        let range = self.seeking.range?;
+        (self.is_running() && self.clock.time_secs() >= range.to).then_some(range.from)
+    }
+
+    /// Returns the frame that the engine is to be asked for, once.
+    pub fn take_goal(&mut self) -> Option<Goal> {
+        let goal = self.seeking.goal.take();
+        self.seeking.is_under_way |= goal.is_some();
+        goal
+    }
+
+    /// The engine shows another frame of the run, whose number is `shown`. Returns whether that is the goal.
+    pub fn travelled(&mut self, travelled: &Travelled, shown: u64) -> bool {
+        let is_wanted = take(&mut self.seeking.is_under_way);
+        self.forget_due_frames();
+        self.clock.go_to(travelled.inputs.frame, travelled.inputs.time_secs);
+        if let Some(playing) = &mut self.replay.playing {
+            playing.go_to(shown);
+        }
+        if self.seeking.goal.is_some() || !is_wanted {
+            return false;
+        }
+        if travelled.left > 0 {
+            self.seeking.goal = Some(Goal::Frame(travelled.goal));
+            return false;
+        }
+        // On its own canvas it was another picture.
+        self.is_again_due = travelled.is_display_new;
+        self.arrive();
+        true
+    }
+
+    /// Returns whether a frame at a fixed step is due: one that was asked for, or one before the time that is sought.
+    pub fn take_step(&mut self) -> bool {
+        if let Some(until) = self.seeking.until.filter(|_| !self.seeking.is_under_way) {
+            let half = 0.5 / self.clock.step_rate();
+            // The frame that is nearest to it.
+            if self.clock.next_frame_number() == 0 || self.clock.time_secs() + half <= until {
+                return true;
+            }
+            self.seeking.until = None;
+            self.arrive();
+        }
+        let is_due = self.steps > 0;
+        self.steps = self.steps.saturating_sub(1);
+        is_due
+    }
+
+    fn arrive(&mut self) {
+        self.seeking.is_taking_up = false;
+        if self.seeking.until.is_none() && take(&mut self.seeking.resumes) {
+            self.resume();
+        }
+    }
+
+    pub fn is_seeking(&self) -> bool {
+        self.seeking.is_seeking()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_lies_between_two_times_in_any_order() {
+        assert_eq!(TimeRange::new(3.0, 1.5), Some(TimeRange { from: 1.5, to: 3.0 }));
+        assert_eq!(TimeRange::new(-2.0, 1.0), Some(TimeRange { from: 0.0, to: 1.0 }));
+        for (a, b) in [(1.0, 1.0), (-3.0, -1.0), (f64::NAN, 2.0), (0.0, f64::INFINITY)] {
+            assert_eq!(TimeRange::new(a, b), None, "{a} to {b}");
+        }
+    }
+    /// A run of frames from 0 to 9 at 60 a second, of which the one of this number is shown, paused.
+    fn paused_at(shown: u64) -> (Playback, Reach) {
+        let mut playback = Playback::default();
+        playback.clock.go_to(shown as i32, shown as f64 / 60.0);
+        let (back, ahead) = (shown, 9 - shown);
+        (playback, Reach { back, ahead, first_secs: 0.0, last_secs: 9.0 / 60.0, shown, is_whole: true })
+    }
+
+    #[test]
+    fn steps_go_along_the_run_before_they_draw_another_frame() {
+        let (mut playback, reach) = paused_at(7);
+        playback.step_back(2);
+        playback.step_back(1);
+        assert_eq!(playback.take_goal(), Some(Goal::By(-3)));
+        assert!(playback.take_goal().is_none() && playback.is_seeking());
+        let (mut playback, _) = paused_at(7);
+        (0..2).for_each(|_| playback.step_forward(reach.ahead));
+        assert_eq!(playback.take_goal(), Some(Goal::By(2)));
+        assert!(!playback.take_step(), "the goal is being reached");
+        let (mut playback, reach) = paused_at(9);
+        playback.step_forward(reach.ahead);
+        assert!(playback.take_goal().is_none() && playback.take_step() && !playback.take_step());
+    }
+
+    #[test]
+    fn a_time_is_jumped_to_gone_to_or_drawn_up_to() {
+        let (mut playback, reach) = paused_at(5);
+        assert!(!playback.seek(2.0, reach, false) && playback.take_goal().is_none());
+        assert_eq!(playback.clock.time_secs(), 2.0, "a picture without a state has one for each time");
+        let (mut playback, reach) = paused_at(5);
+        assert!(!playback.seek(0.05, reach, true));
+        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(Goal::Time(0.05)), None));
+        let (mut playback, reach) = paused_at(5);
+        playback.play();
+        assert!(!playback.seek(0.5, reach, true) && playback.is_playing() && !playback.clock.is_playing());
+        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(Goal::Time(0.5)), Some(0.5)));
+        let late = Reach { first_secs: 0.05, ..reach };
+        assert!(playback.seek(0.01, late, true), "from the beginning");
+        assert_eq!((playback.clock.next_frame_number(), playback.seeking.until), (0, Some(0.01)));
+    }
+}

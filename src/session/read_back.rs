@@ -1,0 +1,173 @@
+//! What is read back behind frames: who asks, in which order, and who takes the outputs.
+//!
+//! Owns the list of what somebody watches ([`ReadBack`]), and the tasks that several parts of a session ask for.
+
+use super::{
+    Session,
+    buffers::BufferReads,
+    captures::Captures,
+    costs::Costs,
+    drawing::{RenderTask, Renderer, Tasks},
+    measures::Measuring,
+    miniatures::Miniatures,
+    probe::Probing,
+};
+use eddy_engine::{EngineError, PassInputs, Picture, Pixels};
+use eddy_playback::run::{Replay, ReplayFrom, Run};
+use eddy_project::PassId;
+use std::time::Instant;
+
+/// The job that tasks go with.
+pub(super) struct Moment {
+    pub now: Instant,
+    /// A frame is drawn before them.
+    pub has_frame: bool,
+    pub is_playing: bool,
+    pub is_seeking: bool,
+}
+
+/// Something that is read back again and again while somebody watches it, the newest only.
+pub(super) trait ReadBack {
+    /// Adds a task where one is due.
+    fn request(&mut self, at: &Moment, tasks: &mut Tasks);
+
+    /// Takes the output that came with a job, with a frame or without one. Returns whether there is something new to see.
+    fn receive(&mut self, has_frame: bool) -> bool;
+
+    /// Forgets what is of the project that is closed.
+    fn begin_next_project(&mut self);
+}
+
+/// What is read back of the picture.
+#[derive(Default)]
+pub(super) struct Watched {
+    pub captures: Captures,
+    pub cpu_micros: f64,
+    pub costs: Costs,
+    pub probing: Probing,
+    pub miniatures: Miniatures,
+    pub buffers: BufferReads,
+    pub measuring: Measuring,
+}
+
+impl Watched {
+    /// Returns what is read again and again, in its order.
+    fn read_backs(&mut self) -> [&mut dyn ReadBack; 4] {
+        [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]
+    }
+
+    /// Forgets what is of the project that is closed, but for pictures that are to be written.
+    pub fn begin_next_project(&mut self) {
+        self.cpu_micros = 0.0;
+        self.costs = Costs::watched(self.costs.is_watched());
+        self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
+    }
+}
+
+impl Session {
+    /// Returns what is due to be read now, behind the frame that is due, if one is.
+    pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
+        let is_playing = self.playback.is_running();
+        // Another project's engine says that it has no program.
+        let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
+        let mut tasks = Tasks::default();
+        // A canvas between two pictures has none.
+        let is_between = self.drawing.wanted.size.is_some() || self.playback.is_again_due;
+        if is_between && !has_frame && is_there && !self.halting.is_halted() {
+            return tasks;
+        }
+        if has_frame || is_there || self.drawing.wanted.restart {
+            self.request_pictures(has_frame, is_playing, &mut tasks);
+        }
+        if is_there && !self.is_compile_under_way() {
+            self.request_inputs(&mut tasks);
+        }
+        tasks
+    }
+
+    /// Asks for pictures and numbers, which are of the newest program, after the frame that is due.
+    fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
+        self.watched.captures.request(tasks);
+        let is_of_project = self.is_picture_of_project();
+        self.last_pictures.request(is_of_project, tasks);
+        let at = Moment { now: self.now, has_frame, is_playing, is_seeking: self.playback.is_seeking() };
+        self.watched.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
+    }
+
+    /// Asks for what the newest program was drawn with. A trace waits until nothing more is to be drawn.
+    fn request_inputs(&mut self, tasks: &mut Tasks) {
+        self.searching.request_input(tasks);
+        self.tracing.divergence.request_input(tasks);
+        self.comparing.request_input(tasks);
+        self.auditing.request_input(&self.picture.shown, tasks);
+        if self.playback.is_settled() {
+            self.tracing.request_input(tasks);
+        }
+    }
+
+    /// Takes the outputs that came with a job.
+    pub(super) fn take_outputs(&mut self, has_frame: bool) {
+        let is_new = self.watched.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
+        self.changed |= is_new;
+        if self.watched.probing.take_news() {
+            self.look_anew();
+        }
+        self.search_frames();
+        self.find_divergence();
+        self.compare();
+        self.audit();
+        self.trace_pixel(has_frame);
+    }
+}
+
+/// Reads the picture that is shown.
+pub(super) struct ReadPicture;
+
+impl RenderTask for ReadPicture {
+    type Output = Result<Picture, EngineError>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        renderer.engine_mut().picture()
+    }
+}
+
+/// Hands out the frames up to the newest; `None`: none are kept.
+pub(super) struct TakeReplay(pub ReplayFrom);
+
+impl RenderTask for TakeReplay {
+    type Output = Option<Replay>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        renderer.history().replay(self.0)
+    }
+}
+
+/// Hands out the inputs of all frames up to the newest.
+pub(super) struct TakeRun;
+
+impl RenderTask for TakeRun {
+    type Output = Run;
+
+    fn run(self, renderer: &mut Renderer) -> Run {
+        renderer.history().run()
+    }
+}
+
+/// Takes what a pass read as it was drawn last, and its picture.
+pub(super) struct Inspect(pub PassId);
+
+pub(super) struct Inspected {
+    pub pass: PassId,
+    pub inputs: PassInputs,
+    pub picture: Pixels,
+}
+
+impl RenderTask for Inspect {
+    type Output = Result<Inspected, EngineError>;
+
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let engine = renderer.engine_mut();
+        let (inputs, picture) = (engine.inspect(&self.0)?, engine.read(&self.0)?);
+        Ok(Inspected { pass: self.0, inputs, picture })
+    }
+}

@@ -1,0 +1,142 @@
+//! A session hands its unsaved work to the recovery file, and takes up what an earlier one left behind.
+
+use super::{Left, News, Recovery};
+use crate::{
+    Session,
+    command::{Answer, PendingAction, Question, Recovered},
+    documents::Documents,
+    view::{About, Level},
+};
+use eddy_background::Wake;
+use eddy_project::Origin;
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// Unsaved work and its recovery file.
+#[derive(Default)]
+pub(crate) struct UnsavedWork {
+    /// `None`: this session keeps nothing.
+    pub recovery: Option<Recovery>,
+    /// The revision of the documents that the file was last told of.
+    pub kept: Option<u64>,
+    /// Work that was found and that a question stands for.
+    pub found: Vec<Left>,
+}
+
+impl UnsavedWork {
+    /// Looks at once for what was left behind.
+    pub fn new(folder: Option<PathBuf>, wake: &Wake) -> io::Result<UnsavedWork> {
+        let recovery = folder.map(|folder| Recovery::new(folder, wake.clone())).transpose()?;
+        recovery.iter().for_each(Recovery::scan);
+        Ok(UnsavedWork { recovery, ..UnsavedWork::default() })
+    }
+}
+
+impl Session {
+    /// Hands what is unsaved to the thread that writes it, if it has changed since. Never waits.
+    pub(crate) fn keep_unsaved(&mut self) {
+        let Some(recovery) = &self.unsaved.recovery else { return };
+        let revision = Some(self.documents.revision());
+        if self.unsaved.kept == revision {
+            return;
+        }
+        self.unsaved.kept = revision;
+        if self.documents.is_dirty() {
+            recovery.keep(self.documents.current());
+        } else {
+            recovery.forget();
+        }
+    }
+
+    /// Removes the recovery file: what is unsaved is meant to be lost, or is safe in another place.
+    pub fn forget_unsaved(&self) {
+        self.unsaved.recovery.iter().for_each(Recovery::forget);
+    }
+
+    /// Asks about work that was left behind.
+    pub(crate) fn take_found_work(&mut self) {
+        while let Some(news) = self.unsaved.recovery.as_ref().and_then(Recovery::take_news) {
+            match news {
+                News::Trouble(text) => self.notice_about(About::Window, Level::Warning, text),
+                News::Found(found) => {
+                    let here = place(&self.project().origin);
+                    let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;
+                    let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
+                    for left in first.into_iter().chain(rest) {
+                        self.ask(Question::Recover(Box::new(left.shown.clone())));
+                        self.unsaved.found.push(left);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Does what was answered about work that was left behind; false for an answer that does not fit.
+    pub(crate) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
+        match answer {
+            Answer::Recover if self.is_dirty() => {
+                let (then, tabs) = (PendingAction::Recover(recovered.file.clone()), self.documents.dirty_tabs());
+                self.dialog.questions.push_front(Question::Unsaved { then, tabs });
+            }
+            Answer::Recover => self.recover(&recovered.file),
+            Answer::Discard => {
+                self.unsaved.found.retain(|left| left.shown.file != recovered.file);
+                if let Some(recovery) = &self.unsaved.recovery {
+                    recovery.discard(recovered.file.clone());
+                }
+            }
+            Answer::Cancel => self.put_off(&recovered.file),
+            _ => return false,
+        }
+        true
+    }
+
+    /// The work in a recovery file takes the place of the open project.
+    pub(crate) fn recover(&mut self, file: &Path) {
+        let Some(at) = self.unsaved.found.iter().position(|left| left.shown.file == *file) else { return };
+        let Left { shown, project, saved, .. } = self.unsaved.found.remove(at);
+        self.replace(Documents::restored(project, saved));
+        // What made an end of the last process may do it again: the person looks first.
+        self.playback.clock.pause();
+        if let Some(recovery) = &self.unsaved.recovery {
+            recovery.adopt(shown.file);
+        }
+        self.compile.includes_changed();
+        let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
+        self.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
+        self.put_off_all();
+    }
+
+    /// Other work would have to take the place of what was just recovered.
+    fn put_off_all(&mut self) {
+        let others: Vec<PathBuf> = self.unsaved.found.iter().map(|left| left.shown.file.clone()).collect();
+        let some = match others.len() {
+            0 => return,
+            1 => "there is unsaved work of another project too".to_owned(),
+            n => format!("there is unsaved work of {n} other projects too"),
+        };
+        self.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
+        others.iter().for_each(|file| self.put_off(file));
+        self.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
+    }
+
+    fn put_off(&mut self, file: &Path) {
+        self.unsaved.found.retain(|left| left.shown.file != *file);
+        if let Some(recovery) = &self.unsaved.recovery {
+            recovery.put_off(file.to_owned());
+        }
+    }
+}
+
+/// Returns where a project lies, written in one way; `None` for one that lies nowhere.
+fn place(origin: &Origin) -> Option<PathBuf> {
+    match origin {
+        Origin::Unsaved => None,
+        Origin::Preset(name) => Some(PathBuf::from(name)),
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
+            Some(path.canonicalize().unwrap_or_else(|_| path.clone()))
+        }
+    }
+}

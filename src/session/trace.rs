@@ -1,0 +1,202 @@
+//! A pixel of the picture that is being traced: from the click to the way that led to its value, and to the first
+//! assignment that the device computes otherwise.
+//!
+//! The inputs of the pass are taken after the frame, from textures that still hold them, so that nothing is drawn anew
+//! and no simulation goes on. The walk and the search are done on threads of their own.
+
+use super::{
+    Session,
+    drawing::{Tasks, Ticket},
+    read_back::{Inspect, Inspected, TakeReplay},
+};
+use eddy_background::{Background, Status, Wake};
+use eddy_debugger::{
+    divergence::{self, DivergenceFound, DivergenceJob},
+    trace::Traced,
+};
+use eddy_engine::EngineError;
+use eddy_playback::run::{Replay, ReplayFrom};
+use eddy_project::{PassId, Project};
+use std::{io, sync::Arc};
+
+/// A pixel of a pass: where in its picture, from 0 to 1 across and up.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TracedPixel {
+    pub pass: PassId,
+    pub at: [f32; 2],
+}
+
+struct TraceJob {
+    project: Project,
+    at: [f32; 2],
+    frame: i32,
+    inspected: Inspected,
+}
+
+/// Holds what a front end shows of a trace.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TraceView<'s> {
+    /// The newest, while another one is under way too.
+    pub traced: Option<&'s Arc<Traced>>,
+    pub is_under_way: bool,
+    /// The reason why there is none.
+    pub trouble: Option<&'s str>,
+}
+
+pub(super) struct Tracing {
+    walk: Background<TraceJob, (), Arc<Traced>>,
+    /// The pixel that is traced, again after each change of what it shows.
+    pixel: Option<TracedPixel>,
+    input: Ticket<Result<Inspected, EngineError>>,
+    pub divergence: Divergence,
+}
+
+impl Tracing {
+    pub fn new(wake: Wake) -> io::Result<Self> {
+        let work = |job: TraceJob, _: &_| {
+            let TraceJob { project, at, frame, inspected: Inspected { pass, inputs, picture } } = job;
+            Traced::new(project, &pass, frame, (inputs, &picture), at).map(Arc::new).map_err(|e| e.to_string())
+        };
+        let walk = Background::new("trace", "the CPU interpreter", wake.clone(), work)?;
+        Ok(Self { walk, pixel: None, input: Ticket::default(), divergence: Divergence::new(wake)? })
+    }
+
+    /// Traces another pixel, or none.
+    pub fn want(&mut self, pixel: Option<TracedPixel>) {
+        if pixel.is_none() {
+            self.divergence.clear();
+        }
+        match self.walk.result() {
+            // The trace of the pixel before stays until there is the next.
+            Some(Ok(_)) if pixel.is_some() => self.walk.cancel(),
+            _ => self.walk.clear(),
+        }
+        if pixel.is_some() {
+            self.walk.request();
+        }
+        (self.pixel, self.input) = (pixel, Ticket::default());
+    }
+
+    pub fn request_input(&mut self, tasks: &mut Tasks) {
+        if let Some(pixel) = &self.pixel
+            && self.walk.take_request()
+        {
+            self.input = tasks.add(Inspect(pixel.pass.clone()));
+        }
+    }
+
+    /// The device that inputs were asked of is gone.
+    pub fn renew_request(&mut self) {
+        self.walk.renew_request();
+        self.divergence.background.renew_request();
+    }
+
+    /// Takes what has ended. Returns whether something is new.
+    pub fn poll(&mut self) -> bool {
+        self.walk.poll() | self.divergence.background.poll()
+    }
+
+    fn traced(&self) -> Option<&Arc<Traced>> {
+        self.walk.result().and_then(|result| result.as_ref().ok())
+    }
+}
+
+/// The search for the first difference from the device in a traced pixel.
+pub(super) struct Divergence {
+    background: Background<DivergenceJob, (), DivergenceFound>,
+    of: Option<Arc<Traced>>,
+    input: Ticket<Option<Replay>>,
+}
+
+impl Divergence {
+    fn new(wake: Wake) -> io::Result<Self> {
+        let background = Background::new("divergence", "the search", wake, divergence::find)?;
+        Ok(Self { background, of: None, input: Ticket::default() })
+    }
+
+    fn clear(&mut self) {
+        self.background.clear();
+        (self.of, self.input) = (None, Ticket::default());
+    }
+
+    pub fn request_input(&mut self, tasks: &mut Tasks) {
+        if self.background.take_request() {
+            self.input = tasks.add(TakeReplay(ReplayFrom::Newest));
+        }
+    }
+}
+
+impl Session {
+    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
+    pub fn trace(&self) -> TraceView<'_> {
+        TraceView {
+            traced: self.tracing.traced(),
+            is_under_way: self.tracing.walk.is_under_way(),
+            trouble: self.tracing.walk.result().and_then(|result| result.as_ref().err()).map(String::as_str),
+        }
+    }
+
+    /// The search for the first difference from the device in the traced pixel
+    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None`: nobody has asked for it.
+    pub fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
+        let Divergence { background, of, .. } = &self.tracing.divergence;
+        of.as_ref().zip(self.tracing.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
+        background.status()
+    }
+
+    /// Begins that search.
+    pub(super) fn want_divergence(&mut self) {
+        let traced = self.tracing.traced().cloned();
+        let divergence = &mut self.tracing.divergence;
+        divergence.clear();
+        if traced.is_some() {
+            divergence.background.request();
+        }
+        divergence.of = traced;
+    }
+
+    /// Hands on what the traced pass read; after a further frame the pixel is traced again.
+    pub(super) fn trace_pixel(&mut self, has_frame: bool) {
+        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.tracing else { return };
+        let Some(input) = input.take() else {
+            if has_frame {
+                walk.request();
+            }
+            return;
+        };
+        self.changed = true;
+        match (input.output, self.drawing.project().cloned()) {
+            (Ok(inspected), Some(project)) => {
+                let frame = self.playback.frame();
+                walk.start(TraceJob { project, at: pixel.at, frame, inspected });
+            }
+            (Ok(_), None) => walk.cancel(),
+            (Err(e), _) => walk.fail(e.to_string()),
+        }
+    }
+
+    /// Hands on the frames that lead to the traced one.
+    pub(super) fn find_divergence(&mut self) {
+        let Some(input) = self.tracing.divergence.input.take() else { return };
+        self.changed = true;
+        let Divergence { background, of: Some(traced), .. } = &mut self.tracing.divergence else { return };
+        let Some(Replay { snapshot, frames }) = input.output else {
+            return background.fail(
+                "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers are never \
+                 kept",
+            );
+        };
+        match self.drawing.device().wait() {
+            Err(e) => background.fail(e.to_string()),
+            Ok(gpu) => background.start(DivergenceJob {
+                gpu,
+                traced: traced.clone(),
+                shown: self.picture.shown.clone(),
+                size: self.drawing.size(),
+                media_dir: self.options.media_dir.clone(),
+                snapshot,
+                frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
+        }
+    }
+}

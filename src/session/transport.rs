@@ -1,0 +1,335 @@
+//! A session plays, pauses, seeks, records and replays: [`Playback`](super::playback) says how, and here is done what else
+//! follows of it for the picture, the canvas and the notices.
+
+use super::{
+    Session,
+    drawing::{Job, Travelled},
+    playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
+    view::{About, Level},
+};
+use eddy_engine::{EngineError, FrameInputs};
+use eddy_playback::{capture, recording::EXTENSION};
+use std::path::PathBuf;
+
+impl Session {
+    pub(super) fn play(&mut self) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.play();
+    }
+
+    pub(super) fn pause(&mut self) {
+        self.halting.forget_resuming();
+        self.playback.pause();
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.reset_buffers();
+        self.playback.reset();
+    }
+
+    fn reset_buffers(&mut self) {
+        self.settled(About::Seeking);
+        self.end_replay("the picture was reset");
+        self.canvas.replayed = None;
+        self.take_values_back();
+        self.drawing.wanted.reset = true;
+    }
+
+    /// Shows the frame that is so many before the one that is shown, and pauses.
+    pub(super) fn step_back(&mut self, by: usize) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.step_back(by);
+    }
+
+    pub(super) fn step_forward(&mut self) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.step_forward(self.drawing.reach().ahead);
+    }
+
+    /// Shows the picture at a time, in seconds. Playing or paused stays as it is.
+    pub(super) fn seek(&mut self, secs: f64) {
+        if !secs.is_finite() {
+            return;
+        }
+        let secs = secs.max(0.0);
+        self.settled(About::Seeking);
+        self.override_halt();
+        // What is recorded is a run without a break.
+        self.end_recording();
+        let reach = self.drawing.reach();
+        if self.playback.is_replaying() {
+            self.playback.seek_in_replay(secs, reach);
+        } else if self.playback.seek(secs, reach, self.has_state()) {
+            self.reset_buffers();
+        }
+    }
+
+    /// Goes back to the beginning of the range that is played where its end has come.
+    pub(super) fn loop_range(&mut self) {
+        if let Some(from) = self.playback.loop_start() {
+            self.seek(from);
+        }
+    }
+
+    /// Hands in the frame that is to be shown. False where there is none, or nothing to draw it.
+    pub(super) fn travel(&mut self) -> bool {
+        let seeking = &self.playback.seeking;
+        if seeking.goal.is_none() || self.drawing.is_program_coming() || seeking.awaits_program {
+            return false;
+        }
+        if !self.drawing.has_program() || self.drawing.wanted.restart {
+            self.playback.seeking.cancel();
+            return false;
+        }
+        self.end_recording();
+        let goal = self.playback.take_goal();
+        self.drawing.submit(self.now, false, |job: &mut Job| job.travel = goal);
+        true
+    }
+
+    /// The engine shows another frame of the run, or cannot.
+    pub(super) fn travelled(&mut self, travelled: Option<Result<Travelled, EngineError>>) {
+        self.changed = true;
+        let reach = self.drawing.reach();
+        match travelled {
+            Some(Ok(travelled)) => {
+                self.picture_is_other();
+                if self.playback.travelled(&travelled, reach.shown) {
+                    self.watched.measuring.go_to(travelled.inputs.frame);
+                }
+            }
+            Some(Err(error)) => {
+                self.playback.seeking.cancel();
+                self.stop_drawing(&error);
+            }
+            None => {
+                self.playback.seeking.cancel();
+                self.playback.forget_due_frames();
+                let text = match reach.back {
+                    0 => "there is no earlier frame: an edit, a reset or a change of resolution restarts at frame 0"
+                        .to_owned(),
+                    back => format!("that frame is out of reach: you can go back {back} frames"),
+                };
+                self.notice_about(About::Seeking, Level::Warning, text);
+            }
+        }
+    }
+
+    /// A new program draws: by the same inputs up to the same frame, where that is asked for.
+    pub(super) fn keep_inputs(&mut self) {
+        let reach = self.drawing.reach();
+        if !self.keeps_inputs_of(reach) {
+            return;
+        }
+        if !reach.is_whole {
+            self.notice(
+                Level::Info,
+                "not all frames since the last reset are kept: reset once, then edits replay to the same frame",
+            );
+            return;
+        }
+        self.playback.draw_anew(reach.shown);
+    }
+
+    fn keeps_inputs_of(&self, reach: Reach) -> bool {
+        self.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
+    }
+
+    /// A program that is coming draws all frames since the reset.
+    pub(super) fn draws_all_anew(&self) -> bool {
+        let reach = self.drawing.reach();
+        self.drawing.wanted.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+    }
+
+    pub(super) fn has_state(&self) -> bool {
+        // A project that was opened paused has no program yet.
+        let project = self.drawing.project().unwrap_or_else(|| self.documents.current());
+        !project.stateful_passes().is_empty()
+    }
+
+    pub(super) fn is_playing(&self) -> bool {
+        self.playback.is_playing()
+    }
+
+    /// Returns the frames that one can go to without drawing new ones.
+    pub fn reach(&self) -> Reach {
+        self.drawing.reach()
+    }
+
+    /// Returns the range that is played again and again.
+    pub fn time_range(&self) -> Option<TimeRange> {
+        self.playback.seeking.range
+    }
+
+    /// Returns whether new code draws the frames since the last reset again, from the same inputs.
+    pub fn keeps_inputs(&self) -> bool {
+        self.playback.seeking.keeps_inputs
+    }
+
+    /// The frame that is shown is to be drawn again now, once: no other is due.
+    pub(super) fn take_again(&mut self) -> bool {
+        let wanted = &self.drawing.wanted;
+        let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
+        let is_ready = self.drawing.has_program() && !is_other_coming && !self.halting.is_halted();
+        is_ready && self.playback.take_again()
+    }
+
+    /// A change of the program or the canvas is followed by the frame that is shown, and by no other.
+    pub(super) fn stays(&self) -> bool {
+        let wanted = &self.drawing.wanted;
+        let begins_anew = wanted.restart || wanted.reset || self.compile.resets_when_built() || self.draws_all_anew();
+        self.playback.is_still() && !begins_anew
+    }
+
+    /// The frame that is shown cannot be drawn again: the next one shows what has changed.
+    pub(super) fn again_is_lost(&mut self) {
+        self.playback.is_frame_due = true;
+        if self.has_state() {
+            let text = "the buffers are too large to be kept: a change while paused draws one frame more";
+            self.notice_once(About::Again, Level::Info, text);
+        }
+    }
+
+    /// Begins anew at frame 0 and records every frame; the second time, ends that and writes the file.
+    pub(super) fn record(&mut self) {
+        if self.playback.recorder.is_some() {
+            self.end_recording();
+            return;
+        }
+        let project = self.documents.current();
+        self.playback.recorder = Some(Recorder::new(project.name.clone(), project.custom_uniform_values.clone()));
+        self.reset();
+    }
+
+    /// Returns how many frames have been recorded, while they are.
+    pub fn recorded_frames(&self) -> Option<usize> {
+        self.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
+    }
+
+    /// Writes what has been recorded, if anything is.
+    pub(super) fn end_recording(&mut self) {
+        let Some(Recorder { recording, .. }) = self.playback.recorder.take() else { return };
+        let frames = recording.frames.len();
+        if frames == 0 {
+            self.notice_about(
+                About::Capture,
+                Level::Warning,
+                "nothing to save: no frame was drawn during the recording",
+            );
+            return;
+        }
+        let project = self.documents.current();
+        let folder = capture::folder_for(project, &self.options.pictures);
+        let stem = capture::file_stem(&recording.project);
+        let name = |n: u32| format!("{stem}-{n:04}.{EXTENSION}");
+        match capture::write_new(&folder, name, &stem, |out| recording.write(out)) {
+            Ok(path) => {
+                self.notice(Level::Info, format!("{frames} frames of input saved: {}", path.display()));
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = Some(path);
+                }
+            }
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
+        }
+    }
+
+    /// Takes down a job before it is handed in.
+    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
+        let size = self.drawing.wanted.size.unwrap_or_else(|| self.drawing.coming_size());
+        if let Some(recorder) = &mut self.playback.recorder {
+            recorder.note(&self.drawing.wanted, size, frame, again);
+        }
+    }
+
+    /// Returns what is known of the recording that is played, while one is.
+    pub fn replay(&self) -> Option<ReplayView> {
+        self.playback.replay.playing.as_ref().map(|playing| playing.view())
+    }
+
+    /// Reads a recording, which is played when it is there.
+    pub(super) fn play_recording(&mut self, file: PathBuf) {
+        self.settled(About::Replay);
+        let file = std::path::absolute(&file).unwrap_or(file);
+        match Reading::begin(file, self.wake.clone()) {
+            Ok(reading) => self.playback.replay.reading = Some(reading),
+            Err(e) => {
+                self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
+            }
+        }
+    }
+
+    /// Begins with a recording that has been read.
+    pub(super) fn take_recording(&mut self) {
+        let Some(read) = self.playback.replay.reading.as_ref().and_then(Reading::take) else { return };
+        let Some(Reading { file, .. }) = self.playback.replay.reading.take() else { return };
+        let recording = match read {
+            Ok(recording) => recording,
+            Err(error) => {
+                let text = format!("cannot play {}: {error}; {}", file.display(), error.remedy());
+                self.notice_with_path(About::Replay, Level::Error, text, file);
+                return;
+            }
+        };
+        self.end_recording();
+        self.playback.stop_replay();
+        let here = self.project().name.clone();
+        if !recording.project.is_empty() && recording.project != here {
+            let text = format!(
+                "{} was recorded in the project \"{}\", but \"{here}\" is open: the picture may differ from the \
+                 recorded one. Open \"{}\" and play it there to see the same picture",
+                name(&file),
+                recording.project,
+                recording.project
+            );
+            self.notice_about(About::Replay, Level::Warning, text);
+        }
+        self.override_halt();
+        self.reset();
+        self.playback.start_replay(file, recording);
+        self.changed = true;
+    }
+
+    /// Ends the recording that is played, and says so.
+    pub(super) fn end_replay(&mut self, why: &str) {
+        if let Some(ReplayView { file, drawn, frames }) = self.playback.stop_replay() {
+            let text = format!("stopped {} at frame {drawn} of {frames}: {why}", name(&file));
+            self.notice_about(About::Replay, Level::Info, text);
+        }
+    }
+
+    /// Returns the frame of the recording that is due now. `is_step`: one is asked for, whatever the time.
+    pub(super) fn next_replayed(&mut self, is_step: bool) -> Option<FrameInputs> {
+        let (may_run, may_start) = (!self.gives_way(), !self.is_compile_under_way());
+        let next = self.playback.next_replayed(self.now, is_step, may_run, may_start)?;
+        let ReplayedFrame { frame, change, is_last } = next;
+        if let Some(size) = change.size {
+            self.canvas.replayed = Some(size);
+            self.fit_canvas();
+        }
+        if let Some(values) = change.values {
+            self.drawing.wanted.custom_uniforms = Some(values);
+            self.playback.replay.has_values = true;
+        }
+        self.drawing.wanted.reset |= change.reset;
+        self.changed = true;
+        if is_last && let Some(ReplayView { file, frames, .. }) = self.playback.finish_replay() {
+            let text = format!(
+                "{} ended: the picture is paused at frame {frames} of {frames}. Press Play to continue live from there",
+                name(&file)
+            );
+            self.notice_about(About::Replay, Level::Info, text);
+        }
+        Some(frame.inputs)
+    }
+
+    /// Gives the engine the project's own values again, before a frame that is not the recording's.
+    pub(super) fn take_values_back(&mut self) {
+        if self.playback.replay.has_values && !self.playback.is_replaying() {
+            self.custom_uniforms_turned();
+            self.playback.replay.follows = true;
+        }
+    }
+}

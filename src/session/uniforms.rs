@@ -1,0 +1,138 @@
+//! The author's own uniforms: their values, and their names while the texts have others than the program that draws.
+//!
+//! Values and steps back go by the names in the texts.
+
+use super::Session;
+use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
+
+/// Old and new names, in the order in which they were given.
+type RenamedUniforms = Vec<(String, String)>;
+
+/// The author's own uniforms as the texts have them.
+#[derive(Default)]
+pub(super) struct TextUniforms {
+    /// Those that have another name in the texts than in the program that draws.
+    renamed: RenamedUniforms,
+    /// Those of the texts, where the program that draws declares none or there is none yet.
+    pub declared: Vec<CustomUniform>,
+    /// The documents' revision that they are of.
+    revision: Option<u64>,
+}
+
+/// Returns what became of a name.
+fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
+    renamed.iter().fold(name, |name, (from, to)| if from == name { to } else { name })
+}
+
+impl Session {
+    /// Reads what the texts declare, if that is shown and they have changed since.
+    pub(super) fn read_declared_uniforms(&mut self) {
+        let revision = Some(self.documents.revision());
+        if self.drawing.custom_uniforms().is_empty() && self.uniforms.revision != revision {
+            let list = self.project().custom_uniforms().list;
+            self.changed |= list != self.uniforms.declared;
+            (self.uniforms.declared, self.uniforms.revision) = (list, revision);
+        }
+    }
+
+    /// Returns where one of the author's own uniforms stands.
+    pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
+        let values = &self.project().custom_uniform_values;
+        match newest_name(&self.uniforms.renamed, &custom_uniform.name) {
+            name if name == custom_uniform.name => custom_uniform.value(values),
+            name => CustomUniform { name: name.to_owned(), ..custom_uniform.clone() }.value(values),
+        }
+    }
+
+    /// Returns the name that the texts have for a uniform of the program that draws.
+    pub(super) fn newest_name(&self, name: &str) -> String {
+        newest_name(&self.uniforms.renamed, name).to_owned()
+    }
+
+    /// Adds values under the names that a program of the texts before their renaming has for them.
+    pub(super) fn add_old_names(&self, values: &mut CustomUniformValues) {
+        let renamed = &self.uniforms.renamed;
+        for (from, _) in renamed {
+            let value = values.get(newest_name(renamed, from)).cloned();
+            if let (Some(value), false) = (value, values.contains_key(from)) {
+                values.insert(from.clone(), value);
+            }
+        }
+    }
+
+    /// Lets values and steps back follow the uniforms that an edit of a text has renamed.
+    pub(super) fn follow_renamed_uniforms(&mut self, before: &str, after: &str) {
+        let renamed = self.documents.current_mut().follow_renamed_custom_uniforms(before, after);
+        for (from, to) in &renamed {
+            self.passes.rename_uniform(from, to);
+        }
+        if !renamed.is_empty() || !self.uniforms.renamed.is_empty() {
+            self.uniforms.renamed.extend(renamed);
+            self.drop_names_in_use();
+        }
+    }
+
+    /// A program of `coming` is about to draw: names that neither it nor the one before it has mean nothing any more.
+    pub(super) fn forget_old_names(&mut self, coming: &Project) {
+        if self.uniforms.renamed.is_empty() {
+            return;
+        }
+        self.drop_names_in_use();
+        let mut known = coming.custom_uniform_names();
+        known.extend(self.drawing.project().map(Project::custom_uniform_names).unwrap_or_default());
+        self.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
+    }
+
+    /// Names that the texts declare now are no old ones.
+    fn drop_names_in_use(&mut self) {
+        let declared = self.project().custom_uniform_names();
+        self.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
+    }
+
+    pub(super) fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
+        let Some(mut custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
+        custom_uniform.name = self.newest_name(name);
+        let name = custom_uniform.name.as_str();
+        let before = self.project().custom_uniform_values.clone();
+        let project = self.documents.current_mut();
+        match value {
+            None => drop(project.custom_uniform_values.remove(name)),
+            Some(value) => {
+                let within = custom_uniform.value(&CustomUniformValues::from([(name.to_owned(), value)]));
+                project.turn_custom_uniform(&custom_uniform, within);
+            }
+        }
+        if self.project().custom_uniform_values != before {
+            self.passes.push_uniforms(before, Some(name));
+        }
+        self.custom_uniforms_turned();
+    }
+
+    /// The values go to the running program; while paused, one frame shows them.
+    pub(super) fn custom_uniforms_turned(&mut self) {
+        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
+        self.playback.replay.has_values = played.is_some();
+        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        self.add_old_names(&mut values);
+        self.drawing.wanted.custom_uniforms = Some(values);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_followed_through_all_its_changes() {
+        let renamed = |all: &[(&str, &str)]| -> RenamedUniforms {
+            all.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect()
+        };
+        let typed = renamed(&[("speed", "spee"), ("tint", "hue"), ("spee", "pace")]);
+        assert_eq!(
+            ["speed", "tint", "pace", "other"].map(|name| newest_name(&typed, name)),
+            ["pace", "hue", "pace", "other"]
+        );
+        let taken_back = renamed(&[("speed", "pace"), ("pace", "speed")]);
+        assert_eq!(newest_name(&taken_back, "speed"), "speed");
+    }
+}
