@@ -103,7 +103,7 @@ pub(super) fn compile_seen(
         table: emit::LEAST_UNIFORM_TABLE as usize,
     };
     let lower::Lowered { mut program, mut reflection, .. } =
-        lower::lower_probed(&checked, source, options, interface, probed);
+        lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
     opt::optimise(&mut program, source.driver.without, &mut seen);
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");

@@ -65,7 +65,7 @@ impl Walkable {
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
-        let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, options, interface, marks);
+        let lower::Lowered { program, names, .. } = lower::lower(&module, source, options, interface, None, marks);
         ir::verify::assert_kept(&program, "lower");
         let (mut statements, mut type_texts) = Default::default();
         if is_marked {

@@ -215,37 +215,12 @@ pub(super) fn unorm_value(bits: u16) -> f32 {
     f32::from(bits) / 65535.0
 }
 
-/// A float as 16 bits, rounded to nearest even; too large is infinity.
 pub(super) fn half_bits(x: f32) -> u32 {
-    let bits = x.to_bits();
-    let sign = bits >> 16 & 0x8000;
-    let magnitude = bits & 0x7FFF_FFFF;
-    if magnitude > 0x7F80_0000 {
-        return sign | 0x7E00;
-    }
-    // Halfway between the greatest half, 65504, and what would be the next.
-    if magnitude >= 0x477F_F000 {
-        return sign | 0x7C00;
-    }
-    if magnitude < 0x3880_0000 {
-        // Subnormal: so many steps of 2^-24.
-        let steps = f64::from(f32::from_bits(magnitude)) * f64::from(1 << 24);
-        return sign | steps.round_ties_even() as u32;
-    }
-    let rebiased = magnitude - (112 << 23);
-    let rounded = rebiased + 0xFFF + (rebiased >> 13 & 1);
-    sign | rounded >> 13
+    half::f16::from_f32(x).to_bits().into()
 }
 
 pub(super) fn half_value(bits: u16) -> f32 {
-    let sign = if bits & 0x8000 != 0 { -1.0 } else { 1.0 };
-    let (exponent, mantissa) = (i32::from(bits >> 10 & 31), f32::from(bits & 0x3FF));
-    sign * match exponent {
-        0 => mantissa * 2f32.powi(-24),
-        31 if mantissa != 0.0 => f32::NAN,
-        31 => f32::INFINITY,
-        _ => (1.0 + mantissa / 1024.0) * 2f32.powi(exponent - 15),
-    }
+    half::f16::from_bits(bits).to_f32()
 }
 
 fn dot(a: Arg<'_>, b: Arg<'_>) -> f32 {

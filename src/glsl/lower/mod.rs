@@ -69,31 +69,11 @@ pub(crate) struct Lowered {
 
 /// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
 /// module. With a probe the pass draws the value of an expression too, when it is evaluated for the time after so many.
+/// Who walks through the program asks for marks.
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
-pub(crate) fn lower_probed(
-    module: &hir::Module,
-    source: &PassSource<'_>,
-    options: Options,
-    interface: Interface,
-    probe: Option<(hir::ExprId, u32)>,
-) -> Lowered {
-    lower_with(module, source, options, interface, probe, Marks::default())
-}
-
-/// Does the same without a probe, for who walks through the program: with the marks that are asked for.
-pub(crate) fn lower_to_walk(
-    module: &hir::Module,
-    source: &PassSource<'_>,
-    options: Options,
-    interface: Interface,
-    marks: Marks,
-) -> Lowered {
-    lower_with(module, source, options, interface, None, marks)
-}
-
-fn lower_with(
+pub(crate) fn lower(
     module: &hir::Module,
     source: &PassSource<'_>,
     options: Options,

@@ -5,7 +5,7 @@ use crate::{
     ast::{BasicType, MacroId, Precision, Symbol},
     builtins::{Overload, Pattern},
     check::env,
-    hir::{Builtin, BuiltinVar, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId},
+    hir::{Builtin, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId},
 };
 use std::ops::Range;
 
@@ -79,16 +79,11 @@ impl Analysis {
                     let sampler = self.type_name(self.channel_type(i));
                     one(format!("uniform struct {{ {sampler} sampler; vec3 size; float time; int loaded; }} iCh{i}"))
                 }
-                DeclRef::BuiltinVar(var) => one(match var {
-                    BuiltinVar::Position => "out vec4 gl_Position".into(),
-                    BuiltinVar::PointSize => "out float gl_PointSize".into(),
-                    BuiltinVar::VertexId => "in int gl_VertexID".into(),
-                    BuiltinVar::InstanceId => "in int gl_InstanceID".into(),
-                    BuiltinVar::FragCoord => "in vec4 gl_FragCoord".into(),
-                    BuiltinVar::FrontFacing => "in bool gl_FrontFacing".into(),
-                    BuiltinVar::PointCoord => "in vec2 gl_PointCoord".into(),
-                    BuiltinVar::FragDepth => "out float gl_FragDepth".into(),
-                }),
+                DeclRef::BuiltinVar(var) => {
+                    let direction = if var.is_place() { "out" } else { "in" };
+                    let name = env::VARIABLES.iter().find(|known| known.1 == var).map_or("", |known| known.0);
+                    one(format!("{direction} {} {name}", self.type_name(var.ty())))
+                }
                 DeclRef::BuiltinConst(symbol) => one(self.limit_text(symbol)),
             },
         }
