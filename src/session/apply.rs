@@ -202,7 +202,7 @@ impl Session {
         let old = source.text.clone();
         // The worker reads them when it compiles: a keystroke waits for no file.
         if include_names(&source.text) != include_names(text) {
-            self.compile.includes_changed();
+            self.compile.include_edits += 1;
         }
         self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);

@@ -151,7 +151,7 @@ impl Session {
                             pixels; {count}"
         );
         self.notice(Level::Info, text);
-        self.compile.add_findings(findings);
+        self.compile.diagnostics.extend(findings);
         self.auditing.map = Some(map).filter(|_| is_shown);
     }
 

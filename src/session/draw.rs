@@ -193,7 +193,7 @@ impl Session {
         if let Some(millis) = self.drawing.new_program_millis() {
             self.settled_by_edit();
             self.compile.succeed(millis);
-            if self.compile.take_reset() {
+            if std::mem::take(&mut self.compile.resets) {
                 self.reset();
             } else {
                 self.keep_inputs();

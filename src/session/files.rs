@@ -287,7 +287,7 @@ impl Session {
         again.extend(project::declare_channels(&mut project));
         let is_new = |d: &&Diagnostic| !again.iter().any(|other| other.repeats(d));
         let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
-        self.compile.note_reading(kept);
+        self.compile.read = kept;
     }
 
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {

@@ -89,7 +89,7 @@ impl Session {
 
     /// A program of a text that was edited after them draws: notices about code are of an older text.
     pub(super) fn settled_by_edit(&mut self) {
-        if let Some(edited) = self.compile.edited_at() {
+        if let Some(edited) = self.compile.edited_at {
             self.changed |= self.notices.retain(|notice| notice.about != About::Code || notice.at > edited);
         }
     }

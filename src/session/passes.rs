@@ -136,7 +136,7 @@ impl Session {
     }
 
     pub(super) fn passes_changed(&mut self) {
-        self.compile.includes_changed();
+        self.compile.include_edits += 1;
         self.text_generation += 1;
         self.show_image_if_gone();
         self.compile_soon();

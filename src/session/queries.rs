@@ -62,7 +62,7 @@ impl Session {
 
     /// Returns how long typing has to rest before it is compiled.
     pub fn edit_debounce(&self) -> Duration {
-        self.compile.quiet()
+        self.compile.edits.quiet()
     }
 
     /// Returns a number that grows whenever a text was changed by something else than
@@ -101,7 +101,7 @@ impl Session {
     /// Edits wait to be compiled until they are saved: see
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
-        self.compile.waits_for_save()
+        self.compile.waits_for_save
     }
 
     /// The author's own uniforms, as the running program declares them. Where it declares none, or there is no program
@@ -131,11 +131,11 @@ impl Session {
 
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
-        self.compile.diagnostics()
+        &self.compile.diagnostics
     }
 
     pub fn compile_state(&self) -> &CompileState {
-        self.compile.state()
+        &self.compile.state
     }
 
     pub fn transport(&self) -> Transport {

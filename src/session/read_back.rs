@@ -1,4 +1,4 @@
-//! What is read back behind frames: who asks, in which order, and who takes the outputs.
+//! Read-backs behind frames: who asks, in which order, and who takes the outputs.
 //!
 //! Owns the list of what somebody watches ([`ReadBack`]), and the tasks that several parts of a session ask for.
 
@@ -38,7 +38,7 @@ pub(super) trait ReadBack {
     fn begin_next_project(&mut self);
 }
 
-/// What is read back of the picture.
+/// Holds what is read back of the picture.
 #[derive(Default)]
 pub(super) struct Watched {
     pub captures: Captures,

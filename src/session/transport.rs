@@ -180,7 +180,7 @@ impl Session {
     /// A change of the program or the canvas is followed by the frame that is shown, and by no other.
     pub(super) fn stays(&self) -> bool {
         let wanted = &self.drawing.wanted;
-        let begins_anew = wanted.restart || wanted.reset || self.compile.resets_when_built() || self.draws_all_anew();
+        let begins_anew = wanted.restart || wanted.reset || self.compile.resets || self.draws_all_anew();
         self.playback.is_still() && !begins_anew
     }
 

@@ -12,5 +12,4 @@ mod search;
 
 pub use assignment::{Assignment, assignments};
 pub use probes::{ProbeError, Probes};
-pub use search::{Divergence, DivergenceFound, search};
-pub use search::{DivergenceJob, MOST, STEPS_KEPT, find};
+pub use search::{Divergence, DivergenceFound, DivergenceJob, MOST, STEPS_KEPT, find, search};

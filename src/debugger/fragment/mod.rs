@@ -9,7 +9,6 @@
 
 mod clip;
 mod coverage;
-mod error;
 mod pass;
 mod pixel;
 mod raster;
@@ -17,8 +16,6 @@ mod vertices;
 mod weights;
 mod writer;
 
-pub use error::WalkError;
-pub use pass::PassFragments;
-pub use pixel::{AtPixel, Fragment};
-pub use pixel::{MeshFragment, Origin};
+pub use pass::{PassFragments, WalkError};
+pub use pixel::{AtPixel, Fragment, MeshFragment, Origin};
 pub use writer::own_texels;

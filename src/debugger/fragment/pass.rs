@@ -1,11 +1,11 @@
 //! A pass in one frame, ready to be walked at any of its pixels.
 
 use super::{
-    error::WalkError,
     pixel::{AtPixel, Fragment, Origin},
     raster::Raster,
     writer::Writer,
 };
+use eddy_diag::Diagnostic;
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{
     walk::{EntryInputs, Machine, Stop},
@@ -92,5 +92,24 @@ impl<'p> PassFragments<'p> {
             Body::Screen(walkable) => *walkable,
             Body::Meshes(raster) => raster.into_walkable(origin.draw().unwrap_or_default()),
         }
+    }
+}
+
+/// A pass has errors, or one of its programs does not end.
+#[derive(Clone, Debug)]
+pub enum WalkError {
+    Diagnostics(Vec<Diagnostic>),
+    Stop(Stop),
+}
+
+impl From<Vec<Diagnostic>> for WalkError {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        WalkError::Diagnostics(diagnostics)
+    }
+}
+
+impl From<Stop> for WalkError {
+    fn from(stop: Stop) -> Self {
+        WalkError::Stop(stop)
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     clip::clipped,
     coverage::{Coverage, subpixel},
-    error::WalkError,
+    pass::WalkError,
     pixel::MeshFragment,
     vertices::{Corner, VertexStage, triangle},
     weights::{self, Weights},

@@ -36,57 +36,33 @@ pub(super) struct CompileControl {
     worker: Background<Job, (), Done>,
     /// Jobs that the worker was given.
     jobs: Arc<AtomicU64>,
-    asked: Asked,
-    /// Edits are compiled when they are saved.
-    on_save: bool,
     /// The longest quiet time after the last edit before a compile.
     longest_quiet: Duration,
-    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
-    include_edits: u64,
-    includes_read: u64,
-}
-
-/// What is asked of the compiler for the open project, and what came of it.
-struct Asked {
-    edits: Debounce,
+    /// Edits are compiled when they are saved.
+    on_save: bool,
+    /// There are such edits.
+    pub waits_for_save: bool,
+    pub edits: Debounce,
     /// A text was edited since the last tick.
     is_edited: bool,
-    edited_at: Option<Instant>,
-    /// There are edits that are compiled when they are saved.
-    waits_for_save: bool,
+    pub edited_at: Option<Instant>,
     /// Compile in the next tick, whatever the debounce says.
     is_wanted: bool,
     /// See whether a picture or a model has changed on disk, as soon as the worker has time.
-    is_look_wanted: bool,
+    pub is_look_wanted: bool,
     /// The program under way shall start from zero.
-    resets: bool,
+    pub resets: bool,
     /// The project that is to be compiled instead of the newest text.
     fallback: Option<Project>,
     /// Since when the worker compiles the newest text, if it does.
     newest_since: Option<Instant>,
-    state: CompileState,
-    diagnostics: Vec<TabDiagnostic>,
+    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
+    pub include_edits: u64,
+    pub includes_read: u64,
+    pub state: CompileState,
+    pub diagnostics: Vec<TabDiagnostic>,
     /// The diagnostics of reading the project that no compile says.
-    read: Vec<TabDiagnostic>,
-}
-
-impl Asked {
-    fn new(quiet: Duration) -> Self {
-        Self {
-            edits: Debounce::new(quiet),
-            is_edited: false,
-            edited_at: None,
-            waits_for_save: false,
-            is_wanted: true,
-            is_look_wanted: false,
-            resets: false,
-            fallback: None,
-            newest_since: None,
-            state: CompileState { compiling: true, ..CompileState::default() },
-            diagnostics: Vec::new(),
-            read: Vec::new(),
-        }
-    }
+    pub read: Vec<TabDiagnostic>,
 }
 
 /// The documents and the view that a compile is of.
@@ -101,27 +77,45 @@ pub(super) struct Source<'s> {
 impl CompileControl {
     pub fn new(device: Device, options: &SessionOptions, wake: Wake) -> io::Result<Self> {
         let jobs = Arc::<AtomicU64>::default();
+        let worker = worker(device, options, jobs.clone(), wake)?;
+        let longest_quiet = options.edit_debounce;
         Ok(Self {
-            worker: worker(device, options, jobs.clone(), wake)?,
+            worker,
             jobs,
-            asked: Asked::new(options.edit_debounce),
+            longest_quiet,
             on_save: false,
-            longest_quiet: options.edit_debounce,
+            waits_for_save: false,
+            edits: Debounce::new(longest_quiet),
+            is_edited: false,
+            edited_at: None,
+            is_wanted: true,
+            is_look_wanted: false,
+            resets: false,
+            fallback: None,
+            newest_since: None,
             include_edits: 0,
             includes_read: 0,
+            state: CompileState { compiling: true, ..CompileState::default() },
+            diagnostics: Vec::new(),
+            read: Vec::new(),
         })
     }
 
     pub fn begin_next_project(&mut self) {
         // A compile of the project that goes may end before the new one's begins.
         self.worker.clear();
-        self.asked = Asked::new(self.longest_quiet);
+        self.edits = Debounce::new(self.longest_quiet);
+        (self.is_edited, self.edited_at, self.newest_since, self.fallback) = (false, None, None, None);
+        (self.is_wanted, self.is_look_wanted, self.resets, self.waits_for_save) = (true, false, false, false);
         self.includes_read = self.include_edits;
+        self.state = CompileState { compiling: true, ..CompileState::default() };
+        self.diagnostics.clear();
+        self.read.clear();
     }
 
     /// Builds programs on another device. What the old one builds is waited for by nobody: it may wait for its device.
     pub fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
-        self.asked.newest_since = None;
+        self.newest_since = None;
         let worker = worker(device, options, self.jobs.clone(), wake)?;
         replace(&mut self.worker, worker).leave();
         Ok(())
@@ -135,19 +129,19 @@ impl CompileControl {
     /// A text was edited.
     pub fn edit(&mut self) {
         if self.on_save {
-            self.asked.waits_for_save = true;
+            self.waits_for_save = true;
         } else {
-            self.asked.is_edited = true;
-            self.asked.state.compiling = true;
+            self.is_edited = true;
+            self.state.compiling = true;
         }
     }
 
     /// Compiles in the next tick.
     pub fn soon(&mut self) {
-        self.asked.fallback = None;
-        self.asked.waits_for_save = false;
-        self.asked.is_wanted = true;
-        self.asked.state.compiling = true;
+        self.fallback = None;
+        self.waits_for_save = false;
+        self.is_wanted = true;
+        self.state.compiling = true;
     }
 
     pub fn set_on_save(&mut self, on: bool) {
@@ -159,36 +153,9 @@ impl CompileControl {
 
     /// Compiles what waited to be saved.
     pub fn saved(&mut self) {
-        if self.asked.waits_for_save {
+        if self.waits_for_save {
             self.soon();
         }
-    }
-
-    pub fn waits_for_save(&self) -> bool {
-        self.asked.waits_for_save
-    }
-
-    /// Sees whether pictures and models have changed on disk.
-    pub fn look(&mut self) {
-        self.asked.is_look_wanted = true;
-    }
-
-    /// The program of the newest text shall start from zero.
-    pub fn reset_when_built(&mut self) {
-        self.asked.resets = true;
-    }
-
-    pub fn resets_when_built(&self) -> bool {
-        self.asked.resets
-    }
-
-    pub fn take_reset(&mut self) -> bool {
-        take(&mut self.asked.resets)
-    }
-
-    /// The texts may include other files than before.
-    pub fn includes_changed(&mut self) {
-        self.include_edits += 1;
     }
 
     /// Returns the edit whose included files have not been read.
@@ -196,46 +163,37 @@ impl CompileControl {
         (self.includes_read != self.include_edits).then_some(self.include_edits)
     }
 
-    pub fn include_edits(&self) -> u64 {
-        self.include_edits
-    }
-
-    pub fn includes_are_read(&mut self, edit: u64) {
-        self.includes_read = edit;
-    }
-
     /// Compiles another project instead of the newest text, which only another edit, or who asks for it, tries again.
     /// Returns whether there is one.
     pub fn fall_back(&mut self, to: Option<Project>) -> bool {
-        (self.asked.is_wanted, self.asked.is_edited) = (false, false);
-        self.asked.edits.cancel();
-        self.asked.fallback = to;
-        self.asked.fallback.is_some()
+        (self.is_wanted, self.is_edited) = (false, false);
+        self.edits.cancel();
+        self.fallback = to;
+        self.fallback.is_some()
     }
 
     /// Hands the worker what is due. Returns whether that is a compile.
     pub fn start(&mut self, now: Instant, source: Source<'_>) -> bool {
-        let asked = &mut self.asked;
-        if take(&mut asked.is_edited) {
-            asked.edits.touch(now);
-            asked.edited_at = Some(now);
+        if take(&mut self.is_edited) {
+            self.edits.touch(now);
+            self.edited_at = Some(now);
         }
-        let is_due = asked.edits.take_due(now);
+        let is_due = self.edits.take_due(now);
         if is_due {
-            asked.fallback = None;
+            self.fallback = None;
         }
-        let is_compile = take(&mut asked.is_wanted) || is_due || asked.fallback.is_some();
+        let is_compile = take(&mut self.is_wanted) || is_due || self.fallback.is_some();
         // A look must not take the place of a compile under way, and a compile looks too.
-        let is_look = asked.is_look_wanted && !self.worker.is_busy();
+        let is_look = self.is_look_wanted && !self.worker.is_busy();
         if !is_compile && !is_look {
             return false;
         }
-        asked.is_look_wanted = false;
-        let fallback = asked.fallback.take();
+        self.is_look_wanted = false;
+        let fallback = self.fallback.take();
         let is_fallback = fallback.is_some();
         if is_compile {
-            asked.edits.cancel();
-            asked.newest_since = (!is_fallback).then_some(now);
+            self.edits.cancel();
+            self.newest_since = (!is_fallback).then_some(now);
         }
         self.jobs.fetch_add(1, Ordering::Relaxed);
         let include_edit = self.unread_includes().filter(|_| is_compile && !is_fallback);
@@ -249,95 +207,59 @@ impl CompileControl {
     pub fn take(&mut self) -> Option<Result<Done, String>> {
         let done = self.worker.take()?;
         if !matches!(done, Ok(Done { compiled: None, .. })) {
-            self.asked.newest_since = None;
+            self.newest_since = None;
         }
         Some(done)
     }
 
     /// Returns whether a compile is due or under way.
     pub fn is_busy(&self) -> bool {
-        let is_due = self.asked.is_edited || self.asked.is_wanted || self.asked.edits.is_waiting();
+        let is_due = self.is_edited || self.is_wanted || self.edits.is_waiting();
         is_due || self.worker.is_busy()
     }
 
     /// Returns whether something newer is to be drawn than what the compiler was given before.
     pub fn is_newer_wanted(&self, now: Instant) -> bool {
-        let asked = &self.asked;
-        asked.is_wanted
-            || asked.newest_since.is_some()
-            || asked.fallback.is_some()
-            || asked.edits.deadline().is_some_and(|at| at <= now)
+        self.is_wanted
+            || self.newest_since.is_some()
+            || self.fallback.is_some()
+            || self.edits.deadline().is_some_and(|at| at <= now)
     }
 
     /// Returns until when frames wait for the compile that is under way: one that takes longer than expected, as of a text
     /// that was pasted, does not hold the picture.
     pub fn holds_frames_until(&self, now: Instant) -> Option<Instant> {
-        let until = self.asked.newest_since? + BRIEF;
-        (self.quiet() <= BRIEF && now < until).then_some(until)
-    }
-
-    /// Returns how long typing has to rest before it is compiled.
-    pub fn quiet(&self) -> Duration {
-        self.asked.edits.quiet()
-    }
-
-    /// Returns when edits are compiled.
-    pub fn deadline(&self) -> Option<Instant> {
-        self.asked.edits.deadline()
-    }
-
-    pub fn edited_at(&self) -> Option<Instant> {
-        self.asked.edited_at
-    }
-
-    pub fn state(&self) -> &CompileState {
-        &self.asked.state
+        let until = self.newest_since? + BRIEF;
+        (self.edits.quiet() <= BRIEF && now < until).then_some(until)
     }
 
     /// Says whether the picture is of an older text than the newest. Returns whether that is news.
     pub fn set_compiling(&mut self, is_compiling: bool) -> bool {
-        replace(&mut self.asked.state.compiling, is_compiling) != is_compiling
-    }
-
-    pub fn diagnostics(&self) -> &[TabDiagnostic] {
-        &self.asked.diagnostics
+        replace(&mut self.state.compiling, is_compiling) != is_compiling
     }
 
     /// Takes what a compile of the newest text has said, and how long it took.
     pub fn diagnose(&mut self, mut diagnostics: Vec<TabDiagnostic>, took: Duration) {
-        diagnostics.extend(self.asked.read.iter().cloned());
+        diagnostics.extend(self.read.iter().cloned());
         diagnostics.sort_by_key(|d| Reverse(d.severity));
-        self.asked.diagnostics = diagnostics;
+        self.diagnostics = diagnostics;
         self.expect(took);
     }
 
     /// The next compile is expected to take so long.
     pub fn expect(&mut self, took: Duration) {
-        self.asked.edits.set_quiet(worker::quiet_after(took, self.longest_quiet));
-    }
-
-    /// Takes what reading the project has said, which is listed after the next compile.
-    pub fn note_reading(&mut self, diagnostics: Vec<TabDiagnostic>) {
-        self.asked.read = diagnostics;
-    }
-
-    pub fn add_findings(&mut self, findings: Vec<TabDiagnostic>) {
-        self.asked.diagnostics.extend(findings);
+        self.edits.set_quiet(worker::quiet_after(took, self.longest_quiet));
     }
 
     /// Says first, about no text, why there is no program.
     pub fn add_failure(&mut self, why: &str) {
-        self.asked.diagnostics.insert(0, TabDiagnostic::nowhere(why));
-    }
-
-    pub fn set_failure(&mut self, why: &str) {
-        self.asked.diagnostics = vec![TabDiagnostic::nowhere(why)];
+        self.diagnostics.insert(0, TabDiagnostic::nowhere(why));
     }
 
     /// The newest text gave a program.
     pub fn succeed(&mut self, millis: f64) {
         let warnings = self.count(Severity::Warning);
-        self.asked.state.last = Some(match self.count(Severity::Error) {
+        self.state.last = Some(match self.count(Severity::Error) {
             0 => Outcome::Ok { millis, warnings },
             errors => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
         });
@@ -346,16 +268,16 @@ impl CompileControl {
     /// The newest text gave no program, for the reasons that are in the list.
     pub fn fail(&mut self, has_program: bool) {
         let meanwhile = if has_program { Meanwhile::LastGood } else { Meanwhile::Nothing };
-        self.asked.state.last = Some(Outcome::Failed { errors: self.count(Severity::Error), meanwhile });
+        self.state.last = Some(Outcome::Failed { errors: self.count(Severity::Error), meanwhile });
     }
 
     fn count(&self, severity: Severity) -> usize {
-        self.asked.diagnostics.iter().filter(|d| d.severity == severity).count()
+        self.diagnostics.iter().filter(|d| d.severity == severity).count()
     }
 
     #[cfg(test)]
     pub fn set_newest_since(&mut self, since: Option<Instant>) {
-        self.asked.newest_since = since;
+        self.newest_since = since;
     }
 
     #[cfg(test)]

@@ -48,7 +48,7 @@ enum OnDisk {
     Unusable(String),
 }
 
-/// What a look at the disk has found.
+/// Says what a look at the disk has found.
 enum Check {
     /// Nothing was due, or the files are being written.
     Nothing,
@@ -197,7 +197,7 @@ impl DiskSync {
         is_text_known && read_manifest(saved).is_none_or(|now| Some(now) == self.manifest)
     }
 
-    /// What lies on disk is what the documents say.
+    /// The files on disk are what the documents say.
     fn remember(&mut self, documents: &Documents) {
         self.manifest = read_manifest(documents.saved());
     }

@@ -41,9 +41,7 @@ impl Session {
             let names: Vec<String> = merge.taken.iter().map(Tab::title).collect();
             let what = if names.is_empty() { "passes and channels".to_owned() } else { project::listed(&names) };
             self.notice(Level::Info, format!("reloaded {what}"));
-            if self.disk.reset_on_reload {
-                self.compile.reset_when_built();
-            }
+            self.compile.resets |= self.disk.reset_on_reload;
             if merge.took_structure {
                 self.passes.clear();
             }
@@ -55,13 +53,13 @@ impl Session {
             self.compile_soon();
         }
         self.disk_is_known();
-        self.compile.look();
+        self.compile.is_look_wanted = true;
     }
 
     /// The project here was changed from outside the editor.
     pub(crate) fn after_reload(&mut self) {
         self.text_generation += 1;
-        self.compile.includes_changed();
+        self.compile.include_edits += 1;
         self.show_image_if_gone();
         self.compile_soon();
     }
@@ -76,12 +74,12 @@ impl Session {
     fn read_includes(&mut self) {
         let mut project = self.project().clone();
         project.read_includes();
-        self.take_includes(project.includes, self.compile.include_edits());
+        self.take_includes(project.includes, self.compile.include_edits);
     }
 
     /// Takes what the texts include as it was read for an edit of them.
     pub(crate) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
-        self.compile.includes_are_read(edit);
+        self.compile.includes_read = edit;
         // An editor that shows one takes it anew.
         self.text_generation += u64::from(self.documents.take_includes(includes));
     }

@@ -82,7 +82,7 @@ pub struct Job {
     pub stays: bool,
     /// The frame that is shown is to be drawn again, as it would be now.
     pub again: bool,
-    /// What is read back behind the frame.
+    /// The read-backs behind the frame.
     pub tasks: Tasks,
     /// The project whose passes' costs are asked for: somebody looks at them.
     pub costs_of: Option<Project>,

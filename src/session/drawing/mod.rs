@@ -4,7 +4,6 @@
 //! what is wanted meanwhile waits here, each the newest of its kind: nothing piles up, and nobody waits for a frame.
 //! Knows nothing of texts, of time or of what a person is told.
 
-mod device;
 mod gate;
 mod history;
 mod job;
@@ -12,11 +11,10 @@ mod render_thread;
 mod renderer;
 mod task;
 
-pub(super) use device::Device;
 pub(super) use gate::FrameControl;
 pub(super) use history::Travelled;
 pub(super) use job::{Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, TileLimit};
-pub(super) use render_thread::{Open, beside};
+pub(super) use render_thread::{Device, Open, beside};
 pub(super) use renderer::Renderer;
 pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 

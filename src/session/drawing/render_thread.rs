@@ -1,7 +1,6 @@
 //! An engine on a thread of its own, with a device of its own, so that nothing waits for a frame but the next one.
 
 use super::{
-    device::Device,
     job::{Done, Job},
     renderer::Renderer,
 };
@@ -10,7 +9,7 @@ use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
-        Arc,
+        Arc, OnceLock,
         mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel},
     },
     thread::JoinHandle,
@@ -143,4 +142,27 @@ fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
         let said = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
         said.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into())
     })
+}
+
+/// Holds the place where a device will be once it is open. Every clone is the same place.
+#[derive(Clone, Default)]
+pub struct Device(Arc<OnceLock<Result<Gpu, String>>>);
+
+impl Device {
+    /// A device that is open.
+    pub fn open(gpu: Gpu) -> Self {
+        let device = Self::default();
+        device.set(Ok(gpu));
+        device
+    }
+
+    /// Puts the device, or the reason why there is none, in its place. The first one counts.
+    pub fn set(&self, gpu: Result<Gpu, String>) {
+        let _ = self.0.set(gpu);
+    }
+
+    /// Waits until it is open.
+    pub fn wait(&self) -> Result<Gpu, GpuError> {
+        self.0.wait().clone().map_err(|reason| GpuError::NoDevice { adapter: "the machine".into(), reason })
+    }
 }

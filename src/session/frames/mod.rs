@@ -101,7 +101,7 @@ impl Session {
         let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
-        let deadlines = [self.compile.deadline(), self.disk.deadline(), self.drawing_deadline(), resumes];
+        let deadlines = [self.compile.edits.deadline(), self.disk.deadline(), self.drawing_deadline(), resumes];
         let next = is_next_due.then_some(self.now).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
@@ -140,7 +140,8 @@ impl Session {
         self.compile.set_compiling(self.is_compile_under_way());
         match compiled {
             Err(what) => {
-                self.compile.set_failure(&what);
+                self.compile.diagnostics.clear();
+                self.compile.add_failure(&what);
                 self.auditing.map = None;
                 let has_program = self.drawing.has_program();
                 self.compile.fail(has_program);

@@ -73,12 +73,12 @@ fn a_text_that_compiled_fast_is_compiled_at_each_key() {
     edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
     // The compile may have come back within the tick.
     let is_compiled = session.compile.is_busy() || session.diagnostics() != before;
-    assert!(session.compile.deadline().is_none() && is_compiled, "the tick of the key compiles");
+    assert!(session.compile.edits.deadline().is_none() && is_compiled, "the tick of the key compiles");
     tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
     // A slow one is waited for.
     session.compile.expect(Duration::from_secs(7200));
     edit(&mut session, "third");
-    assert!(session.compile.deadline().is_some() && session.compile.take().is_none());
+    assert!(session.compile.edits.deadline().is_some() && session.compile.take().is_none());
 }
 
 #[test]

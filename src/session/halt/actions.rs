@@ -23,7 +23,7 @@ impl Session {
             Overdue::Wait => {}
             Overdue::MakeRoom => {
                 let lost = self.drawing.lost_threads();
-                if HaltControl::may_take_device(self.now, self.compile.edited_at(), lost) {
+                if HaltControl::may_take_device(self.now, self.compile.edited_at, lost) {
                     self.start_anew();
                     self.end_halt_of_frame();
                     self.compile_soon();
@@ -96,7 +96,7 @@ impl Session {
 
     /// The device was lost, or the thread that draws has stumbled.
     pub(crate) fn engine_is_gone(&mut self, why: &str) {
-        let is_again = self.halting.device_is_lost(self.now, self.compile.edited_at());
+        let is_again = self.halting.device_is_lost(self.now, self.compile.edited_at);
         if is_again {
             self.playback.clock.pause();
             self.halting.lose_device();

@@ -120,7 +120,7 @@ impl HaltControl {
         self.resumes
     }
 
-    /// Whether it ran before does not count any more.
+    /// The picture does not go on after the halt.
     pub fn forget_resuming(&mut self) {
         self.resumes = false;
     }

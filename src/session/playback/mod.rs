@@ -5,7 +5,6 @@
 //! the session is to do.
 
 pub mod clock;
-mod fps;
 mod record;
 mod replay;
 mod seek;
@@ -18,10 +17,9 @@ use clock::{Clock, FrameTime};
 use eddy_engine::FrameInputs;
 use eddy_media::Keyboard;
 use eddy_playback::{date, mouse::Mouse};
-use fps::FpsMeter;
 use std::{
     mem::{replace, take},
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 /// The time and the input of the open project's picture.
@@ -199,5 +197,32 @@ impl Playback {
     /// Returns frames a second over the last half second; `None` where there is nothing to measure.
     pub fn fps(&self) -> Option<f64> {
         Some(self.fps.fps).filter(|fps| *fps > 0.0)
+    }
+}
+
+/// Frames a second as people read it: over half a second, as the site shows it.
+#[derive(Default)]
+struct FpsMeter {
+    fps: f64,
+    window: Option<(Instant, u32)>,
+}
+
+impl FpsMeter {
+    /// A frame was drawn while playing. True if the figure has changed.
+    fn frame(&mut self, now: Instant) -> bool {
+        let (since, frames) = self.window.get_or_insert((now, 0));
+        let elapsed = now.saturating_duration_since(*since);
+        let full = elapsed >= Duration::from_millis(500);
+        if full {
+            self.fps = f64::from(*frames) / elapsed.as_secs_f64();
+            (*since, *frames) = (now, 0);
+        }
+        *frames += 1;
+        full
+    }
+
+    /// Frames after a pause are not measured against those before it, and what was measured is of another time.
+    fn restart(&mut self) {
+        (self.fps, self.window) = (0.0, None);
     }
 }

@@ -103,7 +103,7 @@ impl Session {
         if let Some(recovery) = &self.unsaved.recovery {
             recovery.adopt(shown.file);
         }
-        self.compile.includes_changed();
+        self.compile.include_edits += 1;
         let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
         self.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
         self.put_off_all();

@@ -1,0 +1,113 @@
+//! Tests of the hand-over.
+
+use super::*;
+
+fn background<In: Send + 'static, Out: Send + 'static>(
+    mut work: impl FnMut(In) -> Out + Send + 'static,
+) -> Background<In, (), Out> {
+    Background::new("test", "the test", Arc::new(|| ()), move |input, _| Ok(work(input))).unwrap()
+}
+
+fn wait<In: Send + 'static, Out: Send + 'static>(b: &mut Background<In, (), Out>) -> Result<Out, String> {
+    let end = Instant::now() + Duration::from_secs(10);
+    loop {
+        if let Some(result) = b.take() {
+            return result;
+        }
+        assert!(Instant::now() < end, "the job never ended");
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn the_newest_job_wins_and_overtaken_ones_are_not_begun() {
+    let (begun, log) = mpsc::channel();
+    let (go, gate) = mpsc::channel::<()>();
+    let mut b = background(move |n: u32| {
+        begun.send(n).unwrap();
+        gate.recv().unwrap();
+        n * 10
+    });
+    b.start(1);
+    assert_eq!(log.recv().unwrap(), 1);
+    for n in 2..=5 {
+        b.start(n);
+    }
+    go.send(()).unwrap();
+    assert_eq!(log.recv().unwrap(), 5, "2 to 4 were overtaken");
+    assert!(b.take().is_none(), "the result of 1 is stale");
+    assert!(b.is_busy());
+    go.send(()).unwrap();
+    assert_eq!(wait(&mut b), Ok(50));
+    assert!(!b.is_busy());
+    assert!(b.take().is_none(), "once");
+}
+
+#[test]
+fn what_is_cancelled_gives_no_result() {
+    let mut b = background(|n: u32| n);
+    b.start(1);
+    b.cancel();
+    assert!(!b.is_busy());
+    b.start(2);
+    assert_eq!(wait(&mut b), Ok(2));
+    b.start(3);
+    thread::sleep(Duration::from_millis(20));
+    b.cancel();
+    assert!(b.take().is_none() && !b.is_busy());
+}
+
+#[test]
+fn a_panic_is_an_error_and_the_thread_goes_on() {
+    let mut b = background(|n: u32| {
+        assert!(n != 1, "one is too few");
+        n
+    });
+    b.start(1);
+    assert_eq!(wait(&mut b), Err("this is a bug in Eddy: the test failed (one is too few)".into()));
+    b.start(2);
+    assert_eq!(wait(&mut b), Ok(2));
+}
+
+#[test]
+fn work_reports_progress_and_hears_that_it_is_cancelled() {
+    let (woken, wakes) = mpsc::channel();
+    let (heard, hears) = mpsc::channel();
+    let wake = Arc::new(move || _ = woken.send(()));
+    let mut b = Background::new("test", "the test", wake, move |of: usize, control: &Control<Count>| {
+        control.report(Count { done: 1, of });
+        while !control.is_cancelled() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        heard.send(control.check()).unwrap();
+        Ok(())
+    })
+    .unwrap();
+    let next = || wakes.recv_timeout(Duration::from_secs(10)).unwrap();
+    b.start(3);
+    next();
+    assert!(b.poll() && !b.poll(), "news are told once");
+    assert_eq!(b.status(), Some(Status::UnderWay(Count { done: 1, of: 3 })));
+    b.cancel();
+    assert!(hears.recv_timeout(Duration::from_secs(10)).unwrap().is_err());
+    next();
+    b.poll();
+    assert_eq!(b.status(), None, "the result of a cancelled job is dropped");
+    assert!(b.end(Duration::from_secs(10)));
+}
+
+#[test]
+fn a_request_is_under_way_until_its_input_has_led_to_a_result() {
+    let mut b = background(|n: u32| n);
+    assert!(!b.take_request() && b.status().is_none());
+    b.request();
+    assert!(b.take_request() && !b.take_request() && b.is_under_way());
+    b.renew_request();
+    assert!(b.take_request());
+    b.fail("no input");
+    assert_eq!(b.status(), Some(Status::Ended(Err("no input"))));
+    b.request();
+    assert!(matches!(b.status(), Some(Status::UnderWay(()))) && b.result().is_some(), "the last one stays");
+    b.clear();
+    assert!(b.status().is_none() && !b.take_request());
+}
