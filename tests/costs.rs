@@ -9,7 +9,7 @@ use eddy::{
     engine::{BuildOptions, CostClock, FrameInputs, PassRole, When},
     gpu::GpuOptions,
     media::MediaSet,
-    project::{PassFormat, PassSize, Project},
+    project::{PassSize, Project, TexelFormat},
 };
 use std::{process::Command, time::Instant};
 use support::{buffer, engine_with, gpu_with, image, nearest, pass, project};
@@ -31,7 +31,7 @@ fn chain() -> Project {
         image(both, [nearest("A"), nearest("B"), nearest("A"), None]),
     ]);
     project.passes[1].settings.size = PassSize::Scale(0.5);
-    project.passes[1].settings.format = PassFormat::R16f;
+    project.passes[1].settings.format = TexelFormat::R16f;
     project
 }
 

@@ -15,7 +15,7 @@ use crate::{
     engine::{Pixels, Sources},
     lab::Number,
     playback::{capture::Format, script::ScriptedInputs},
-    project::{PassFormat, Project},
+    project::{Project, TexelFormat},
 };
 use serde::Serialize;
 use std::{fmt::Write, path::PathBuf};
@@ -124,7 +124,7 @@ fn told(
     (audit, grid): (&Audit, &[(u32, u32)]),
     device: &Pixels,
 ) -> Result<Audited, Trouble> {
-    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
     let (stored, is_32_bit) = (format.components(), format.is_32_bit());
     let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
     let differences = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored);

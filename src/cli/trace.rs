@@ -14,7 +14,7 @@ use crate::{
     diag::{SourceMap, Span},
     engine,
     playback::script::ScriptedInputs,
-    project::{FillKind, PassFormat, Project},
+    project::{FillKind, Project, TexelFormat},
 };
 use serde::Serialize;
 use std::{fmt::Write, io};
@@ -166,14 +166,14 @@ fn traced(
 
 /// The walker's value is not the texel that the device has stored, bit for bit.
 fn parts(project: &Project, args: &TraceArgs, device: [f32; 4], trace: &Trace) -> bool {
-    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
     let is_apart = |value: [f32; 4]| (0..format.components()).any(|i| ulps(value[i], device[i]) > 0);
     format.is_32_bit() && trace.origin == Origin::Screen && trace.value.is_some_and(is_apart)
 }
 
 fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, printed: Vec<Printed>) -> Traced {
     let sources = project.sources();
-    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
     let apart = |value: [f32; 4]| (0..format.components()).map(|i| ulps(value[i], device[i])).collect();
     let floats = |values: [f32; 4]| values.map(Number::Float);
     let steps = trace.steps.into_iter().map(|step| {

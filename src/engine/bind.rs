@@ -8,7 +8,7 @@ use super::{
     targets::Target,
     uniforms::Uniforms,
 };
-use eddy_glsl::{ChannelKind, interface};
+use eddy_glsl::interface;
 use eddy_gpu::{Address, Filtering, Gpu};
 use eddy_graph::{Draw, Read, Source};
 use eddy_project::{Filter, Wrap};
@@ -154,19 +154,17 @@ fn view<'a>(
     read: Option<&Read>,
     targets: &'a [Target],
 ) -> &'a wgpu::TextureView {
-    match (read.map(|r| &r.source), channel.kind) {
+    match read.map(|r| &r.source) {
         // Whether that is this frame's or one before it is the plan's order.
-        (Some(Source::Target { index, .. }), _) => {
+        Some(Source::Target { index, .. }) => {
             let texture = targets[*index].newest();
             // FilterMode by hand goes by the levels it finds.
             let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);
             let one_level = is_linear && channel.filter_mode == FilterMode::Shader;
             if one_level { &texture.level_0 } else { &texture.all_levels }
         }
-        (Some(Source::Keyboard), _) => &shared.keyboard.texture.all_levels,
-        (_, ChannelKind::Sampler2D) => channel.media.as_ref().map_or(&shared.fallbacks.flat, |m| &m.all_levels),
-        (_, ChannelKind::Sampler3D) => &shared.fallbacks.volume,
-        (_, ChannelKind::SamplerCube) => &shared.fallbacks.cube,
+        Some(Source::Keyboard) => &shared.keyboard.texture.all_levels,
+        _ => channel.media.as_ref().map_or(shared.fallbacks.of(channel.dimension), |media| &media.all_levels),
     }
 }
 

@@ -18,7 +18,8 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project};
+use eddy_project::{FillKind, Input, Media, Pass, PassId, PassSettings, Project};
+use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
 #[derive(Clone, Debug)]
@@ -278,7 +279,7 @@ fn is_drawn(pass: &Pass) -> bool {
 
 /// Returns what the device's driver needs of the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
-    let has_small_floats = pass.settings.formats().into_iter().any(PassFormat::is_small_float);
+    let has_small_floats = pass.settings.formats().into_iter().any(TexelFormat::is_small_float);
     Driver {
         tables_in_memory: !gpu.has_storage_buffers,
         opaque_uniforms: gpu.recompiles_for_uniforms,
@@ -297,7 +298,7 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
 /// The pass that a value of Image is drawn by.
 fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
-    let settings = PassSettings { size, region, format: PassFormat::Rgba32f, ..PassSettings::default() };
+    let settings = PassSettings { size, region, format: TexelFormat::Rgba32f, ..PassSettings::default() };
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
 }
 

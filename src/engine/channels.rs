@@ -2,13 +2,13 @@
 
 use super::{
     program::{BoundChannel, FilterMode},
-    sources::channel_kind,
+    sources::dimension,
     uploads::Uploads,
 };
 use eddy_glsl::{ChannelUse, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::{Draw, Source, effective_sampler};
-use eddy_media::{MediaKey, MediaSet, TexelFormat, Texels};
+use eddy_media::{MediaKey, MediaSet, Texels};
 use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
 use std::sync::Arc;
 
@@ -18,14 +18,14 @@ pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: 
         let Some(sampler) = effective_sampler(project, pass, index) else { return FilterMode::Nearest };
         let channel = project.passes[pass].channels[index].as_ref();
         let is_float = channel.and_then(|c| settings_of(project, c)).is_some_and(|s| s.format.is_32_bit())
-            || channel.and_then(|c| picture(media, c)).is_some_and(|t| t.format == TexelFormat::Rgba32Float);
+            || channel.and_then(|c| picture(media, c)).is_some_and(|t| t.shape.format.is_32_bit());
         mixing_of(gpu, sampler.filter, is_float)
     })
 }
 
 /// Returns how the picture of a fill is mixed.
 pub(super) fn filter_mode_of_fill(gpu: &Gpu, texels: &Texels) -> FilterMode {
-    mixing_of(gpu, Filter::Linear, texels.format == TexelFormat::Rgba32Float)
+    mixing_of(gpu, Filter::Linear, texels.shape.format.is_32_bit())
 }
 
 fn mixing_of(gpu: &Gpu, filter: Filter, is_float: bool) -> FilterMode {
@@ -56,7 +56,7 @@ impl ChannelBinder<'_> {
         let texels = channel.and_then(|c| picture(self.media, c));
         let is_used = used.texture || used.sampler;
         Ok(BoundChannel {
-            kind: channel_kind(channel),
+            dimension: dimension(channel),
             texture: used.texture,
             sampler: used.sampler,
             filter_mode,
@@ -91,7 +91,7 @@ impl ChannelBinder<'_> {
 }
 
 fn resolution(texels: &Texels) -> [f32; 3] {
-    [texels.width as f32, texels.height as f32, 1.0]
+    [texels.shape.width as f32, texels.shape.height as f32, 1.0]
 }
 
 /// Returns the picture that a channel names, if it names one and it is there.
@@ -114,11 +114,7 @@ fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
 pub(super) fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec<(u32, Binding)> {
     let mut bindings = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
-        let dimension = match channel.kind {
-            eddy_glsl::ChannelKind::Sampler2D => wgpu::TextureViewDimension::D2,
-            eddy_glsl::ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
-            eddy_glsl::ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
-        };
+        let dimension = eddy_gpu::view_dimension(channel.dimension);
         // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third
         // case.
         let is_keyboard = matches!(draw.reads[index].as_ref().map(|r| &r.source), Some(Source::Keyboard));

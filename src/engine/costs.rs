@@ -2,7 +2,8 @@
 
 use super::Engine;
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, Source, When};
-use eddy_project::{PassFormat, PassId, Project};
+use eddy_project::{PassId, Project};
+use eddy_texture::TexelFormat;
 
 /// Bytes a texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;
@@ -50,7 +51,7 @@ pub struct PassCost {
     /// Texels of its targets.
     pub size: (u32, u32),
     /// The format of each of its targets.
-    pub formats: Vec<PassFormat>,
+    pub formats: Vec<TexelFormat>,
     /// The number of times that a frame draws it.
     pub steps: u32,
     /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.

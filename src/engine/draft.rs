@@ -12,7 +12,8 @@ use super::{
 use eddy_glsl::{Reflection, interface};
 use eddy_gpu::Binding;
 use eddy_graph::{Draw, FramePlan};
-use eddy_project::{Camera, FillKind, Pass, PassBody, PassFormat};
+use eddy_project::{Camera, FillKind, Pass, PassBody};
+use eddy_texture::TexelFormat;
 use std::sync::Arc;
 
 /// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
@@ -53,7 +54,7 @@ impl DrawDraft {
                 placed: uploads.placed(binder.gpu, binder.media, geometry)?,
             },
         };
-        let formats: Vec<PassFormat> = draw.all_targets().map(|target| plan.targets[target].format).collect();
+        let formats: Vec<TexelFormat> = draw.all_targets().map(|target| plan.targets[target].format).collect();
         let program = ProgramDraft::new(pass, compiled, channels, draw, &formats, body);
         let mut drafted = [None, None];
         for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
@@ -109,7 +110,7 @@ impl ProgramDraft {
         compiled: CompiledPass,
         channels: [BoundChannel; 4],
         draw: &Draw,
-        formats: &[PassFormat],
+        formats: &[TexelFormat],
         body: BodyDraft,
     ) -> Self {
         let CompiledPass { programs, reflection, .. } = compiled;

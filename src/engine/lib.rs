@@ -17,7 +17,6 @@ mod display;
 mod draft;
 mod error;
 mod fill_text;
-mod formats;
 mod frame;
 mod inputs;
 mod inspect;

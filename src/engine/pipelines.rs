@@ -4,7 +4,6 @@ use super::{
     EngineError,
     cache::{ByAddress, Cache},
     compiled::CompiledProgram,
-    formats::{compare_function, cull_mode, texture_format},
 };
 use eddy_glsl::{Attribute, Compiled, interface};
 use eddy_gpu::{
@@ -12,7 +11,8 @@ use eddy_gpu::{
     constant_buffer,
 };
 use eddy_media::mesh::Vertex;
-use eddy_project::{Cull, DepthTest, MeshDraw, PassFormat};
+use eddy_project::{Cull, DepthTest, MeshDraw};
+use eddy_texture::TexelFormat;
 use std::{
     collections::HashMap,
     mem::offset_of,
@@ -40,7 +40,7 @@ pub(super) struct PipelineOrder {
     pub label: String,
     pub program: CompiledProgram,
     pub groups: Groups,
-    pub formats: Vec<PassFormat>,
+    pub formats: Vec<TexelFormat>,
     pub mesh: Option<MeshState>,
 }
 
@@ -65,7 +65,7 @@ struct PipelineKey {
     vertex: Option<ByAddress<Compiled>>,
     fragment: ByAddress<Compiled>,
     groups: Groups,
-    formats: Vec<PassFormat>,
+    formats: Vec<TexelFormat>,
     mesh: Option<MeshState>,
 }
 
@@ -146,7 +146,7 @@ impl PipelineOrder {
 
     /// Returns the format of each target, and whether a fragment has an output for it.
     fn targets(&self, gpu: &Gpu) -> Result<Vec<(wgpu::TextureFormat, bool)>, GpuError> {
-        let formats: Vec<_> = self.formats.iter().map(|format| texture_format(*format)).collect();
+        let formats: Vec<_> = self.formats.iter().map(|format| eddy_gpu::texture_format(*format)).collect();
         check_targets(gpu, &self.label, &formats)?;
         Ok(formats.into_iter().zip(self.program.fragment.reflection.outputs).collect())
     }
@@ -209,4 +209,25 @@ fn attribute(attribute: Attribute) -> (u32, u8, u64) {
         Attribute::Color => offset_of!(Vertex, color),
     };
     (attribute.location(), attribute.components(), offset as u64)
+}
+
+fn cull_mode(cull: Cull) -> Option<wgpu::Face> {
+    match cull {
+        Cull::Back => Some(wgpu::Face::Back),
+        Cull::Front => Some(wgpu::Face::Front),
+        Cull::None => None,
+    }
+}
+
+fn compare_function(test: DepthTest) -> wgpu::CompareFunction {
+    use wgpu::CompareFunction as C;
+    match test {
+        DepthTest::Less => C::Less,
+        DepthTest::LessEqual => C::LessEqual,
+        DepthTest::Equal => C::Equal,
+        DepthTest::GreaterEqual => C::GreaterEqual,
+        DepthTest::Greater => C::Greater,
+        DepthTest::NotEqual => C::NotEqual,
+        DepthTest::Always => C::Always,
+    }
 }

@@ -1,10 +1,11 @@
 //! A program: compiled passes, their pipelines, and the plan of a frame. It does not change from frame to frame.
 
 use super::{pipelines::StagePipeline, placed::PlacedMesh};
-use eddy_glsl::{ChannelKind, CustomUniformSet, UniformSet};
+use eddy_glsl::{CustomUniformSet, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Camera, CustomUniform, CustomUniformValues, PassId, PassSize};
+use eddy_texture::Dimension;
 use std::sync::Arc;
 
 /// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread;
@@ -89,7 +90,7 @@ pub(super) enum FilterMode {
 /// One channel of a compiled pass.
 #[derive(Default)]
 pub(super) struct BoundChannel {
-    pub kind: ChannelKind,
+    pub dimension: Dimension,
     pub texture: bool,
     pub sampler: bool,
     pub filter_mode: FilterMode,

@@ -13,7 +13,8 @@ use super::{
     watch::Watch,
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
-use eddy_project::{CustomUniformValues, PassFormat, PassId};
+use eddy_project::{CustomUniformValues, PassId};
+use eddy_texture::TexelFormat;
 
 /// A device, and the program that runs on it.
 pub struct Engine {
@@ -235,10 +236,9 @@ impl Engine {
         let running = self.running.as_mut().ok_or_else(none)?;
         let target = running.target(pass, 0)?;
         let texture = target.newest();
-        let bytes = texture.raw.format().block_copy_size(None).unwrap_or(4);
-        let components = texture.raw.format().components();
+        let format = texture.shape.format;
         let place = (x.min(texture.width() - 1), y.min(texture.height() - 1));
-        texture.write_texel(gpu, place, &texel(bytes as usize, usize::from(components)));
+        texture.write_texel(gpu, place, &texel(format.bytes() as usize, format.components()));
         if let Some(chain) = target.chains.get(target.front) {
             let mut encoder =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("poison") });
@@ -369,7 +369,7 @@ impl Engine {
     }
 
     /// Returns the format of one of a pass's targets, while the running program has it.
-    pub fn format(&self, pass: &PassId, index: usize) -> Option<PassFormat> {
+    pub fn format(&self, pass: &PassId, index: usize) -> Option<TexelFormat> {
         let plan = &self.running.as_ref()?.program.plan;
         plan.targets.iter().find(|target| target.id == *pass && target.index == index).map(|target| target.format)
     }
@@ -385,7 +385,7 @@ impl Engine {
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
         let newest = running.target(pass, index)?.newest();
         let (width, height) = (newest.width(), newest.height());
-        let texels = if newest.raw.format() == wgpu::TextureFormat::Rgba32Float {
+        let texels = if newest.shape.format == TexelFormat::Rgba32f {
             Readback::default().rgba32float(gpu, newest)?
         } else {
             let converter = self.converter.get_or_insert_with(|| FloatConverter::new(gpu));

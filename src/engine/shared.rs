@@ -3,6 +3,7 @@
 
 use eddy_gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor};
 use eddy_media::Keyboard;
+use eddy_texture::{Dimension, TexelFormat, TextureShape};
 
 pub(super) struct Shared {
     pub gpu: Gpu,
@@ -27,37 +28,33 @@ impl Shared {
 /// One opaque black texel in each dimension: what a channel with nothing in it reads, as OpenGL ES 3.0 has it for an
 /// incomplete texture (section 3.8.13). A buffer without a pass is no such channel: it is there, and its texels are zeros.
 pub(super) struct FallbackTextures {
-    pub flat: wgpu::TextureView,
-    pub volume: wgpu::TextureView,
-    pub cube: wgpu::TextureView,
+    flat: Texture,
+    volume: Texture,
+    cube: Texture,
 }
 
 const OPAQUE_BLACK: [u8; 4] = [0, 0, 0, 255];
 
 impl FallbackTextures {
     fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let view = |dimension, layers, view_dimension| {
-            let size = wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers };
-            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("fallback"),
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension,
-                format: wgpu::TextureFormat::Rgba8Unorm,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            });
-            let texels = OPAQUE_BLACK.repeat(layers as usize);
-            let rows = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4), rows_per_image: Some(1) };
-            gpu.queue.write_texture(texture.as_image_copy(), &texels, rows, size);
-            texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(view_dimension), ..Default::default() })
+        let texture = |shape: TextureShape| {
+            let texture = Texture::new(gpu, &TextureDescriptor { label: "fallback", shape, is_target: false })?;
+            texture.write(gpu, &OPAQUE_BLACK.repeat(shape.layers() as usize));
+            Ok(texture)
         };
         Ok(Self {
-            flat: view(wgpu::TextureDimension::D2, 1, wgpu::TextureViewDimension::D2),
-            volume: view(wgpu::TextureDimension::D3, 1, wgpu::TextureViewDimension::D3),
-            cube: view(wgpu::TextureDimension::D2, 6, wgpu::TextureViewDimension::Cube),
+            flat: texture(TextureShape::flat(1, 1, TexelFormat::Rgba8))?,
+            volume: texture(TextureShape::volume(1, 1, 1, TexelFormat::Rgba8))?,
+            cube: texture(TextureShape::cube(1, TexelFormat::Rgba8))?,
         })
+    }
+
+    pub fn of(&self, dimension: Dimension) -> &wgpu::TextureView {
+        match dimension {
+            Dimension::D2 => &self.flat.all_levels,
+            Dimension::D3 => &self.volume.all_levels,
+            Dimension::Cube => &self.cube.all_levels,
+        }
     }
 }
 
@@ -71,9 +68,7 @@ pub(super) struct KeyboardTexture {
 
 impl KeyboardTexture {
     fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let format = wgpu::TextureFormat::R8Unorm;
-        let descriptor =
-            TextureDescriptor { label: "keyboard", width: 256, height: 3, format, levels: 1, is_target: false };
+        let descriptor = TextureDescriptor { label: "keyboard", shape: Keyboard::SHAPE, is_target: false };
         Ok(Self { texture: Texture::new(gpu, &descriptor)?, shown: Vec::new(), changes: 0 })
     }
 

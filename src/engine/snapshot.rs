@@ -4,6 +4,7 @@ use super::{running::Running, shared::Shared, targets::Target};
 use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
 use eddy_graph::{Carried, FramePlan};
 use eddy_project::PassId;
+use eddy_texture::TextureShape;
 
 /// Holds what a program's targets held between two frames. It belongs to the program and the canvas that it was taken
 /// of.
@@ -15,16 +16,14 @@ pub struct Snapshot {
 struct KeptTarget {
     id: PassId,
     index: usize,
-    /// The kinds of all its textures, and copies of the first levels of those that were asked for.
-    textures: Vec<(Kind, Option<Texture>)>,
+    /// The shapes of all its textures, and copies of the first levels of those that were asked for.
+    textures: Vec<(TextureShape, Option<Texture>)>,
     front: usize,
 }
 
-/// Texels fit into a texture of the same kind.
-type Kind = (u32, u32, wgpu::TextureFormat);
-
-fn kind(texture: &Texture) -> Kind {
-    (texture.width(), texture.height(), texture.raw.format())
+/// Returns the shape of a copy. Texels fit into a texture of the same one.
+fn copied_shape(texture: &Texture) -> TextureShape {
+    texture.shape.without_mips()
 }
 
 /// Says how much of the targets is copied.
@@ -62,22 +61,13 @@ impl Snapshot {
         for (index, target) in running.targets.iter().enumerate() {
             let carried = extent.of(&running.program.plan, index);
             let mut copy = |(index, texture): (usize, &Texture)| {
+                let shape = copied_shape(texture);
                 if !takes(carried, target, index) {
-                    return Ok((kind(texture), None));
+                    return Ok((shape, None));
                 }
-                let copy = Texture::new(
-                    gpu,
-                    &TextureDescriptor {
-                        label: "snapshot",
-                        width: texture.width(),
-                        height: texture.height(),
-                        format: texture.raw.format(),
-                        levels: 1,
-                        is_target: true,
-                    },
-                )?;
+                let copy = Texture::new(gpu, &TextureDescriptor { label: "snapshot", shape, is_target: true })?;
                 texture.copy_overlap(&mut encoder, &copy);
-                Ok((kind(texture), Some(copy)))
+                Ok((shape, Some(copy)))
             };
             kept.push(KeptTarget {
                 id: target.id.clone(),
@@ -98,13 +88,13 @@ impl Snapshot {
     /// It was taken of targets like these, and has what the frames to come read of them.
     fn is_of(&self, running: &Running) -> bool {
         let fits = |(index, (kept, target)): (usize, (&KeptTarget, &Target))| {
-            let kinds = || kept.textures.iter().map(|(kind, _)| *kind).eq(target.textures.iter().map(kind));
+            let is_same = || kept.textures.iter().map(|(shape, _)| *shape).eq(target.textures.iter().map(copied_shape));
             let is_there = |texture: usize| match running.program.plan.carried(index) {
                 Carried::Nothing => true,
                 Carried::Newest => texture != kept.front || kept.textures[texture].1.is_some(),
                 Carried::All => kept.textures[texture].1.is_some(),
             };
-            kept.id == target.id && kept.index == target.index && kinds() && (0..kept.textures.len()).all(is_there)
+            kept.id == target.id && kept.index == target.index && is_same() && (0..kept.textures.len()).all(is_there)
         };
         let targets = &running.targets;
         self.targets.len() == targets.len() && self.targets.iter().zip(targets).enumerate().all(fits)
@@ -114,14 +104,13 @@ impl Snapshot {
 /// Returns the bytes that a snapshot takes.
 pub(super) fn bytes(running: Option<&Running>, extent: Extent) -> u64 {
     let Some(running) = running else { return 0 };
-    let of = |texture: &Texture| {
-        let texel = u64::from(texture.raw.format().block_copy_size(None).unwrap_or(16));
-        u64::from(texture.width()) * u64::from(texture.height()) * texel
-    };
     let taken = |(index, target): (usize, &Target)| -> u64 {
         let carried = extent.of(&running.program.plan, index);
         let textures = target.textures.iter().enumerate();
-        textures.filter(|(texture, _)| takes(carried, target, *texture)).map(|(_, texture)| of(texture)).sum()
+        textures
+            .filter(|(texture, _)| takes(carried, target, *texture))
+            .map(|(_, texture)| copied_shape(texture).bytes())
+            .sum()
     };
     running.targets.iter().enumerate().map(taken).sum()
 }

@@ -12,6 +12,7 @@ use eddy_project::{
     Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
     Source, Stage, lines_not_obeyed,
 };
+use eddy_texture::Dimension;
 use std::{
     borrow::Cow,
     collections::BTreeSet,
@@ -335,13 +336,18 @@ pub fn pass_kind(id: &PassId) -> PassKind {
 
 /// Returns the types that `iChannel0..3` of a pass are declared with.
 pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
-    std::array::from_fn(|i| channel_kind(pass.channels[i].as_ref()))
+    std::array::from_fn(|i| match dimension(pass.channels[i].as_ref()) {
+        Dimension::D2 => ChannelKind::Sampler2D,
+        Dimension::D3 => ChannelKind::Sampler3D,
+        Dimension::Cube => ChannelKind::SamplerCube,
+    })
 }
 
-pub(super) fn channel_kind(channel: Option<&Channel>) -> ChannelKind {
+/// Returns the dimension of the texture that a channel reads.
+pub(super) fn dimension(channel: Option<&Channel>) -> Dimension {
     match channel.map(|c| &c.input) {
-        Some(Input::Cubemap(_) | Input::CubemapPass) => ChannelKind::SamplerCube,
-        Some(Input::Volume(_)) => ChannelKind::Sampler3D,
-        _ => ChannelKind::Sampler2D,
+        Some(Input::Cubemap(_) | Input::CubemapPass) => Dimension::Cube,
+        Some(Input::Volume(_)) => Dimension::D3,
+        _ => Dimension::D2,
     }
 }

@@ -1,7 +1,6 @@
 //! The textures passes draw into, kept from frame to frame and, where it makes sense, from program to program.
 
-use super::formats::texture_format;
-use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor, mip_levels};
+use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_graph::{self as graph, FramePlan};
 use eddy_project::PassId;
 
@@ -24,9 +23,9 @@ impl Target {
             0 => planned.id.title(),
             n => format!("{}, target {n}", planned.id.title()),
         };
-        let Shape { size: (width, height), format, levels, count } = Shape::of(planned, canvas);
-        let descriptor = TextureDescriptor { label: &label, width, height, format, levels, is_target: true };
-        let textures = (0..count).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
+        let descriptor = TextureDescriptor { label: &label, shape: planned.shape(canvas), is_target: true };
+        let textures =
+            (0..planned.textures()).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
         let chains = if planned.mips { textures.iter().map(|t| mips.chain(gpu, t)).collect() } else { Vec::new() };
         Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
@@ -36,9 +35,9 @@ impl Target {
         self.id == planned.id && self.index == planned.index
     }
 
-    fn shape(&self) -> Shape {
-        let first = &self.textures[0];
-        Shape { size: self.size(), format: first.raw.format(), levels: first.levels(), count: self.textures.len() }
+    /// Returns true if its textures are as a plan asks.
+    fn fits(&self, planned: &graph::Target, canvas: (u32, u32)) -> bool {
+        self.textures[0].shape == planned.shape(canvas) && self.textures.len() == planned.textures()
     }
 
     /// The texture that was drawn last.
@@ -57,7 +56,7 @@ impl Target {
 
     /// Takes over what `old` held, if its texels are of the same kind.
     pub fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
-        if old.textures[0].raw.format() != self.textures[0].raw.format() {
+        if old.textures[0].shape.format != self.textures[0].shape.format {
             return;
         }
         self.front = old.front % self.textures.len();
@@ -82,27 +81,6 @@ impl Target {
     }
 }
 
-/// The textures of a target.
-#[derive(PartialEq, Eq)]
-struct Shape {
-    size: (u32, u32),
-    format: wgpu::TextureFormat,
-    levels: u32,
-    count: usize,
-}
-
-impl Shape {
-    fn of(planned: &graph::Target, canvas: (u32, u32)) -> Self {
-        let size = planned.size.of(canvas);
-        Self {
-            size,
-            format: texture_format(planned.format),
-            levels: if planned.mips { mip_levels(size.0, size.1) } else { 1 },
-            count: if planned.doubled { 2 } else { 1 },
-        }
-    }
-}
-
 /// New targets of a plan, all zeros; `None` where the present one is as the plan asks.
 pub(super) struct NewTargets(Vec<Option<Target>>);
 
@@ -117,8 +95,7 @@ impl NewTargets {
     ) -> Result<Self, GpuError> {
         let make = |(index, planned): (usize, &graph::Target)| {
             // What no pass draws holds zeros, also where a pass that has gone drew it before.
-            let is_kept = plan.is_drawn(index)
-                && present.iter().any(|t| t.is(planned) && t.shape() == Shape::of(planned, canvas));
+            let is_kept = plan.is_drawn(index) && present.iter().any(|t| t.is(planned) && t.fits(planned, canvas));
             if is_kept { Ok(None) } else { Target::new(gpu, mips, planned, canvas).map(Some) }
         };
         plan.targets.iter().enumerate().map(make).collect::<Result<_, _>>().map(Self)

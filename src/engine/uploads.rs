@@ -5,9 +5,9 @@ use super::{
     cache::{ByAddress, Cache},
     placed::PlacedMesh,
 };
-use eddy_gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor, mip_levels};
+use eddy_gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor};
 use eddy_media::{
-    MediaSet, TexelFormat, Texels,
+    MediaSet, Texels,
     mesh::{Mesh, MeshError},
 };
 use eddy_project::Geometry;
@@ -31,20 +31,8 @@ impl Uploads {
         if let Some(texture) = self.pictures.get(&key) {
             return Ok(texture.clone());
         }
-        let (width, height) = (texels.width, texels.height);
-        let descriptor = TextureDescriptor {
-            label: "picture",
-            width,
-            height,
-            format: match texels.format {
-                TexelFormat::R8 => wgpu::TextureFormat::R8Unorm,
-                TexelFormat::Rgba8 => wgpu::TextureFormat::Rgba8Unorm,
-                TexelFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
-            },
-            levels: if mips { mip_levels(width, height) } else { 1 },
-            is_target: false,
-        };
-        let texture = Texture::new(gpu, &descriptor)?;
+        let shape = if mips { texels.shape.with_mips() } else { texels.shape };
+        let texture = Texture::new(gpu, &TextureDescriptor { label: "picture", shape, is_target: false })?;
         texture.write(gpu, &texels.bytes);
         if mips {
             let chain = self.mips.chain(gpu, &texture);

@@ -1,8 +1,9 @@
 //! Any colour format to 32-bit floats, texel for texel, for reading back.
 
-use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader};
+use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
+use eddy_texture::{TexelFormat, TextureShape};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+const FORMAT: TexelFormat = TexelFormat::Rgba32f;
 
 const SHADER: &str = "
 @group(0) @binding(0) var picture: texture_2d<f32>;
@@ -21,7 +22,7 @@ pub struct FloatConverter {
 impl FloatConverter {
     pub fn new(gpu: &Gpu) -> Self {
         let shader = PictureShader::new(gpu, "as floats", SHADER);
-        Self { pipeline: shader.pipeline(gpu, FORMAT), shader }
+        Self { pipeline: shader.pipeline(gpu, texture_format(FORMAT)), shader }
     }
 
     /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as
@@ -35,7 +36,7 @@ impl FloatConverter {
         let side = |texels: u32| (texels >> level).max(1);
         let (width, height) = (side(picture.width()), side(picture.height()));
         let descriptor =
-            TextureDescriptor { label: "as floats", width, height, format: FORMAT, levels: 1, is_target: true };
+            TextureDescriptor { label: "as floats", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
         let floats = Texture::new(gpu, &descriptor)?;
         let view = picture.raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some("as floats"),

@@ -1,11 +1,12 @@
 //! Small pictures of float textures, for panels that show many of them.
 
-use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader};
+use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
+use eddy_texture::{TexelFormat, TextureShape};
 
 /// Texels of each, whatever the shape of what it shows.
 pub const SIZE: (u32, u32) = (160, 90);
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+const FORMAT: TexelFormat = TexelFormat::Rgba8;
 
 /// Colours are those of four texels of each place, so that a row of thin lines is not all light or all dark. Alpha is 0
 /// where any texel of the place is NaN or infinite.
@@ -57,8 +58,12 @@ impl Miniatures {
         let shader = PictureShader::new(gpu, "miniature", &shader());
         let (width, height) = SIZE;
         let descriptor =
-            TextureDescriptor { label: "miniature", width, height, format: FORMAT, levels: 1, is_target: true };
-        Ok(Self { pipeline: shader.pipeline(gpu, FORMAT), texture: Texture::new(gpu, &descriptor)?, shader })
+            TextureDescriptor { label: "miniature", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
+        Ok(Self {
+            pipeline: shader.pipeline(gpu, texture_format(FORMAT)),
+            texture: Texture::new(gpu, &descriptor)?,
+            shader,
+        })
     }
 
     /// Draws one, its first row the top. The next takes its place.

@@ -51,7 +51,8 @@ impl MipMaker {
                 ..Default::default()
             })
         };
-        let steps = (1..texture.levels()).map(|level| (view(level), self.shader.bind(gpu, &view(level - 1)))).collect();
+        let steps =
+            (1..texture.shape.levels).map(|level| (view(level), self.shader.bind(gpu, &view(level - 1)))).collect();
         MipChain { steps, format }
     }
 

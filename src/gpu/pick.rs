@@ -1,8 +1,9 @@
 //! The texels of many textures at one place, read together.
 
-use super::{Gpu, GpuError, Readback, Texture, TextureDescriptor, full_screen::ValuesShader};
+use super::{Gpu, GpuError, Readback, Texture, TextureDescriptor, full_screen::ValuesShader, texture_format};
+use eddy_texture::{TexelFormat, TextureShape};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+const FORMAT: TexelFormat = TexelFormat::Rgba32f;
 
 const LABEL: &str = "texels at a place";
 
@@ -26,7 +27,7 @@ pub struct TexelPicker {
 
 impl TexelPicker {
     pub fn new(gpu: &Gpu) -> Self {
-        Self { shader: ValuesShader::new(gpu, LABEL, SHADER, FORMAT), readback: Readback::default() }
+        Self { shader: ValuesShader::new(gpu, LABEL, SHADER, texture_format(FORMAT)), readback: Readback::default() }
     }
 
     /// Returns the texel of each texture at a place, from 0 to 1 across and up: missing components as 0, alpha as 1.
@@ -40,10 +41,7 @@ impl TexelPicker {
             gpu,
             &TextureDescriptor {
                 label: LABEL,
-                width: textures.len() as u32,
-                height: 1,
-                format: FORMAT,
-                levels: 1,
+                shape: TextureShape::flat(textures.len() as u32, 1, FORMAT),
                 is_target: true,
             },
         )?;

@@ -1,6 +1,7 @@
 //! A float picture whose row 0 is the bottom becomes one of 8 bits whose row 0 is the top, for a window.
 
-use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader};
+use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
+use eddy_texture::{TexelFormat, TextureShape};
 
 const SHADER: &str = "
 @group(0) @binding(0) var picture: texture_2d<f32>;
@@ -15,7 +16,7 @@ const SHADER: &str = "
 }
 ";
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+const FORMAT: TexelFormat = TexelFormat::Rgba8;
 
 /// Draws pictures into a display texture (rgba8unorm).
 pub struct Presenter {
@@ -26,14 +27,14 @@ pub struct Presenter {
 impl Presenter {
     pub fn new(gpu: &Gpu) -> Self {
         let shader = PictureShader::new(gpu, "present", SHADER);
-        Self { pipeline: shader.pipeline(gpu, FORMAT), shader }
+        Self { pipeline: shader.pipeline(gpu, texture_format(FORMAT)), shader }
     }
 
     /// A display texture of the given size, opaque and black: whoever shows it sees nothing through it before its first
     /// picture either.
     pub fn texture(gpu: &Gpu, width: u32, height: u32) -> Result<Texture, GpuError> {
         let descriptor =
-            TextureDescriptor { label: "display", width, height, format: FORMAT, levels: 1, is_target: true };
+            TextureDescriptor { label: "display", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
         let texture = Texture::new(gpu, &descriptor)?;
         texture.write(gpu, &[0, 0, 0, 255].repeat(width as usize * height as usize));
         Ok(texture)

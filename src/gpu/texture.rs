@@ -1,64 +1,95 @@
-//! Two-dimensional textures with the views a multipass renderer needs.
+//! Textures with the views a multipass renderer needs.
 
 use super::{Gpu, GpuError};
-
-/// Levels of a whole mip chain: floor(log2(longest side)) + 1.
-pub fn mip_levels(width: u32, height: u32) -> u32 {
-    width.max(height).max(1).ilog2() + 1
-}
+use eddy_texture::{Dimension, TexelFormat, TextureShape};
 
 /// The texture that is to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct TextureDescriptor<'a> {
     pub label: &'a str,
-    pub width: u32,
-    pub height: u32,
-    pub format: wgpu::TextureFormat,
-    /// Levels of the mip chain, at least 1.
-    pub levels: u32,
+    pub shape: TextureShape,
     /// Passes draw into it. Mips and readback need this too.
     pub is_target: bool,
 }
 
-/// A 2D texture. Its texels start as zeros.
+/// A texture. Its texels start as zeros.
 #[derive(Clone, Debug)]
 pub struct Texture {
     pub raw: wgpu::Texture,
-    /// Every level: what shaders read.
+    pub shape: TextureShape,
+    /// Every level and layer: what shaders read.
     pub all_levels: wgpu::TextureView,
-    /// Level 0 alone: what passes draw into.
+    /// Level 0 alone, of the first layer: what passes draw into.
     pub level_0: wgpu::TextureView,
+}
+
+/// Returns what wgpu calls a format.
+pub fn texture_format(format: TexelFormat) -> wgpu::TextureFormat {
+    use wgpu::TextureFormat as T;
+    match format {
+        TexelFormat::R8 => T::R8Unorm,
+        TexelFormat::Rg8 => T::Rg8Unorm,
+        TexelFormat::Rgba8 => T::Rgba8Unorm,
+        TexelFormat::R16f => T::R16Float,
+        TexelFormat::Rg16f => T::Rg16Float,
+        TexelFormat::Rgba16f => T::Rgba16Float,
+        TexelFormat::R32f => T::R32Float,
+        TexelFormat::Rg32f => T::Rg32Float,
+        TexelFormat::Rgba32f => T::Rgba32Float,
+    }
+}
+
+/// Returns what wgpu calls the dimension of a view of a whole texture.
+pub fn view_dimension(dimension: Dimension) -> wgpu::TextureViewDimension {
+    match dimension {
+        Dimension::D2 => wgpu::TextureViewDimension::D2,
+        Dimension::D3 => wgpu::TextureViewDimension::D3,
+        Dimension::Cube => wgpu::TextureViewDimension::Cube,
+    }
+}
+
+/// Returns the extent of level 0 with all layers.
+fn extent(shape: TextureShape) -> wgpu::Extent3d {
+    let TextureShape { width, height, depth, .. } = shape;
+    wgpu::Extent3d { width, height, depth_or_array_layers: depth * shape.layers() }
 }
 
 impl Texture {
     /// Makes a texture; an error for a size no target can have and for memory that is not there.
     pub fn new(gpu: &Gpu, descriptor: &TextureDescriptor<'_>) -> Result<Texture, GpuError> {
-        let TextureDescriptor { label, width, height, format, levels, is_target } = *descriptor;
-        gpu.check_size(label, width, height)?;
+        let TextureDescriptor { label, shape, is_target } = *descriptor;
+        gpu.check_size(label, shape.width, shape.height)?;
         let mut usage =
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST;
-        if is_target || levels > 1 {
+        if is_target || shape.levels > 1 {
             usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
         }
+        let is_volume = shape.dimension == Dimension::D3;
         let raw = gpu.guarded(label, || {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: levels,
+                size: extent(shape),
+                mip_level_count: shape.levels,
                 sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
+                dimension: if is_volume { wgpu::TextureDimension::D3 } else { wgpu::TextureDimension::D2 },
+                format: texture_format(shape.format),
                 usage,
                 view_formats: &[],
             })
         })?;
         let level_0 = raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some(label),
+            dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
             mip_level_count: Some(1),
+            array_layer_count: Some(1),
             ..Default::default()
         });
-        let all_levels = raw.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() });
-        Ok(Texture { raw, all_levels, level_0 })
+        let all_levels = raw.create_view(&wgpu::TextureViewDescriptor {
+            label: Some(label),
+            dimension: Some(view_dimension(shape.dimension)),
+            ..Default::default()
+        });
+        Ok(Texture { raw, shape, all_levels, level_0 })
     }
 
     /// Returns level 0 as a pass draws into it and keeps it.
@@ -72,26 +103,22 @@ impl Texture {
     }
 
     pub fn width(&self) -> u32 {
-        self.raw.width()
+        self.shape.width
     }
 
     pub fn height(&self) -> u32 {
-        self.raw.height()
+        self.shape.height
     }
 
-    pub fn levels(&self) -> u32 {
-        self.raw.mip_level_count()
-    }
-
-    /// Writes level 0. `bytes` holds the rows without padding, row 0 first.
+    /// Writes level 0. `bytes` holds the rows of each layer or slice without padding, row 0 first.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
-        let texel = self.raw.format().block_copy_size(None).unwrap_or(4);
-        gpu.queue.write_texture(
-            self.raw.as_image_copy(),
-            bytes,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.width() * texel), rows_per_image: None },
-            wgpu::Extent3d { width: self.width(), height: self.height(), depth_or_array_layers: 1 },
-        );
+        let TextureShape { width, height, format, .. } = self.shape;
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(width * format.bytes() as u32),
+            rows_per_image: Some(height),
+        };
+        gpu.queue.write_texture(self.raw.as_image_copy(), bytes, layout, extent(self.shape));
     }
 
     /// Writes one texel of level 0. `bytes`: as many as a texel of the format has.
@@ -105,10 +132,11 @@ impl Texture {
 
     /// Copies the overlap of two textures of one format, texel for texel from row 0, column 0.
     pub fn copy_overlap(&self, encoder: &mut wgpu::CommandEncoder, to: &Texture) {
+        let (from, into) = (extent(self.shape), extent(to.shape));
         let size = wgpu::Extent3d {
-            width: self.width().min(to.width()),
-            height: self.height().min(to.height()),
-            depth_or_array_layers: 1,
+            width: from.width.min(into.width),
+            height: from.height.min(into.height),
+            depth_or_array_layers: from.depth_or_array_layers.min(into.depth_or_array_layers),
         };
         encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
     }
@@ -124,15 +152,5 @@ impl Texture {
             },
             |_| (),
         );
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::mip_levels;
-
-    #[test]
-    fn a_chain_goes_down_to_one_texel() {
-        assert_eq!([(1, 1), (2, 1), (3, 3), (1, 4096), (1920, 1080)].map(|(w, h)| mip_levels(w, h)), [1, 2, 2, 13, 11]);
     }
 }

@@ -1,6 +1,7 @@
 //! Owns the question of which draw of a frame may be done in pieces, with anything between them.
 
-use super::{Carried, FramePlan, TargetKind};
+use super::{Carried, FramePlan};
+use eddy_texture::Dimension;
 
 impl FramePlan {
     /// Returns the last draw of a frame if nobody can tell in how many pieces it was done, nor, until the next frame
@@ -15,7 +16,7 @@ impl FramePlan {
         let is_target_plain = targets.len() == 1
             && targets.all(|target| {
                 let of = &self.targets[target];
-                of.kind == TargetKind::Canvas && !of.doubled && !of.mips && self.carried(target) == Carried::Nothing
+                of.dimension == Dimension::D2 && !of.doubled && !of.mips && self.carried(target) == Carried::Nothing
             });
         (is_plain && is_target_plain).then_some(index)
     }

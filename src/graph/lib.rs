@@ -17,6 +17,6 @@ mod traffic;
 
 pub use carried::Carried;
 pub use changes::Changes;
-pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, TargetKind, When};
+pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, When};
 pub use samplers::effective_sampler;
 pub use traffic::Traffic;

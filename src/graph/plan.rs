@@ -1,7 +1,8 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use eddy_project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
+use eddy_project::{Filter, Input, PassId, PassSize, Project, Region, Sampler, Wrap};
+use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
 /// The use that a compiled pass makes of one channel.
@@ -61,24 +62,15 @@ pub struct Read {
     pub mips: bool,
 }
 
-/// The kind of texture that a target needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TargetKind {
-    /// One picture.
-    Canvas,
-    /// Six square faces.
-    Cube,
-}
-
 /// A texture, or a pair of them, that passes draw into or read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
     /// The place among the pass's targets, from 0.
     pub index: usize,
-    pub kind: TargetKind,
+    pub dimension: Dimension,
     pub size: PassSize,
-    pub format: PassFormat,
+    pub format: TexelFormat,
     /// Two textures that take turns: somebody reads last frame's picture, or a `discard` can show the one before it.
     pub doubled: bool,
     /// A mip chain is built after each draw.
@@ -159,9 +151,9 @@ impl FramePlan {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
         draw.beside = Some(self.targets.len());
         let own = &self.targets[draw.targets.start];
-        let (kind, size) = (own.kind, own.size);
-        let format = PassFormat::Rgba32f;
-        self.targets.push(Target { id, index: 0, kind, size, format, doubled: false, mips: false });
+        let (dimension, size) = (own.dimension, own.size);
+        let format = TexelFormat::Rgba32f;
+        self.targets.push(Target { id, index: 0, dimension, size, format, doubled: false, mips: false });
     }
 
     /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures
@@ -213,12 +205,12 @@ impl FramePlan {
         let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
         let formats = settings.formats();
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
-            let kind = if *id == PassId::Cubemap { TargetKind::Cube } else { TargetKind::Canvas };
+            let dimension = if *id == PassId::Cubemap { Dimension::Cube } else { Dimension::D2 };
             let first = self.targets.len();
             self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
                 index,
-                kind,
+                dimension,
                 size: settings.size,
                 format,
                 doubled: false,

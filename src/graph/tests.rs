@@ -1,12 +1,11 @@
 //! The plan's rules, with no device.
 
-use super::{
-    Carried, Changes, ChannelFacts, FramePlan, PassFacts, Source, Target, TargetKind, When, effective_sampler,
-};
+use super::{Carried, Changes, ChannelFacts, FramePlan, PassFacts, Source, Target, When, effective_sampler};
 use eddy_project::{
-    Channel, Filter, Group, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region, Sampler,
-    SamplerRules, Wrap,
+    Channel, Filter, Group, Input, Origin, Pass, PassBody, PassId, PassSize, Project, Region, Sampler, SamplerRules,
+    Wrap,
 };
+use eddy_texture::{Dimension, TexelFormat};
 
 const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
 
@@ -86,7 +85,7 @@ fn buffers_see_last_frames_cubemap_and_image_this_frames() {
     assert_eq!(see(PassId::Cubemap, 0), When::ThisFrame);
     assert_eq!(see(PassId::Cubemap, 1), When::LastFrame);
     assert_eq!(see(PassId::Image, 0), When::ThisFrame);
-    assert_eq!(plan.targets.iter().find(|t| t.id == PassId::Cubemap).unwrap().kind, TargetKind::Cube);
+    assert_eq!(plan.targets.iter().find(|t| t.id == PassId::Cubemap).unwrap().dimension, Dimension::Cube);
 }
 
 #[test]
@@ -217,9 +216,9 @@ fn targets_have_their_passes_sizes_formats_and_regions() {
         project(vec![pass(id("A"), Default::default()), pass(PassId::Image, [buffer("A"), buffer("D"), None, None])]);
     let region = Region { x: 3, y: 1, width: 9, height: 2 };
     let settings = &mut project.passes[0].settings;
-    (settings.size, settings.format, settings.region) = (PassSize::Scale(0.5), PassFormat::Rg16f, Some(region));
+    (settings.size, settings.format, settings.region) = (PassSize::Scale(0.5), TexelFormat::Rg16f, Some(region));
     let plan = plan(&project);
-    assert_eq!((plan.targets[0].size, plan.targets[0].format), (PassSize::Scale(0.5), PassFormat::Rg16f));
+    assert_eq!((plan.targets[0].size, plan.targets[0].format), (PassSize::Scale(0.5), TexelFormat::Rg16f));
     assert_eq!((plan.draws[0].region, plan.draws[0].keeps_content), (Some(region), true));
     assert_eq!((plan.targets[2].size, plan.draws[1].keeps_content), (PassSize::Canvas, false), "D, which has no pass");
     assert_eq!([(7, 5), (1, 1)].map(|c| PassSize::Scale(0.5).of(c)), [(4, 3), (1, 1)]);
@@ -276,10 +275,10 @@ fn a_draw_is_left_out_until_something_it_reads_has_changed_however_far_away() {
 fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassId::Buffer("scene".into());
     let mut scene = pass(id, Default::default());
-    scene.settings.format = PassFormat::Rgba8;
+    scene.settings.format = TexelFormat::Rgba8;
     scene.settings.body = PassBody::Meshes(eddy_project::Geometry {
         draws: Vec::new(),
-        more_targets: vec![PassFormat::Rgba16f],
+        more_targets: vec![TexelFormat::Rgba16f],
         camera: Default::default(),
         stages: Vec::new(),
     });
@@ -299,7 +298,7 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     // Cleared first, so that a `discard` shows nothing of before; mips only of the target that a sampler asks for.
     assert_eq!(
         targets[..2],
-        [(scene(), 0, PassFormat::Rgba8, false, false), (scene(), 1, PassFormat::Rgba16f, true, false)]
+        [(scene(), 0, TexelFormat::Rgba8, false, false), (scene(), 1, TexelFormat::Rgba16f, true, false)]
     );
     assert_eq!(plan.draws[0].targets, 0..2);
     assert!(!plan.draws[0].keeps_content && plan.draws[0].is_cacheable);
@@ -347,7 +346,7 @@ fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
     };
     // A: itself once, B, and a write; B: A and a write.
     assert_eq!(frame(&|_| ()), (16 * 5, 64));
-    assert_eq!(frame(&|p| p.passes[0].settings.format = PassFormat::R16f), (2 * 3 + 16 * 2, 64));
+    assert_eq!(frame(&|p| p.passes[0].settings.format = TexelFormat::R16f), (2 * 3 + 16 * 2, 64));
     let group = Group { name: "g".into(), passes: vec![id("A")], steps: 3 };
     assert_eq!(frame(&|p| p.groups.push(group.clone())), (16 * (3 * 3 + 2), 128));
     let part = Region { x: 0, y: 0, width: 4, height: 4 };
@@ -366,7 +365,7 @@ fn what_is_drawn_beside_a_picture_changes_no_other_target() {
     plan.draw_beside(0, value.clone());
     assert_eq!(plan.targets[..plain.targets.len()], plain.targets);
     let [more] = &plan.targets[plain.targets.len()..] else { panic!("one more target") };
-    assert_eq!((&more.id, more.index, more.format, more.doubled), (&value, 0, PassFormat::Rgba32f, false));
+    assert_eq!((&more.id, more.index, more.format, more.doubled), (&value, 0, TexelFormat::Rgba32f, false));
     assert!(plan.is_drawn(plain.targets.len()));
     let drawn: Vec<Vec<usize>> = plan.draws.iter().map(|draw| draw.all_targets().collect()).collect();
     assert_eq!((drawn, plan.draws_a_frame()), (vec![vec![0, 2], vec![1]], 2));

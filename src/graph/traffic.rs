@@ -1,6 +1,7 @@
 //! Bytes that a frame cannot do without, from its plan alone.
 
-use super::{FramePlan, Source, Target, TargetKind};
+use super::{FramePlan, Source, Target};
+use eddy_texture::{Dimension, TextureShape};
 
 /// The least that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,22 +71,24 @@ impl FramePlan {
 }
 
 impl Target {
+    /// Returns the shape of each of its textures.
+    pub fn shape(&self, canvas: (u32, u32)) -> TextureShape {
+        let (width, height) = self.size.of(canvas);
+        let shape = match self.dimension {
+            Dimension::Cube => TextureShape::cube(1024, self.format),
+            dimension => TextureShape { dimension, ..TextureShape::flat(width, height, self.format) },
+        };
+        if self.mips { shape.with_mips() } else { shape }
+    }
+
+    /// Returns the number of its textures.
+    pub fn textures(&self) -> usize {
+        if self.doubled { 2 } else { 1 }
+    }
+
     /// Returns the bytes that its textures take on the device, mip levels and the second one of a pair among them.
     pub fn bytes(&self, canvas: (u32, u32)) -> u64 {
-        let (mut w, mut h, faces) = match self.kind {
-            TargetKind::Canvas => {
-                let (w, h) = self.size.of(canvas);
-                (w, h, 1)
-            }
-            TargetKind::Cube => (1024, 1024, 6),
-        };
-        let level = |w: u32, h: u32| u64::from(w) * u64::from(h) * self.format.bytes();
-        let mut sum = level(w, h);
-        while self.mips && (w, h) != (1, 1) {
-            (w, h) = ((w / 2).max(1), (h / 2).max(1));
-            sum += level(w, h);
-        }
-        sum * faces * if self.doubled { 2 } else { 1 }
+        self.shape(canvas).bytes() * self.textures() as u64
     }
 }
 
@@ -99,14 +102,15 @@ fn target_of(read: &super::Read) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{PassFormat, PassId, PassSize};
+    use eddy_project::{PassId, PassSize};
+    use eddy_texture::TexelFormat;
 
     #[test]
     fn a_mip_chain_and_a_second_texture_are_counted() {
         let target = |doubled, mips| Target {
             id: PassId::Image,
             index: 0,
-            kind: TargetKind::Canvas,
+            dimension: Dimension::D2,
             size: Default::default(),
             format: Default::default(),
             doubled,
@@ -116,7 +120,7 @@ mod tests {
         assert_eq!(plan(target(false, false)).target_bytes((4, 2)), 8 * 16);
         assert_eq!(plan(target(true, false)).target_bytes((4, 2)), 2 * 8 * 16);
         assert_eq!(plan(target(true, true)).target_bytes((4, 2)), 2 * (8 + 2 + 1) * 16);
-        let half = Target { size: PassSize::Scale(0.5), format: PassFormat::R16f, ..target(false, false) };
+        let half = Target { size: PassSize::Scale(0.5), format: TexelFormat::R16f, ..target(false, false) };
         assert_eq!(plan(half).target_bytes((4, 2)), 2 * 2);
     }
 }

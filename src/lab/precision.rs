@@ -8,7 +8,7 @@ use super::{
 use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program};
 use eddy_gpu::Gpu;
 use eddy_media::MediaSet;
-use eddy_project::{PassFormat, PassId, Project};
+use eddy_project::{PassId, Project, TexelFormat};
 use serde::Serialize;
 
 /// A difference of the picture that a screen of 8 bits shows.
@@ -168,7 +168,7 @@ pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
         Setup::new("floor", (1, 1)).wants(&["empty"]).steps("empty", 1).storage(Storage::Half).built(|project| {
             if let Some(pass) = project.pass_mut(&PassId::Buffer("empty".into())) {
                 pass.source.text = PROBE.into();
-                pass.settings.format = PassFormat::R32f;
+                pass.settings.format = TexelFormat::R32f;
             }
         });
     // Three quarters of the last bit above 1.

@@ -1,6 +1,6 @@
 //! The keyboard as Shadertoy's 256x3 texture: row 0 held, row 1 pressed this frame, row 2 toggled.
 
-use super::{TexelFormat, Texels};
+use eddy_texture::{TexelFormat, TextureShape};
 use std::sync::Arc;
 
 /// State of every key by JavaScript `keyCode`. Clones share it until a key changes: a run keeps one for each frame.
@@ -18,6 +18,8 @@ impl Default for Keyboard {
 impl Keyboard {
     pub const WIDTH: usize = 256;
     pub const HEIGHT: usize = 3;
+    /// The texture of [`Keyboard::bytes`].
+    pub const SHAPE: TextureShape = TextureShape::flat(Self::WIDTH as u32, Self::HEIGHT as u32, TexelFormat::R8);
 
     /// A key went down. Auto-repeat (already held) does nothing, as on the site.
     pub fn press(&mut self, code: u8) {
@@ -65,15 +67,6 @@ impl Keyboard {
     /// 256x3 bytes, row 0 first.
     pub fn bytes(&self) -> &[u8] {
         &self.texels[..]
-    }
-
-    pub fn texels(&self) -> Texels {
-        Texels {
-            width: Self::WIDTH as u32,
-            height: Self::HEIGHT as u32,
-            format: TexelFormat::R8,
-            bytes: self.texels.to_vec(),
-        }
     }
 
     fn columns(code: u8) -> (usize, usize, usize) {

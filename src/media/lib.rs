@@ -21,6 +21,7 @@ pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use eddy_diag::Diagnostic;
 use eddy_project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
+use eddy_texture::{TexelFormat, TextureShape};
 use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
     collections::{HashMap, HashSet},
@@ -28,34 +29,29 @@ use std::{
     sync::Arc,
 };
 
-/// Format of [`Texels`]. Never decoded from sRGB: a stored 128 reads as 128/255, as on the site.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TexelFormat {
-    /// One byte a texel; reads as (r, 0, 0, 1).
-    R8,
-    /// Four bytes a texel, alpha not premultiplied.
-    Rgba8,
-    /// Four floats a texel.
-    Rgba32Float,
-}
-
-impl TexelFormat {
-    pub fn bytes(self) -> usize {
-        match self {
-            TexelFormat::R8 => 1,
-            TexelFormat::Rgba8 => 4,
-            TexelFormat::Rgba32Float => 16,
-        }
-    }
-}
-
-/// A decoded 2D picture. `bytes` holds `height` rows of `width` texels, row 0 at v = 0, no padding.
+/// A decoded texture of one level, alpha not premultiplied. `bytes` holds face by face, or slice by slice, `height` rows
+/// of `width` texels, row 0 at v = 0, no padding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels {
-    pub width: u32,
-    pub height: u32,
-    pub format: TexelFormat,
+    pub shape: TextureShape,
     pub bytes: Vec<u8>,
+}
+
+impl Texels {
+    /// A 2D picture.
+    pub fn flat(width: u32, height: u32, format: TexelFormat, bytes: Vec<u8>) -> Self {
+        Self { shape: TextureShape::flat(width, height, format), bytes }
+    }
+
+    /// Bytes of each texel.
+    pub fn texel_bytes(&self) -> usize {
+        self.shape.format.bytes() as usize
+    }
+
+    /// Bytes of each row.
+    pub fn row_bytes(&self) -> usize {
+        self.shape.width as usize * self.texel_bytes()
+    }
 }
 
 /// The loaded files that a project needs besides its texts.

@@ -3,8 +3,9 @@
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. What an
 //! array lacks of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
 
-use super::{MediaError, TexelFormat, Texels};
+use super::{MediaError, Texels};
 use eddy_project::limits;
+use eddy_texture::{TexelFormat, TextureShape};
 use std::path::Path;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -27,16 +28,15 @@ pub fn header(descr: &str, shape: &[u32]) -> Vec<u8> {
     [MAGIC, b"\x01\x00", &(text.len() as u16).to_le_bytes(), text.as_bytes()].concat()
 }
 
-/// Texels as a whole file: float32 of shape (height, width, 4), or uint8 of shape (height, width, 1 or 4).
+/// 2D texels as a whole file, of shape (height, width, components): uint8, float16 or float32 as their format is.
 pub fn bytes(texels: &Texels) -> Vec<u8> {
-    let (descr, components) = match texels.format {
-        TexelFormat::R8 => ("|u1", 1),
-        TexelFormat::Rgba8 => ("|u1", 4),
-        TexelFormat::Rgba32Float => ("<f4", 4),
-    };
-    let mut file = header(descr, &[texels.height, texels.width, components]);
-    if descr == "<f4" && cfg!(target_endian = "big") {
-        file.extend(texels.bytes.chunks_exact(4).flat_map(|number| number.iter().rev()));
+    let TextureShape { width, height, format, .. } = texels.shape;
+    let components = format.components();
+    let number = texels.texel_bytes() / components;
+    let descr = if number == 1 { "|u1".to_owned() } else { format!("<f{number}") };
+    let mut file = header(&descr, &[height, width, components as u32]);
+    if cfg!(target_endian = "big") {
+        file.extend(texels.bytes.chunks_exact(number).flat_map(|number| number.iter().rev()));
     } else {
         file.extend_from_slice(&texels.bytes);
     }
@@ -80,7 +80,7 @@ fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
     if height == 0 || width == 0 {
         return Err("the array has no texels".into());
     }
-    let most = (limits::PICTURE_BYTES.min(room) / TexelFormat::Rgba32Float.bytes() as u64) as usize;
+    let most = (limits::PICTURE_BYTES.min(room) / TexelFormat::Rgba32f.bytes()) as usize;
     let texels = height.checked_mul(width).filter(|n| *n <= most);
     let texels = texels.ok_or_else(|| format!("{width}x{height} texels; the limit here is {most}"))?;
     let size = match number {
@@ -102,7 +102,7 @@ fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
         }
         out.extend_from_slice(bytemuck::bytes_of(&rgba));
     }
-    Ok(Texels { width: width as u32, height: height as u32, format: TexelFormat::Rgba32Float, bytes: out })
+    Ok(Texels::flat(width as u32, height as u32, TexelFormat::Rgba32f, out))
 }
 
 /// Returns what stands behind a key of the header, which is a Python dictionary.
@@ -144,7 +144,7 @@ mod tests {
         let f4: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|x| x.to_le_bytes()).collect();
         let read =
             decode(&file("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 2), }\n", &f4), u64::MAX).unwrap();
-        assert_eq!((read.width, read.height), (2, 1));
+        assert_eq!((read.shape.width, read.shape.height), (2, 1));
         assert_eq!(floats(&read), [1.0, 2.0, 0.0, 1.0, 3.0, 4.0, 0.0, 1.0]);
         let f8: Vec<u8> = [0.5f64, -1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
         let read = decode(&file("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), }", &f8), u64::MAX).unwrap();

@@ -1,7 +1,7 @@
 //! A geometry pass draws meshes instead of a full-screen triangle: the meshes, each with its program and state, and the
 //! camera that sees them.
 
-use super::{PassFormat, Source, confine, limits};
+use super::{Source, TexelFormat, confine, limits};
 use serde::{
     Deserialize, Deserializer,
     de::{SeqAccess, Visitor},
@@ -21,7 +21,7 @@ pub struct Geometry {
     /// In drawing order; at least one.
     pub draws: Vec<MeshDraw>,
     /// Formats of the targets behind the first, whose format is [`super::PassSettings::format`].
-    pub more_targets: Vec<PassFormat>,
+    pub more_targets: Vec<TexelFormat>,
     pub camera: Camera,
     /// Texts of stages other than the pass's own text, each file once.
     pub stages: Vec<Source>,

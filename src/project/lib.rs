@@ -17,7 +17,6 @@ mod files;
 mod fill_texts;
 mod fills;
 mod folder;
-mod format;
 mod geometry;
 mod imports;
 mod includes;
@@ -50,11 +49,11 @@ pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
 pub use directives::lines_not_obeyed;
+pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
 pub use fill_texts::FillText;
 pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
 pub use folder::declare_channels;
-pub use format::PassFormat;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };

@@ -1,13 +1,13 @@
 //! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
 //! often a frame.
 
-use super::{Boundary, Fill, Geometry, PassFormat, PassId};
+use super::{Boundary, Fill, Geometry, PassId, TexelFormat};
 
 /// Says how a pass is drawn. The default is what the site does.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassSettings {
     pub size: PassSize,
-    pub format: PassFormat,
+    pub format: TexelFormat,
     /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
     pub region: Option<Region>,
     /// The content of the pass's texture of the frame before in frame 0. `None`: zeros.
@@ -29,7 +29,7 @@ pub enum PassBody {
 
 impl PassSettings {
     /// The format of each target the pass draws into, at least one.
-    pub fn formats(&self) -> Vec<PassFormat> {
+    pub fn formats(&self) -> Vec<TexelFormat> {
         let more = self.meshes().into_iter().flat_map(|g| g.more_targets.iter().copied());
         [self.format].into_iter().chain(more).collect()
     }

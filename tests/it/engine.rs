@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program, ValueLook},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
-    project::{Filter, PassFormat, PassId, Project, Source, Wrap},
+    project::{Filter, PassId, Project, Source, TexelFormat, Wrap},
 };
 
 const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -282,7 +282,7 @@ fn an_edit_builds_what_it_changes_and_nothing_else() {
     edit(&mut project, &PassId::Image, &format!("// a word\n{}", show(1)));
     assert_eq!(rebuild(&project).0, work(1, 0), "what compiles to the same needs no new pipeline");
 
-    project.passes[3].settings.format = PassFormat::Rg32f;
+    project.passes[3].settings.format = TexelFormat::Rg32f;
     assert_eq!(rebuild(&project).0, work(0, 1), "another format is another pipeline of the same stage");
 
     project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\n".into();
@@ -372,7 +372,7 @@ fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
         image(both, [nearest("A"), nearest("B"), None, None]),
     ]);
     project.passes[1].settings.size = eddy::project::PassSize::Scale(0.5);
-    project.passes[1].settings.format = PassFormat::Rg16f;
+    project.passes[1].settings.format = TexelFormat::Rg16f;
     let mut engine = engine(&gpu, &project, (8, 4));
     run(&mut engine, 0, 1);
     let texels = engine.texels_at([0.8, 0.3]).unwrap();

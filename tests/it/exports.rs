@@ -129,7 +129,7 @@ fn settings_pictures_and_further_buffers_are_named() {
     assert_eq!(project::json_losses(&project), [""; 0]);
     let buffer = project.passes.iter_mut().find(|pass| pass.id == PassId::Buffer("A".into())).unwrap();
     buffer.settings.size = project::PassSize::Scale(0.5);
-    buffer.settings.format = project::PassFormat::Rgba16f;
+    buffer.settings.format = project::TexelFormat::Rgba16f;
     let mut channel = buffer.channels[0].clone().unwrap();
     channel.input = project::Input::Texture(project::Media::File("rock.png".into()));
     buffer.channels[1] = Some(channel);

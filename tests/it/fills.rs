@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Engine, Program},
     media::{self, MediaSet},
-    project::{Boundary, CustomUniformValue, Fill, Overwrite, PassFormat, PassId, Project, Region, load, save},
+    project::{Boundary, CustomUniformValue, Fill, Overwrite, PassId, Project, Region, TexelFormat, load, save},
 };
 use std::{fs, path::Path};
 
@@ -31,7 +31,7 @@ fn written(folder: &Path, manifest: &str) -> Project {
 #[test]
 fn an_expression_is_what_the_frame_before_the_first_holds_and_again_after_a_reset() {
     let Some(gpu) = gpu() else { return };
-    for format in [PassFormat::Rgba32f, PassFormat::Rgba16f] {
+    for format in [TexelFormat::Rgba32f, TexelFormat::Rgba16f] {
         let project = counting(|p| {
             p.common = Some(eddy::project::Source {
                 name: "common.glsl".into(),

@@ -4,7 +4,7 @@ use crate::support::{meshes::*, *};
 use eddy::{
     engine::{BuildError, BuildOptions, Engine, FrameInputs, Program},
     media::MediaSet,
-    project::{Camera, Cull, DepthTest, MeshDraw, PassFormat, PassId, Project, Stage},
+    project::{Camera, Cull, DepthTest, MeshDraw, PassId, Project, Stage, TexelFormat},
 };
 use glam::{Mat4, Vec3, Vec4};
 
@@ -337,7 +337,7 @@ fn meshes_in_small_floats_leave_arithmetic_alone() {
     (behind.scale, behind.position) = (1.5, [-1.0, -0.5, -2.0]);
     let fragment = "layout(location = 0) out vec4 a; void main() { a = vec4(1); }";
     let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), behind]);
-    cubes.settings.format = PassFormat::Rgba16f;
+    cubes.settings.format = TexelFormat::Rgba16f;
     let mut engine = engine(&gpu, &whole(cubes), (200, 150));
     run(&mut engine, 0, 4);
     engine.read(&PassId::Image).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::support::{self, program::Bench, stage::Stage};
 use eddy::{
-    project::{self, Input, MeshSource, Overwrite, PassFormat, PassId, Stage as Text, Tab},
+    project::{self, Input, MeshSource, Overwrite, PassId, Stage as Text, Tab, TexelFormat},
     session::{Command, Level},
 };
 use std::{fs, path::Path};
@@ -70,7 +70,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let mut p = loaded.project;
     let settings = &p.passes[0].settings;
-    assert_eq!(settings.formats(), [PassFormat::Rgba8, PassFormat::Rgba16f]);
+    assert_eq!(settings.formats(), [TexelFormat::Rgba8, TexelFormat::Rgba16f]);
     let g = settings.meshes().unwrap();
     assert_eq!(p.passes[0].source.name, "scene.frag.glsl");
     assert_eq!((g.draws[0].vertex, g.draws[0].fragment), (Text::File(0), Text::Own));

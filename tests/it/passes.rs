@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::MediaSet,
-    project::{Filter, Group, PassFormat, PassId, PassSize, Project, Region, Wrap},
+    project::{Filter, Group, PassId, PassSize, Project, Region, TexelFormat, Wrap},
 };
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
@@ -71,7 +71,7 @@ fn a_pass_has_its_own_size_and_readers_know_it() {
 fn formats_hold_what_they_can_and_read_back_as_floats() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5, -1.0, 1000.0625, 0.25) + p.x * 0.0; }";
-    for format in PassFormat::ALL {
+    for format in TexelFormat::ALL {
         let mut a = pass(buffer("A"), a, Default::default());
         a.settings.format = format;
         let mips = [reads("A", Filter::Mipmap, Wrap::Repeat), None, None, None];

@@ -11,7 +11,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, Builder, Engine, FrameInputs, Program, Sources},
     glsl::Probe,
     media,
-    project::{Boundary, Fill, Group, PassBody, PassFormat, PassId, Project, Region, presets as all_presets},
+    project::{Boundary, Fill, Group, PassBody, PassId, Project, Region, TexelFormat, presets as all_presets},
 };
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
@@ -134,7 +134,7 @@ fn no_value_where_nothing_is_drawn() {
     let Some(gpu) = gpu() else { return };
     let code = "void mainImage(out vec4 o, vec2 p) { float x = p.x + float(iFrame); if (p.y > 3.0) discard; \
                 o = texelFetch(iChannel0, ivec2(p), 0) + x; }\n";
-    for format in [PassFormat::Rgba8, PassFormat::R16f, PassFormat::Rgba32f] {
+    for format in [TexelFormat::Rgba8, TexelFormat::R16f, TexelFormat::Rgba32f] {
         let mut a = pass(buffer("A"), code, [nearest("A"), None, None, None]);
         a.settings.format = format;
         a.settings.initial = Some(Fill::expression("vec4(0.5)"));

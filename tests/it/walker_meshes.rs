@@ -15,7 +15,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
-    project::{self, Camera, Cull, DepthTest, MeshDraw, PassFormat, PassId, Project, Stage},
+    project::{self, Camera, Cull, DepthTest, MeshDraw, PassId, Project, Stage, TexelFormat},
 };
 use std::sync::Arc;
 
@@ -255,11 +255,11 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
 }
 
 /// A step of 8 bits, some of half precision, and of single precision what interpolation loses.
-fn tolerance(format: PassFormat) -> f32 {
+fn tolerance(format: TexelFormat) -> f32 {
     match format {
-        PassFormat::R8 | PassFormat::Rg8 | PassFormat::Rgba8 => 1.01 / 255.0,
-        PassFormat::R16f | PassFormat::Rg16f | PassFormat::Rgba16f => 2e-3,
-        PassFormat::R32f | PassFormat::Rg32f | PassFormat::Rgba32f => 2e-5,
+        TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8 => 1.01 / 255.0,
+        TexelFormat::R16f | TexelFormat::Rg16f | TexelFormat::Rgba16f => 2e-3,
+        TexelFormat::R32f | TexelFormat::Rg32f | TexelFormat::Rgba32f => 2e-5,
     }
 }
 

@@ -15,7 +15,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
-    project::{self, Pass, PassFormat, PassId, Project, presets},
+    project::{self, Pass, PassId, Project, TexelFormat, presets},
 };
 use std::collections::BTreeSet;
 
@@ -89,17 +89,17 @@ struct Off {
 }
 
 /// A step of what a target stores at a value; 0 for floats of 32 bits.
-fn step(format: PassFormat, at: f32) -> f32 {
+fn step(format: TexelFormat, at: f32) -> f32 {
     match format {
-        PassFormat::R8 | PassFormat::Rg8 | PassFormat::Rgba8 => 1.0 / 255.0,
+        TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8 => 1.0 / 255.0,
         // 11 bits, and no exponent below -14.
-        PassFormat::R16f | PassFormat::Rg16f | PassFormat::Rgba16f => at.abs().max(6.2e-5) / 1024.0,
+        TexelFormat::R16f | TexelFormat::Rg16f | TexelFormat::Rgba16f => at.abs().max(6.2e-5) / 1024.0,
         _ => 0.0,
     }
 }
 
 /// The nearest value that a target of 8 bits stores.
-fn stored(format: PassFormat, value: f32) -> f32 {
+fn stored(format: TexelFormat, value: f32) -> f32 {
     if step(format, 1.0) == 1.0 / 255.0 { value.clamp(0.0, 1.0) } else { value }
 }
 

@@ -8,7 +8,7 @@ use crate::support::{
 use eddy::{
     engine::LevelBy,
     gpu::Gpu,
-    project::{Filter, PassFormat, PassSize, Project, Wrap},
+    project::{Filter, PassSize, Project, TexelFormat, Wrap},
 };
 
 /// What is read: 8 x 8 texels of whole 64ths, all four components apart.
@@ -197,7 +197,7 @@ fn texels_of_8_bits_are_mixed_in_8_bits() {
     let mut most = 0.0f64;
     for expression in SAMPLED {
         let mut project = reading((Filter::Linear, Wrap::Repeat), expression);
-        project.passes[0].settings.format = PassFormat::Rgba8;
+        project.passes[0].settings.format = TexelFormat::Rgba8;
         most = most.max(apart(&gpu, &project, &project));
     }
     println!("at most {} of 1/255", most * 255.0);

@@ -14,7 +14,7 @@ use eddy_glsl::{
     walk::{EntryInputs, Shadowed, Stop},
     walkable::Detail,
 };
-use eddy_project::{FillKind, PassFormat, PassId, Project, Stage, Tab, inspect_comments};
+use eddy_project::{FillKind, PassId, Project, Stage, Tab, TexelFormat, inspect_comments};
 use std::sync::Arc;
 
 /// Statements after which a walk is given up: a few seconds.
@@ -44,7 +44,7 @@ pub struct Traced {
     pub double: Option<[f64; 4]>,
     /// The texel that the device drew, as it is stored.
     pub device: [f32; 4],
-    pub format: PassFormat,
+    pub format: TexelFormat,
     /// The walk was given up: it is as long as this tells.
     pub is_endless: bool,
     inputs: PassInputs,

@@ -74,7 +74,7 @@ impl<'a> Capture<'a> {
         };
         let Some(texture) = texture else { return Ok(TextureCopy::black()) };
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
-        let levels = (0..texture.levels()).map(|level| self.level(&shared.gpu, texture, level));
+        let levels = (0..texture.shape.levels).map(|level| self.level(&shared.gpu, texture, level));
         Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap, level_by: LevelBy::Pixel })
     }
 

@@ -2,8 +2,9 @@
 
 use super::{BackBuffer, Painting, paint_areas};
 use crate::{
-    gpu::{Gpu, Readback, Texture, TextureDescriptor, testing},
+    gpu::{Gpu, Readback, Texture, TextureDescriptor, TextureShape, testing},
     gui::{damage::Area, frame, shell::Shell, theme},
+    project::TexelFormat,
     session::{Command, Session, SessionOptions},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
@@ -38,7 +39,11 @@ struct Painter {
 
 impl Painter {
     fn texture(&self, [width, height]: [u32; 2]) -> Texture {
-        let descriptor = TextureDescriptor { label: "test", width, height, format: FORMAT, levels: 1, is_target: true };
+        let descriptor = TextureDescriptor {
+            label: "test",
+            shape: TextureShape::flat(width, height, TexelFormat::Rgba8),
+            is_target: true,
+        };
         Texture::new(&self.gpu, &descriptor).unwrap()
     }
 

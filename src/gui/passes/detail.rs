@@ -6,7 +6,7 @@ use crate::{
         accessible, theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    project::{FillKind, Filter, Pass, PassEdit, PassFormat, PassId, PassSize, Project, Region, Tab, Wrap},
+    project::{FillKind, Filter, Pass, PassEdit, PassId, PassSize, Project, Region, Tab, TexelFormat, Wrap},
     session::{Command, Session},
 };
 use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
@@ -235,7 +235,7 @@ fn format(ui: &mut Ui, pass: &Pass, out: &mut UiOutput) {
     let now = pass.settings.format;
     ui.horizontal(|ui| {
         let combo = ComboBox::from_id_salt("format").width(104.0).selected_text(now.name()).show_ui(ui, |ui| {
-            for format in PassFormat::ALL {
+            for format in TexelFormat::ALL {
                 let label = format!("{}   {}", format.name(), meaning(format));
                 let item = ui.selectable_label(format == now, label);
                 if out.clicked(&format!("passes:format:{}", format.name()), &item) && format != now {
@@ -257,17 +257,17 @@ fn format(ui: &mut Ui, pass: &Pass, out: &mut UiOutput) {
     }
 }
 
-fn meaning(format: PassFormat) -> &'static str {
+fn meaning(format: TexelFormat) -> &'static str {
     match format {
-        PassFormat::Rgba32f => "four floats, as on Shadertoy",
-        PassFormat::Rgba16f => "four half floats",
-        PassFormat::Rgba8 => "four from 0 to 1, 256 values",
-        PassFormat::Rg32f => "two floats",
-        PassFormat::Rg16f => "two half floats",
-        PassFormat::Rg8 => "two from 0 to 1, 256 values",
-        PassFormat::R32f => "one float",
-        PassFormat::R16f => "one half float",
-        PassFormat::R8 => "one from 0 to 1, 256 values",
+        TexelFormat::Rgba32f => "four floats, as on Shadertoy",
+        TexelFormat::Rgba16f => "four half floats",
+        TexelFormat::Rgba8 => "four from 0 to 1, 256 values",
+        TexelFormat::Rg32f => "two floats",
+        TexelFormat::Rg16f => "two half floats",
+        TexelFormat::Rg8 => "two from 0 to 1, 256 values",
+        TexelFormat::R32f => "one float",
+        TexelFormat::R16f => "one half float",
+        TexelFormat::R8 => "one from 0 to 1, 256 values",
     }
 }
 

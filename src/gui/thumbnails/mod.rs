@@ -5,8 +5,8 @@ mod live;
 
 use crate::{
     gpu::Gpu,
-    media::{self, TexelFormat, Texels},
-    project::{Media, presets},
+    media::{self, Texels},
+    project::{Media, TexelFormat, presets},
 };
 use egui::{ColorImage, TextureHandle, TextureOptions};
 use live::Live;
@@ -153,7 +153,7 @@ fn recent(file: &Path) -> Result<ColorImage, String> {
 
 /// A texture as a small opaque picture, its top row first.
 fn swatch(texels: &Texels) -> ColorImage {
-    let (width, height) = (texels.width.max(1) as usize, texels.height.max(1) as usize);
+    let (width, height) = (texels.shape.width.max(1) as usize, texels.shape.height.max(1) as usize);
     let step = width.max(height).div_ceil(SWATCH).max(1);
     let size = [width.div_ceil(step), height.div_ceil(step)];
     let mut bytes = Vec::with_capacity(size[0] * size[1] * 4);
@@ -167,18 +167,20 @@ fn swatch(texels: &Texels) -> ColorImage {
 }
 
 fn texel(texels: &Texels, x: usize, y: usize) -> [u8; 4] {
-    let at = (y * texels.width as usize + x) * texels.format.bytes();
-    let Some(bytes) = texels.bytes.get(at..at + texels.format.bytes()) else { return [0, 0, 0, 255] };
-    match texels.format {
+    let at = (y * texels.shape.width as usize + x) * texels.texel_bytes();
+    let Some(bytes) = texels.bytes.get(at..at + texels.texel_bytes()) else { return [0, 0, 0, 255] };
+    match texels.shape.format {
         TexelFormat::R8 => [bytes[0], bytes[0], bytes[0], 255],
         TexelFormat::Rgba8 => [bytes[0], bytes[1], bytes[2], 255],
-        TexelFormat::Rgba32Float => {
+        TexelFormat::Rgba32f => {
             let channel = |i: usize| {
                 let value = bytes[4 * i..4 * i + 4].try_into().map_or(0.0, f32::from_le_bytes);
                 (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
             };
             [channel(0), channel(1), channel(2), 255]
         }
+        // No picture is decoded to any other.
+        _ => [0, 0, 0, 255],
     }
 }
 
@@ -215,10 +217,10 @@ mod tests {
     #[test]
     fn a_swatch_is_the_right_way_up_and_opaque() {
         let bytes = [[1, 2, 3, 0], [4, 5, 6, 0], [7, 8, 9, 0], [10, 11, 12, 0]].concat();
-        let image = swatch(&Texels { width: 2, height: 2, format: TexelFormat::Rgba8, bytes });
+        let image = swatch(&Texels::flat(2, 2, TexelFormat::Rgba8, bytes));
         assert_eq!(image.size, [2, 2]);
         assert_eq!(image.pixels[0].to_array(), [7, 8, 9, 255]);
-        let wide = Texels { width: 300, height: 1, format: TexelFormat::R8, bytes: vec![9; 300] };
+        let wide = Texels::flat(300, 1, TexelFormat::R8, vec![9; 300]);
         assert_eq!(swatch(&wide).size, [75, 1]);
     }
 }

@@ -3,10 +3,10 @@
 use super::{LabError, fingerprint::Fingerprint};
 use eddy_diag::SourceId;
 use eddy_engine::BuildOptions;
-use eddy_media::{MediaSet, TexelFormat, Texels};
+use eddy_media::{MediaSet, Texels};
 use eddy_project::{
-    self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassFormat, PassId,
-    Project, Sampler, Wrap,
+    self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassId, Project,
+    Sampler, TexelFormat, Wrap,
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
@@ -171,7 +171,7 @@ impl Setup {
     pub fn state_sized(mut self, name: &str, (width, height): (u32, u32), texels: &[[f32; 4]]) -> Self {
         let path = PathBuf::from(format!("{name}.npy"));
         let bytes = bytemuck::cast_slice(texels).to_vec();
-        self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
+        self.states.push((path.clone(), Arc::new(Texels::flat(width, height, TexelFormat::Rgba32f, bytes))));
         self.initial.push((pass(name), Fill::file(path)));
         self
     }
@@ -293,7 +293,7 @@ impl Setup {
         let (project, _) = self.project()?;
         let mut print = Fingerprint::of(&project);
         for (path, texels) in &self.states {
-            print.eat(format!("{} {} {}", path.display(), texels.width, texels.height).as_bytes());
+            print.eat(format!("{} {} {}", path.display(), texels.shape.width, texels.shape.height).as_bytes());
             print.eat(&texels.bytes);
         }
         print.eat(format!("{:?} {:?} {}", self.size, self.wanted, self.skip).as_bytes());
@@ -344,11 +344,11 @@ pub(super) fn halve(project: &mut Project) {
     }
 }
 
-fn half(format: PassFormat) -> PassFormat {
+fn half(format: TexelFormat) -> TexelFormat {
     match format {
-        PassFormat::R32f => PassFormat::R16f,
-        PassFormat::Rg32f => PassFormat::Rg16f,
-        PassFormat::Rgba32f => PassFormat::Rgba16f,
+        TexelFormat::R32f => TexelFormat::R16f,
+        TexelFormat::Rg32f => TexelFormat::Rg16f,
+        TexelFormat::Rgba32f => TexelFormat::Rgba16f,
         other => other,
     }
 }

@@ -1,6 +1,6 @@
 //! Multigrid V-cycles on a torus as passes of a project: one for every thing that is done on a grid.
 
-use eddy_project::{Channel, Filter, Input, Pass, PassFormat, PassId, PassSize, Project, Sampler, Source, Wrap};
+use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
 
 const SWEPT: &str = include_str!("../../../assets/lab/poisson_cycle/swept.glsl");
 const FIRST: &str = include_str!("../../../assets/lab/poisson_cycle/first.glsl");
@@ -54,7 +54,7 @@ fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
         settings: Default::default(),
     };
     pass.settings.size = size;
-    pass.settings.format = if name.starts_with("rhs") { PassFormat::R32f } else { PassFormat::Rg32f };
+    pass.settings.format = if name.starts_with("rhs") { TexelFormat::R32f } else { TexelFormat::Rg32f };
     pass
 }
 

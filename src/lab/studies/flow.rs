@@ -3,7 +3,7 @@
 
 use super::cycle::{self, Component};
 use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
-use eddy_project::{PassFormat, PassId, Project};
+use eddy_project::{PassId, Project, TexelFormat};
 use std::f64::consts::TAU;
 
 /// Holds what is to be computed.
@@ -80,7 +80,7 @@ impl Solver {
                 let add = move |project: &mut Project| {
                     project.groups.clear();
                     if let Some(pressure) = project.pass_mut(&PassId::Buffer("pressure".into())) {
-                        pressure.settings.format = PassFormat::Rg32f;
+                        pressure.settings.format = TexelFormat::Rg32f;
                     }
                     let divergence = Component { pass: "divergence", component: 'x' };
                     cycle::add(project, n, "pressure", divergence, "pressure");

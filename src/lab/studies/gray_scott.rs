@@ -7,7 +7,7 @@ use crate::{
     setup::{Storage, frames_of, pass},
     three_of,
 };
-use eddy_project::PassFormat;
+use eddy_project::TexelFormat;
 use std::f64::consts::TAU;
 
 pub struct GrayScott;
@@ -80,7 +80,7 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
         "strang-mehrstellen" => stencil(9).define("SPLIT", 1),
         "five-point-rgba32f" | "five-point-rgba16f" => stencil(5).built(|project| {
             if let Some(field) = project.pass_mut(&pass("field")) {
-                field.settings.format = PassFormat::Rgba32f;
+                field.settings.format = TexelFormat::Rgba32f;
             }
         }),
         // Of one recipe, and nobody sows.

@@ -1,7 +1,8 @@
 //! Functions over the unit square that materials are made of. All of them are periodic, and exact on every machine.
 
 use super::noise::hash2;
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 pub type Colour = [f32; 3];
 
@@ -210,7 +211,7 @@ pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) 
             out.copy_from_slice(&[byte(colour[0]), byte(colour[1]), byte(colour[2]), 255]);
         }
     });
-    Texels { width: size as u32, height: size as u32, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(size as u32, size as u32, TexelFormat::Rgba8, bytes)
 }
 
 /// Middle of texel `x` of `size`.

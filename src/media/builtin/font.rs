@@ -6,7 +6,8 @@
 //! cells, 0.5 on the outline and less inside. The letters are drawn here, as strokes on a grid.
 
 use super::field::byte;
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 /// Strokes of the printable ASCII characters, from the space on. A stroke is a row of points, two digits each: x, 1 to
 /// 5, and y, where 2 is the base line, 6 the height of an x, 8 that of a capital and 0 the lowest descender. `~` rounds
@@ -129,7 +130,7 @@ pub fn atlas() -> Texels {
             });
         }
     });
-    Texels { width: SIZE as u32, height: SIZE as u32, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(SIZE as u32, SIZE as u32, TexelFormat::Rgba8, bytes)
 }
 
 type Point = [f32; 2];

@@ -1,7 +1,8 @@
 //! Materials that grew, and what is made of them.
 
 use super::field::{Cells, Colour, Fractal, Noise, byte, lit, mix3, ramp, random, rgb, scale, smoothstep, wave};
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 /// Boards side by side, their grain along them.
 pub fn wood() -> Texels {
@@ -68,7 +69,7 @@ pub fn grass() -> Texels {
 
 fn opaque(size: u32, pixels: &[Colour]) -> Texels {
     let bytes = pixels.iter().flat_map(|c| [byte(c[0]), byte(c[1]), byte(c[2]), 255]).collect();
-    Texels { width: size, height: size, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(size, size, TexelFormat::Rgba8, bytes)
 }
 
 /// Cushions of moss.

@@ -12,7 +12,8 @@ mod noise;
 mod picture;
 mod stone;
 
-use super::{TexelFormat, Texels};
+use super::Texels;
+use eddy_texture::TexelFormat;
 
 /// Makes one texture, top row first.
 type Maker = fn() -> Texels;
@@ -54,7 +55,7 @@ pub fn names() -> [&'static str; ALL.len()] {
 pub fn make(name: &str) -> Option<Texels> {
     let (_, maker) = ALL.iter().find(|(n, _)| *n == name)?;
     let mut texels = maker();
-    let row = texels.width as usize * texels.format.bytes();
+    let row = texels.row_bytes();
     texels.bytes = texels.bytes.chunks_exact(row).rev().flatten().copied().collect();
     Some(texels)
 }

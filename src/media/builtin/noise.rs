@@ -1,6 +1,7 @@
 //! Noises and ordered patterns: values without a picture in them.
 
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 /// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT
 /// 2020).
@@ -19,7 +20,7 @@ pub fn hash2(x: u32, y: u32, seed: u32) -> u32 {
 pub fn white(size: u32, format: TexelFormat, seed: u32) -> Texels {
     let count = size * size * format.bytes() as u32;
     let bytes = (0..count).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
-    Texels { width: size, height: size, format, bytes }
+    Texels::flat(size, size, format, bytes)
 }
 
 /// Bayer's 8x8 matrix of thresholds (1973): the bits of column and row interleaved, the lowest bit counting most.
@@ -35,7 +36,7 @@ pub fn bayer() -> Texels {
             ((2 * rank + 1) * 255 / 128) as u8
         })
         .collect();
-    Texels { width: 8, height: 8, format: TexelFormat::R8, bytes }
+    Texels::flat(8, 8, TexelFormat::R8, bytes)
 }
 
 const TILE: usize = 64;
@@ -61,7 +62,7 @@ fn repeat_tile(size: usize) -> Texels {
             bytes.extend([at(x, y), at(y + 17, flip_x + 29), at(flip_x + 41, flip_y + 11), at(flip_y + 7, x + 47)]);
         }
     }
-    Texels { width: size as u32, height: size as u32, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(size as u32, size as u32, TexelFormat::Rgba8, bytes)
 }
 
 /// Ranks 0..4096 of a 64x64 torus by Ulichney's method ("The void-and-cluster method for dither array generation", SPIE

@@ -4,13 +4,14 @@ use super::{
     field::{Colour, Fractal, lit, mix, mix3, ramp, rgb, scale, smoothstep, wave},
     noise::hash2,
 };
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 /// Red grows to the right and green upwards, so that a place can be read off its colour; blue is one half.
 pub fn gradient() -> Texels {
     let size = 256u32;
     let bytes = (0..size * size).flat_map(|i| [(i % size) as u8, (255 - i / size) as u8, 128, 255]).collect();
-    Texels { width: size, height: size, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(size, size, TexelFormat::Rgba8, bytes)
 }
 
 /// A figure in six steps of a walk, 40 texels apart, with nothing around it.
@@ -59,7 +60,7 @@ pub fn sprites() -> Texels {
             }
         }
     }
-    Texels { width: WIDTH as u32, height: HEIGHT as u32, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(WIDTH as u32, HEIGHT as u32, TexelFormat::Rgba8, bytes)
 }
 
 /// A street at dusk, seen along it.

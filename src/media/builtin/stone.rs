@@ -1,7 +1,8 @@
 //! Materials of stone, earth and metal.
 
 use super::field::{Cells, Fractal, Noise, byte, lit, mix, mix3, ramp, random, rgb, scale, smoothstep};
-use crate::{TexelFormat, Texels};
+use crate::Texels;
+use eddy_texture::TexelFormat;
 
 /// Veins through folded stone.
 pub fn marble() -> Texels {
@@ -55,7 +56,7 @@ pub fn pebbles() -> Texels {
         (dome.max(sand) + 0.012 * grain, [if rim > 0.0 { tone * (0.35 + 0.65 * dome) } else { sand * 0.7 }; 3])
     });
     let bytes = lit.bytes.iter().copied().step_by(4).collect();
-    Texels { format: TexelFormat::R8, bytes, ..lit }
+    Texels::flat(lit.shape.width, lit.shape.height, TexelFormat::R8, bytes)
 }
 
 /// Grains of quartz, feldspar and mica.
@@ -163,5 +164,5 @@ pub fn checkers() -> Texels {
             [value, value, value, 255]
         })
         .collect();
-    Texels { width: size, height: size, format: TexelFormat::Rgba8, bytes }
+    Texels::flat(size, size, TexelFormat::Rgba8, bytes)
 }

@@ -44,7 +44,7 @@ fn every_texture_has_the_same_bytes_on_every_machine() {
     ];
     for (name, sum) in expected {
         let texels = &MADE[name];
-        assert_eq!(texels.bytes.len(), (texels.width * texels.height) as usize * texels.format.bytes(), "{name}");
+        assert_eq!(texels.bytes.len(), texels.shape.bytes() as usize, "{name}");
         assert_eq!(checksum(&texels.bytes), sum, "{name}: {:#x}", checksum(&texels.bytes));
     }
 }
@@ -55,8 +55,8 @@ fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
         let texture = SITE_TEXTURES.iter().find(|s| s.id == id).unwrap();
         let texels = &MADE[texture.fallback];
         let format = if texture.is_grey { TexelFormat::R8 } else { TexelFormat::Rgba8 };
-        assert_eq!(texels.format, format, "{}", texture.fallback);
-        (texels.width, texels.height)
+        assert_eq!(texels.shape.format, format, "{}", texture.fallback);
+        (texels.shape.width, texels.shape.height)
     };
     for id in ["4dXGzr", "XdX3Rn", "XsBSR3", "XsX3Rn", "XsfGRn", "4sfGRn", "Xsf3Rr", "4df3Rr", "XsXGRn", "XdXGzr"] {
         assert_eq!(size(id), (1024, 1024), "{id}");
@@ -72,7 +72,7 @@ fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
 /// Mean step between neighbouring columns and between neighbouring rows: the largest inside, and the larger of the two
 /// where the picture meets itself.
 fn steps(texels: &Texels) -> (f64, f64) {
-    let (w, h, n) = (texels.width as usize, texels.height as usize, texels.format.bytes());
+    let (w, h, n) = (texels.shape.width as usize, texels.shape.height as usize, texels.texel_bytes());
     let at = |x: usize, y: usize| f64::from(texels.bytes[((y % h) * w + x % w) * n]);
     let columns = (0..w).map(|x| (0..h).map(|y| (at(x + 1, y) - at(x, y)).abs()).sum::<f64>() / h as f64);
     let rows = (0..h).map(|y| (0..w).map(|x| (at(x, y + 1) - at(x, y)).abs()).sum::<f64>() / w as f64);
@@ -97,7 +97,7 @@ fn textures_that_say_so_are_seamless() {
 fn blue_noise_has_every_value_as_often_and_no_low_frequencies() {
     // Mean square of what is left of a channel after averaging over 8x8 texels: the low frequencies' part.
     let low = |texels: &Texels, channel: usize| {
-        let w = texels.width as usize;
+        let w = texels.shape.width as usize;
         let mut sum = 0.0;
         for (by, bx) in (0..w / 8).flat_map(|y| (0..w / 8).map(move |x| (y, x))) {
             let mean: f64 =

@@ -6,8 +6,9 @@ mod radiance;
 #[cfg(test)]
 mod tests;
 
-use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, played::Played, site};
+use super::{MediaError, Texels, builtin, error::Excess, npy, played::Played, site};
 use eddy_project::{Media, confine, limits, nearest};
+use eddy_texture::TexelFormat;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{io::Cursor, path::Path};
 
@@ -60,8 +61,8 @@ fn upright(texels: Texels, vflip: bool) -> Texels {
 }
 
 fn flipped(mut texels: Texels) -> Texels {
-    let row = texels.width as usize * texels.format.bytes();
-    let rows = texels.height as usize;
+    let row = texels.row_bytes();
+    let rows = texels.shape.height as usize;
     for y in 0..rows / 2 {
         let (below, above) = texels.bytes.split_at_mut((rows - 1 - y) * row);
         below[y * row..(y + 1) * row].swap_with_slice(&mut above[..row]);
@@ -71,11 +72,12 @@ fn flipped(mut texels: Texels) -> Texels {
 
 /// Returns the red channel alone, as the site uploads its four grey pictures.
 fn red_only(texels: Texels) -> Texels {
-    match texels.format {
+    match texels.shape.format {
         TexelFormat::Rgba8 => {
-            Texels { bytes: texels.bytes.iter().copied().step_by(4).collect(), format: TexelFormat::R8, ..texels }
+            let red = texels.bytes.iter().copied().step_by(4).collect();
+            Texels::flat(texels.shape.width, texels.shape.height, TexelFormat::R8, red)
         }
-        TexelFormat::R8 | TexelFormat::Rgba32Float => texels,
+        _ => texels,
     }
 }
 
@@ -117,9 +119,9 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     }
     let is_other_animation = format == Some(ImageFormat::Png) && apng::begins_behind(&bytes);
     let is_float = matches!(decoder.color_type(), ColorType::Rgb32F | ColorType::Rgba32F);
-    let texel_format = if is_float { TexelFormat::Rgba32Float } else { TexelFormat::Rgba8 };
+    let texel_format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
     // A decoded texel of 16 bits a channel takes more than the one that Eddy keeps.
-    let needed = decoder.total_bytes().max(u64::from(width) * u64::from(height) * texel_format.bytes() as u64);
+    let needed = decoder.total_bytes().max(u64::from(width) * u64::from(height) * texel_format.bytes());
     let too_large = |excess| Err(MediaError::TooLarge { path: path.to_owned(), width, height, excess });
     if width.max(height) > limits::PICTURE_SIDE {
         return too_large(Excess::Side);
@@ -143,16 +145,17 @@ fn texels(image: DynamicImage) -> Texels {
     let (width, height) = (image.width(), image.height());
     match image {
         DynamicImage::ImageRgb32F(image) => {
-            let mut bytes = Vec::with_capacity(width as usize * height as usize * TexelFormat::Rgba32Float.bytes());
+            let mut bytes =
+                Vec::with_capacity(width as usize * height as usize * TexelFormat::Rgba32f.bytes() as usize);
             for texel in image.as_raw().chunks_exact(3) {
                 bytes.extend_from_slice(bytemuck::bytes_of(&[texel[0], texel[1], texel[2], 1.0]));
             }
-            Texels { width, height, format: TexelFormat::Rgba32Float, bytes }
+            Texels::flat(width, height, TexelFormat::Rgba32f, bytes)
         }
         DynamicImage::ImageRgba32F(image) => {
             let bytes = bytemuck::cast_slice(image.as_raw()).to_vec();
-            Texels { width, height, format: TexelFormat::Rgba32Float, bytes }
+            Texels::flat(width, height, TexelFormat::Rgba32f, bytes)
         }
-        _ => Texels { width, height, format: TexelFormat::Rgba8, bytes: image.into_rgba8().into_raw() },
+        _ => Texels::flat(width, height, TexelFormat::Rgba8, image.into_rgba8().into_raw()),
     }
 }

@@ -12,7 +12,7 @@ fn vflip_puts_the_top_row_at_v_one_and_no_value_is_changed() {
     let pixels = vec![1, 2, 3, 4, 128, 129, 130, 0, 250, 251, 252, 253, 9, 8, 7, 6];
     ImageBuffer::<Rgba<u8>, _>::from_raw(2, 2, pixels.clone()).unwrap().save(&path).unwrap();
     let plain = load_file(&path, false).unwrap();
-    assert_eq!((plain.width, plain.height, plain.format), (2, 2, TexelFormat::Rgba8));
+    assert_eq!((plain.shape.width, plain.shape.height, plain.shape.format), (2, 2, TexelFormat::Rgba8));
     assert_eq!(plain.bytes, pixels);
     let flipped = load_file(&path, true).unwrap();
     assert_eq!(flipped.bytes, [&pixels[8..], &pixels[..8]].concat());
@@ -32,7 +32,7 @@ fn a_high_dynamic_range_picture_keeps_values_above_one() {
     let path = dir.path().join("a.hdr");
     ImageBuffer::<Rgb<f32>, _>::from_raw(1, 1, vec![4.0f32, 0.5, 0.25]).unwrap().save(&path).unwrap();
     let texels = load_file(&path, true).unwrap();
-    assert_eq!(texels.format, TexelFormat::Rgba32Float);
+    assert_eq!(texels.shape.format, TexelFormat::Rgba32f);
     assert_eq!(bytemuck::pod_collect_to_vec::<u8, f32>(&texels.bytes), [4.0, 0.5, 0.25, 1.0]);
 }
 
@@ -90,10 +90,13 @@ fn a_file_of_the_sites_name_wins_over_the_fallback_and_grey_ids_are_one_channel(
     let dir = tempfile::tempdir().unwrap();
     let grey = Media::Site { id: "4sf3Rn".into(), path: "/media/a/0a40.png".into() };
     let fallback = load(&grey, true, None, None).unwrap();
-    assert_eq!((fallback.width, fallback.height, fallback.format), (64, 64, TexelFormat::R8));
+    assert_eq!((fallback.shape.width, fallback.shape.height, fallback.shape.format), (64, 64, TexelFormat::R8));
     ImageBuffer::<Rgba<u8>, _>::from_pixel(3, 1, Rgba([7u8, 2, 3, 4])).save(dir.path().join("0a40.png")).unwrap();
     let own = load(&grey, true, None, Some(dir.path())).unwrap();
-    assert_eq!((own.width, own.height, own.format, own.bytes), (3, 1, TexelFormat::R8, vec![7, 7, 7]));
+    assert_eq!(
+        (own.shape.width, own.shape.height, own.shape.format, own.bytes),
+        (3, 1, TexelFormat::R8, vec![7, 7, 7])
+    );
     let unknown = Media::Site { id: "zzz".into(), path: "/media/a/unknown.jpg".into() };
     assert!(matches!(load(&unknown, true, None, Some(dir.path())), Err(MediaError::NoStandIn { .. })));
 }
@@ -107,7 +110,7 @@ fn an_unknown_built_in_names_the_nearest() {
 
 /// Red, green, blue and white at the corners, in reading order.
 fn corners(texels: &Texels) -> String {
-    let (w, h) = (texels.width as usize, texels.height as usize);
+    let (w, h) = (texels.shape.width as usize, texels.shape.height as usize);
     let name = |[x, y]: [usize; 2]| {
         let at = (y * w + x) * 4;
         match texels.bytes[at..at + 3].iter().map(|c| *c > 127).collect::<Vec<_>>()[..] {
@@ -172,7 +175,7 @@ fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
             let c = corners(&texels);
             format!("{}{}", &c[2..], &c[..2])
         });
-        (texels.width, texels.height, corners(&texels))
+        (texels.shape.width, texels.shape.height, corners(&texels))
     };
     let as_stored = (32, 16, "rgbw".to_owned());
     let turned = ["rgbw", "grwb", "wbgr", "bwrg", "rbgw", "brwg", "wgbr", "gwrb"];
@@ -231,7 +234,7 @@ fn a_radiance_picture_is_upright_however_its_scanlines_run() {
             bytes.extend([(10 * y + x) as u8, 64, 0, 128 + 8]);
         }
         let texels = read(&bytes).unwrap_or_else(|e| panic!("{axes}: {e}"));
-        assert_eq!((texels.width, texels.height), (3, 2), "{axes}");
+        assert_eq!((texels.shape.width, texels.shape.height), (3, 2), "{axes}");
         let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(&texels.bytes);
         let reds: Vec<f32> = numbers.iter().copied().step_by(4).collect();
         assert_eq!(reds, [0.0, 1.0, 2.0, 10.0, 11.0, 12.0], "{axes}");

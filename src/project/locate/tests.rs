@@ -1,7 +1,7 @@
 //! Tests of opening: every kind of project, and what is said of those that are broken.
 
 use super::*;
-use crate::{Channel, Filter, Input, Media, Origin, PassFormat, PassSize, Region, Sampler, Wrap};
+use crate::{Channel, Filter, Input, Media, Origin, PassSize, Region, Sampler, TexelFormat, Wrap};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -206,8 +206,8 @@ fn eddy_toml_says_how_passes_are_drawn() {
     ]);
     let project = load_path(dir.path()).unwrap().project;
     let [a, b, image] = project.passes.as_slice() else { panic!() };
-    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), PassFormat::Rgba16f));
-    assert_eq!((b.settings.size, b.settings.format), (PassSize::Fixed(256, 1), PassFormat::Rgba32f));
+    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), TexelFormat::Rgba16f));
+    assert_eq!((b.settings.size, b.settings.format), (PassSize::Fixed(256, 1), TexelFormat::Rgba32f));
     assert_eq!(image.settings.region, Some(Region { x: 1, y: 2, width: 3, height: 4 }));
     assert_eq!((project.groups[0].passes.len(), project.groups[0].steps), (2, 20));
     for (key, pass, message) in [

@@ -5,8 +5,8 @@ use super::{
     reader::Reader,
 };
 use crate::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassFormat, PassId, PassSettings,
-    Source, Stage,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassId, PassSettings, Source, Stage,
+    TexelFormat,
 };
 use std::ops::Range;
 use toml_edit::{Array, InlineTable, Item, TableLike, Value};
@@ -182,7 +182,7 @@ impl Reader<'_> {
         !table.contains_key(key) || self.boolean(table, key) == Some(true)
     }
 
-    fn targets(&mut self, pass: &dyn TableLike, settings: &mut PassSettings) -> Vec<PassFormat> {
+    fn targets(&mut self, pass: &dyn TableLike, settings: &mut PassSettings) -> Vec<TexelFormat> {
         let Some(item) = pass.get("targets") else { return Vec::new() };
         if let Some(format) = pass.get("format") {
             self.error(format.span(), "the formats of this pass are in targets", "remove format");
@@ -193,7 +193,7 @@ impl Reader<'_> {
                 formats[1..].to_vec()
             }
             None => {
-                let known = PassFormat::ALL.map(PassFormat::name);
+                let known = TexelFormat::ALL.map(TexelFormat::name);
                 let shape = format!("a list of one to {MAX_TARGETS} of the formats {}", crate::listed(&known));
                 self.wrong_type("targets", item, &shape);
                 Vec::new()
@@ -255,12 +255,12 @@ fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64)).filter(|x| x.is_finite())
 }
 
-fn targets(item: &Item) -> Option<Vec<PassFormat>> {
+fn targets(item: &Item) -> Option<Vec<TexelFormat>> {
     let format = |v: &Value| {
         let name = v.as_str()?;
-        PassFormat::ALL.into_iter().find(|f| f.name().eq_ignore_ascii_case(name))
+        TexelFormat::ALL.into_iter().find(|f| f.name().eq_ignore_ascii_case(name))
     };
-    let formats: Vec<PassFormat> = item.as_array()?.iter().map(format).collect::<Option<_>>()?;
+    let formats: Vec<TexelFormat> = item.as_array()?.iter().map(format).collect::<Option<_>>()?;
     (1..=MAX_TARGETS).contains(&formats.len()).then_some(formats)
 }
 

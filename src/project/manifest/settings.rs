@@ -5,8 +5,8 @@ use super::{
     reader::Reader,
 };
 use crate::{
-    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, draws::draws, file_names, limits, listed,
-    nearest,
+    Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, draws::draws, file_names, limits,
+    listed, nearest,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
@@ -48,8 +48,8 @@ impl Reader<'_> {
                 ),
             }
         }
-        if let Some(name) = self.one_of(table, "format", &PassFormat::ALL.map(PassFormat::name)) {
-            settings.format = PassFormat::ALL.into_iter().find(|f| f.name() == name).unwrap_or_default();
+        if let Some(name) = self.one_of(table, "format", &TexelFormat::ALL.map(TexelFormat::name)) {
+            settings.format = TexelFormat::ALL.into_iter().find(|f| f.name() == name).unwrap_or_default();
         }
         if let Some(item) = table.get("region") {
             match region(item) {
@@ -211,8 +211,8 @@ pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings)
     // Of several targets `targets` says it.
     if table.contains_key("targets") || settings.formats().len() > 1 {
         table.remove("format");
-    } else if written.as_deref().unwrap_or(PassFormat::default().name()) != settings.format.name() {
-        set(table, "format", (settings.format != PassFormat::default()).then(|| settings.format.name().into()));
+    } else if written.as_deref().unwrap_or(TexelFormat::default().name()) != settings.format.name() {
+        set(table, "format", (settings.format != TexelFormat::default()).then(|| settings.format.name().into()));
     }
     if table.get("region").and_then(region) != settings.region {
         let numbers = settings.region.map(|r| [r.x, r.y, r.width, r.height].into_iter().map(i64::from).collect());

@@ -2,8 +2,8 @@
 
 use super::{error::PassEditError, groups};
 use crate::{
-    Boundary, Fill, FillValue, Filter, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler, Source, Tab, Wrap,
-    confine,
+    Boundary, Fill, FillValue, Filter, Pass, PassId, PassSize, Project, Region, Sampler, Source, Tab, TexelFormat,
+    Wrap, confine,
     draws::draws,
     file_names::{self, Role},
     limits,
@@ -25,7 +25,7 @@ pub enum PassEdit {
         to: usize,
     },
     Size(PassId, PassSize),
-    Format(PassId, PassFormat),
+    Format(PassId, TexelFormat),
     Region(PassId, Option<Region>),
     /// Sets what a buffer holds before frame 0; `None`: zeros.
     Initial(PassId, Option<FillValue>),

@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
-    self as project, Channel, FillValue, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project,
-    Region, Sampler, Tab, Wrap,
+    self as project, Channel, FillValue, Filter, Group, Input, Overwrite, PassId, PassSize, Project, Region, Sampler,
+    Tab, TexelFormat, Wrap,
 };
 use std::{
     fs,
@@ -205,7 +205,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
     for edit in [
         PassEdit::Size(buffer("A"), PassSize::Scale(0.5)),
         PassEdit::Size(buffer("B"), PassSize::Fixed(64, 32)),
-        PassEdit::Format(buffer("A"), PassFormat::Rg16f),
+        PassEdit::Format(buffer("A"), TexelFormat::Rg16f),
         PassEdit::Region(buffer("A"), Some(region)),
         PassEdit::Region(PassId::Image, Some(region)),
         PassEdit::Filter(buffer("A"), Filter::Mipmap),
@@ -215,7 +215,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
     }
     let after = saved(&project, dir.path());
     let a = after.pass(&buffer("A")).unwrap();
-    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), PassFormat::Rg16f));
+    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), TexelFormat::Rg16f));
     let read = Some(Channel {
         input: Input::Buffer("A".into()),
         sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true },
@@ -228,7 +228,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
         PassEdit::Size(buffer("A"), PassSize::Scale(f64::NAN)),
         PassEdit::Size(buffer("A"), PassSize::Fixed(0, 3)),
         PassEdit::Size(PassId::Image, PassSize::Scale(0.5)),
-        PassEdit::Format(PassId::Image, PassFormat::R8),
+        PassEdit::Format(PassId::Image, TexelFormat::R8),
         PassEdit::Region(buffer("A"), Some(Region { width: 0, ..region })),
         PassEdit::Filter(PassId::Image, Filter::Linear),
         PassEdit::Remove(Tab::Pass(PassId::Image)),

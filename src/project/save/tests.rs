@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::{
-    Boundary, Channel, Fill, Filter, Info, Input, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
+    Boundary, Channel, Fill, Filter, Info, Input, Pass, PassSettings, PassSize, Region, Sampler, TexelFormat, Wrap,
+    load,
 };
 use std::{
     fs,
@@ -54,7 +55,7 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
             1 => PassSize::Scale(0.25 + r.below(3) as f64),
             _ => PassSize::Fixed(1 + r.below(99) as u32, 7),
         };
-        settings.format = PassFormat::ALL[r.below(PassFormat::ALL.len())];
+        settings.format = TexelFormat::ALL[r.below(TexelFormat::ALL.len())];
     }
     if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });

@@ -67,12 +67,12 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         ("groups", |p, _| p.groups.push(eddy_project::Group { name: "g".into(), passes: vec![], steps: 2 })),
         ("a value", |p, _| drop(p.custom_uniform_values.insert("x".into(), CustomUniformValue::Int(1)))),
         ("size", |p, _| p.passes[0].settings.size = eddy_project::PassSize::Scale(0.25)),
-        ("format", |p, _| p.passes[0].settings.format = eddy_project::PassFormat::R8),
+        ("format", |p, _| p.passes[0].settings.format = eddy_project::TexelFormat::R8),
         ("region", |p, _| p.passes[0].settings.region = Some(eddy_project::Region { x: 0, y: 0, width: 1, height: 1 })),
         ("no meshes", |p, i| p.passes[i].settings.body = PassBody::Screen),
         ("a draw less", |p, i| drop(p.passes[i].settings.meshes_mut().unwrap().draws.pop())),
         ("a target more", |p, i| {
-            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(eddy_project::PassFormat::R8)
+            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(eddy_project::TexelFormat::R8)
         }),
         ("the camera", |p, i| p.passes[i].settings.meshes_mut().unwrap().camera.fov += 1.0),
         ("a stage's file", |p, i| p.passes[i].settings.meshes_mut().unwrap().stages[0].name.push('x')),

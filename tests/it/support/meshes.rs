@@ -2,8 +2,8 @@
 
 use super::{buffer, image, pass, project};
 use eddy::project::{
-    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassFormat,
-    Project, Sampler, Source, Stage, Wrap,
+    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, Project, Sampler,
+    Source, Stage, TexelFormat, Wrap,
 };
 
 /// A mesh before the camera, as a manifest that says nothing more has it.
@@ -32,7 +32,7 @@ pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, dr
     let mut scene = pass(buffer("scene"), fragment, Default::default());
     scene.settings.body = PassBody::Meshes(Geometry {
         draws,
-        more_targets: vec![PassFormat::Rgba32f; targets - 1],
+        more_targets: vec![TexelFormat::Rgba32f; targets - 1],
         camera,
         stages: stages.iter().enumerate().map(|(i, t)| source(&format!("stage_{i}.glsl"), t)).collect(),
     });

@@ -1,0 +1,76 @@
+//! The formats of texels.
+
+/// The format of a texture's texels. Components a format lacks are read as 0, alpha as 1; a byte reads as its 255th part,
+/// never decoded from sRGB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TexelFormat {
+    R8,
+    Rg8,
+    Rgba8,
+    R16f,
+    Rg16f,
+    Rgba16f,
+    R32f,
+    Rg32f,
+    #[default]
+    Rgba32f,
+}
+
+impl TexelFormat {
+    pub const ALL: [TexelFormat; 9] = [
+        TexelFormat::Rgba32f,
+        TexelFormat::Rgba16f,
+        TexelFormat::Rgba8,
+        TexelFormat::Rg32f,
+        TexelFormat::Rg16f,
+        TexelFormat::Rg8,
+        TexelFormat::R32f,
+        TexelFormat::R16f,
+        TexelFormat::R8,
+    ];
+
+    /// Returns the name in `eddy.toml`.
+    pub fn name(self) -> &'static str {
+        match self {
+            TexelFormat::R8 => "r8",
+            TexelFormat::Rg8 => "rg8",
+            TexelFormat::Rgba8 => "rgba8",
+            TexelFormat::R16f => "r16f",
+            TexelFormat::Rg16f => "rg16f",
+            TexelFormat::Rgba16f => "rgba16f",
+            TexelFormat::R32f => "r32f",
+            TexelFormat::Rg32f => "rg32f",
+            TexelFormat::Rgba32f => "rgba32f",
+        }
+    }
+
+    /// Components of a texel; what is missing reads as 0, alpha as 1.
+    pub fn components(self) -> usize {
+        match self {
+            TexelFormat::R8 | TexelFormat::R16f | TexelFormat::R32f => 1,
+            TexelFormat::Rg8 | TexelFormat::Rg16f | TexelFormat::Rg32f => 2,
+            TexelFormat::Rgba8 | TexelFormat::Rgba16f | TexelFormat::Rgba32f => 4,
+        }
+    }
+
+    /// Floats of 16 bits.
+    pub fn is_small_float(self) -> bool {
+        matches!(self, TexelFormat::R16f | TexelFormat::Rg16f | TexelFormat::Rgba16f)
+    }
+
+    /// Bytes of a texel.
+    pub fn bytes(self) -> u64 {
+        match self {
+            TexelFormat::R8 => 1,
+            TexelFormat::Rg8 | TexelFormat::R16f => 2,
+            TexelFormat::Rgba8 | TexelFormat::Rg16f | TexelFormat::R32f => 4,
+            TexelFormat::Rgba16f | TexelFormat::Rg32f => 8,
+            TexelFormat::Rgba32f => 16,
+        }
+    }
+
+    /// Holds 32-bit floats, which not every device filters.
+    pub fn is_32_bit(self) -> bool {
+        matches!(self, TexelFormat::R32f | TexelFormat::Rg32f | TexelFormat::Rgba32f)
+    }
+}
