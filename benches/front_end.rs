@@ -6,8 +6,9 @@
 
 use eddy::{
     diag::SourceId,
-    glsl::{self, ChannelKind, PassKind, PassSource, Text, services::Analysis},
-    project::{self, Input, PassId, Project},
+    engine::{channel_kinds, pass_kind},
+    glsl::{self, PassSource, Text, services::Analysis},
+    project::{self, PassId, Project},
 };
 use std::time::{Duration, Instant};
 
@@ -98,20 +99,10 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
     let pass = &project.passes[index];
     let common = project.common.as_ref().map(|c| c.compile_text());
     let code = pass.source.compile_text();
-    let kind = match pass.id {
-        PassId::Image => PassKind::Image,
-        PassId::Buffer(_) => PassKind::Buffer,
-        PassId::Cubemap => PassKind::Cubemap,
-        PassId::Sound => PassKind::Sound,
-    };
     let source = PassSource {
         common: common.as_deref().map(|text| Text { id: SourceId(0), text }),
-        channels: std::array::from_fn(|i| match pass.channels[i].as_ref().map(|c| &c.input) {
-            Some(Input::Cubemap(_) | Input::CubemapPass) => ChannelKind::SamplerCube,
-            Some(Input::Volume(_)) => ChannelKind::Sampler3D,
-            _ => ChannelKind::Sampler2D,
-        }),
-        ..PassSource::new(kind, Text { id: SourceId(1), text: &code })
+        channels: channel_kinds(pass),
+        ..PassSource::new(pass_kind(&pass.id), Text { id: SourceId(1), text: &code })
     };
     let analysis = Analysis::new(&source);
     let last_line = code.trim_end().trim_end_matches('}').len();

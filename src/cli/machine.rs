@@ -244,7 +244,7 @@ fn is_drawn(project: &Project, pass: &PassId) -> Result<(), Trouble> {
             let error = anyhow::anyhow!("there is no pass {}; there are {}", pass.key(), project::listed(&there));
             Err(error.into())
         }
-        Some(_) if matches!(pass, PassId::Cubemap | PassId::Sound) => {
+        Some(_) if !pass.is_drawn() => {
             Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", pass.title())))
         }
         Some(_) => Ok(()),

@@ -163,8 +163,10 @@ fn view<'a>(
             let one_level = is_linear && channel.filter_mode == FilterMode::Shader;
             if one_level { &texture.level_0 } else { &texture.all_levels }
         }
-        Some(Source::Keyboard) => &shared.keyboard.texture.all_levels,
-        _ => channel.media.as_ref().map_or(shared.fallbacks.of(channel.dimension), |media| &media.all_levels),
+        _ => match &channel.external {
+            Some(external) => &external.texture.all_levels,
+            None => shared.fallbacks.of(channel.dimension),
+        },
     }
 }
 

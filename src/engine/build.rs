@@ -18,7 +18,7 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{FillKind, Input, Media, Pass, PassId, PassSettings, Project};
+use eddy_project::{FillKind, Input, InputKind, Media, Pass, PassId, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -153,11 +153,13 @@ impl Builder {
         }
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
         let mut drafts = Vec::with_capacity(plan.draws.len());
-        let binder = ChannelBinder { gpu: &self.gpu, project: &drawable, media };
+        let (gpu, uploads) = (&self.gpu, &mut self.uploads);
+        let mut binder = ChannelBinder { gpu, project: &drawable, media, uploads, externals: Vec::new() };
         for draw in &plan.draws {
             let Some(parts) = passes[draw.pass].take() else { continue };
-            drafts.push(DrawDraft::new(&binder, &mut self.uploads, &plan, draw, parts)?);
+            drafts.push(DrawDraft::new(&mut binder, &plan, draw, parts)?);
         }
+        let externals = binder.externals;
         let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
             let order = TrialOrder { project, wanted: &options.wanted, skip: options.skip };
@@ -173,6 +175,7 @@ impl Builder {
         let program = Program {
             plan,
             draws,
+            externals,
             custom_uniforms: texts.custom_uniforms().list.clone(),
             custom_uniform_values: project.custom_uniform_values.clone(),
         };
@@ -201,13 +204,13 @@ impl Builder {
         let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
         diagnostics.extend(media.mesh_errors(project));
         diagnostics.extend(media.fill_errors(project));
-        let drawn = project.passes.iter().enumerate().filter(|(_, pass)| is_drawn(pass));
+        let drawn = project.passes.iter().enumerate().filter(|(_, pass)| pass.id.is_drawn());
         let options: Vec<_> = drawn.map(|(index, _)| (index, self.options(project, media, index, build))).collect();
         texts.compile_ahead(&mut self.stages, options);
         // Image is drawn last, wherever it stands in the project: its probe is drawn after all buffers.
         let mut probe_of_image = None;
         for (index, pass) in project.passes.iter().enumerate() {
-            if !is_drawn(pass) {
+            if !pass.id.is_drawn() {
                 let what = pass.id.title();
                 diagnostics.push(Diagnostic::warning(None, format!("the pass {what} is not drawn; it reads as black")));
                 continue;
@@ -237,7 +240,7 @@ impl Builder {
                     Ok(compiled) => {
                         let filter_mode = filter_mode(&self.gpu, project, media, index);
                         let parts = CompiledParts { compiled, fills: [None, None], filter_mode };
-                        probe_of_image = Some((without_cubemap_passes(probed(pass)), parts));
+                        probe_of_image = Some((without_undrawn_passes(probed(pass)), parts));
                     }
                     Err(errors) => said.extend(errors),
                 }
@@ -245,7 +248,7 @@ impl Builder {
             match texts.compile_pass_with(&mut self.stages, index, options) {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
-                    drawable.passes.push(without_cubemap_passes(pass.clone()));
+                    drawable.passes.push(without_undrawn_passes(pass.clone()));
                     let filter_mode = filter_mode(&self.gpu, project, media, index);
                     passes.push(CompiledParts { compiled, fills, filter_mode });
                 }
@@ -270,11 +273,6 @@ struct Compilation {
     drawable: Project,
     passes: Vec<CompiledParts>,
     diagnostics: Vec<Diagnostic>,
-}
-
-/// Returns whether the engine draws a pass of this kind.
-fn is_drawn(pass: &Pass) -> bool {
-    !matches!(pass.id, PassId::Cubemap | PassId::Sound)
 }
 
 /// Returns what the device's driver needs of the code of a pass.
@@ -302,11 +300,11 @@ fn probed(pass: &Pass) -> Pass {
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
 }
 
-/// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.
-fn without_cubemap_passes(mut pass: Pass) -> Pass {
+/// A channel that reads a pass which is not drawn is as one whose file is missing.
+fn without_undrawn_passes(mut pass: Pass) -> Pass {
     for channel in pass.channels.iter_mut().flatten() {
-        if channel.input == Input::CubemapPass {
-            channel.input = Input::Cubemap(Media::Builtin("cube_a".into()));
+        if let Some((id, _)) = channel.input.target().filter(|(id, _)| !id.is_drawn()) {
+            channel.input = Input::Media { kind: InputKind::Cubemap, media: Media::Builtin(id.key()) };
         }
     }
     pass

@@ -101,10 +101,9 @@ impl Engine {
             if costs.iter().any(|c| c.pass == pass.id) {
                 continue;
             }
-            let is_known = !matches!(pass.id, PassId::Cubemap | PassId::Sound);
             costs.push(PassCost {
                 pass: pass.id.clone(),
-                role: if is_known { PassRole::Unread } else { PassRole::Unsupported },
+                role: if pass.id.is_drawn() { PassRole::Unread } else { PassRole::Unsupported },
                 size: pass.settings.size.of(canvas),
                 formats: pass.settings.formats(),
                 steps: 0,

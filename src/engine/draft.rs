@@ -7,7 +7,6 @@ use super::{
     pipelines::{MeshState, PipelineOrder, StagePipeline},
     placed::PlacedMesh,
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
-    uploads::Uploads,
 };
 use eddy_glsl::{Reflection, interface};
 use eddy_gpu::Binding;
@@ -32,8 +31,7 @@ pub(super) struct DrawDraft {
 impl DrawDraft {
     /// Uploads what a draw reads, and says which pipelines it needs.
     pub fn new(
-        binder: &ChannelBinder<'_>,
-        uploads: &mut Uploads,
+        binder: &mut ChannelBinder<'_>,
         plan: &FramePlan,
         draw: &Draw,
         parts: CompiledParts,
@@ -44,30 +42,30 @@ impl DrawDraft {
         for (index, bound) in channels.iter_mut().enumerate() {
             let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
             let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
-            *bound = binder.bind(uploads, channel, used, filter_mode[index], mips)?;
+            *bound = binder.bind(channel, used, filter_mode[index], mips)?;
         }
         let body = match &pass.settings.body {
             PassBody::Screen => BodyDraft::Screen,
             PassBody::Meshes(geometry) => BodyDraft::Meshes {
                 camera: geometry.camera,
                 states: geometry.draws.iter().map(MeshState::of).collect(),
-                placed: uploads.placed(binder.gpu, binder.media, geometry)?,
+                placed: binder.uploads.placed(binder.gpu, binder.media, geometry)?,
             },
         };
         let formats: Vec<TexelFormat> = draw.all_targets().map(|target| plan.targets[target].format).collect();
-        let program = ProgramDraft::new(pass, compiled, channels, draw, &formats, body);
+        let program = ProgramDraft::new(pass, compiled, channels, &formats, body);
         let mut drafted = [None, None];
         for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
             let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
             let mut channels: [BoundChannel; 4] = Default::default();
-            let texels = fill.value.path().and_then(|path| binder.media.fill(path));
-            if let Some(texels) = texels {
-                channels[0] = binder.bind_fill(uploads, texels, compiled.reflection.channels[0])?;
+            let picture = fill.value.path().and_then(|path| Some((path, binder.media.fill(path)?)));
+            if let Some((path, texels)) = picture {
+                channels[0] = binder.bind_fill(path, texels, compiled.reflection.channels[0])?;
             }
-            let draw = draw.of_fill(texels.is_some());
+            let draw = draw.of_fill(picture.is_some());
             // Boundaries are drawn with the pass. What is drawn before frame 0 has the pass's own target only.
             let formats = if kind == FillKind::Boundary { &formats[..] } else { &formats[..1] };
-            let program = ProgramDraft::new(pass, compiled, channels, &draw, formats, BodyDraft::Screen);
+            let program = ProgramDraft::new(pass, compiled, channels, formats, BodyDraft::Screen);
             *drafted = Some((program, draw));
         }
         Ok(Self { program, fills: drafted })
@@ -109,12 +107,11 @@ impl ProgramDraft {
         pass: &Pass,
         compiled: CompiledPass,
         channels: [BoundChannel; 4],
-        draw: &Draw,
         formats: &[TexelFormat],
         body: BodyDraft,
     ) -> Self {
         let CompiledPass { programs, reflection, .. } = compiled;
-        let channel_group = channel_bindings(&channels, draw);
+        let channel_group = channel_bindings(&channels);
         let order = |(n, program): (usize, CompiledProgram)| PipelineOrder {
             label: pass.id.title(),
             groups: [uniform_bindings(&program, &reflection), channel_group.clone()],

@@ -11,7 +11,7 @@ use super::{
 };
 use eddy_glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP};
 use eddy_gpu::Gpu;
-use eddy_graph::{Draw, Source};
+use eddy_graph::Draw;
 use eddy_project::Boundary;
 
 /// The value of a probe that never was there.
@@ -41,18 +41,17 @@ impl Running {
     /// Draws one frame, and the picture that a display shows.
     pub fn draw(
         &mut self,
-        shared: &mut Shared,
+        shared: &Shared,
         display: Option<&Display>,
         inputs: &FrameInputs,
         mut mode: DrawMode<'_, '_>,
     ) -> Result<FrameStats, EngineError> {
         self.drop_remaining();
-        shared.keyboard.show(&shared.gpu, &inputs.keyboard);
-        let shared = &*shared;
         let gpu = &shared.gpu;
+        self.program.externals.iter_mut().for_each(|external| external.update(gpu, inputs));
         self.set_uniforms(gpu, inputs);
         // The same at every step.
-        let reads: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(shared, index)).collect();
+        let reads: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         // Stamps of a frame in pieces would not be of one submission.
         let is_in_pieces = matches!(mode, DrawMode::Watched(_) | DrawMode::Divided);
@@ -160,13 +159,13 @@ impl Running {
     }
 
     /// Returns everything a draw reads that is no target; for [`eddy_graph::Changes::must_draw`].
-    fn inputs_of(&self, shared: &Shared, index: usize) -> Vec<u8> {
+    fn inputs_of(&self, index: usize) -> Vec<u8> {
         let (compiled, draw) = (&self.program.draws[index], &self.program.plan.draws[index]);
         let mut read = Vec::new();
         if draw.is_cacheable {
             self.uniforms.add_read_by(index, compiled, &mut read);
-            if draw.reads.iter().flatten().any(|r| r.source == Source::Keyboard) {
-                read.extend(shared.keyboard.changes.to_le_bytes());
+            for external in compiled.channels.iter().filter_map(|channel| channel.external.as_ref()) {
+                read.extend(self.program.externals[external.index].version.to_le_bytes());
             }
         }
         read

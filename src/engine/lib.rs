@@ -16,6 +16,7 @@ mod custom_uniforms;
 mod display;
 mod draft;
 mod error;
+mod external;
 mod fill_text;
 mod frame;
 mod inputs;

@@ -1,6 +1,6 @@
 //! A program: compiled passes, their pipelines, and the plan of a frame. It does not change from frame to frame.
 
-use super::{pipelines::StagePipeline, placed::PlacedMesh};
+use super::{external::External, pipelines::StagePipeline, placed::PlacedMesh};
 use eddy_glsl::{CustomUniformSet, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
@@ -14,6 +14,8 @@ pub struct Program {
     pub(super) plan: FramePlan,
     /// One for each of the plan's draws.
     pub(super) draws: Vec<CompiledDraw>,
+    /// The textures that its channels read and no pass draws.
+    pub(super) externals: Vec<External>,
     /// The author's own uniforms, in the order of their slots.
     pub(super) custom_uniforms: Vec<CustomUniform>,
     /// The values that the program starts with.
@@ -94,12 +96,18 @@ pub(super) struct BoundChannel {
     pub texture: bool,
     pub sampler: bool,
     pub filter_mode: FilterMode,
-    /// The picture, where the channel reads one and it is there.
-    pub media: Option<Texture>,
+    /// What it reads of [`Program::externals`].
+    pub external: Option<BoundExternal>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.
     pub resolution: [f32; 3],
     /// The size of the buffer the channel names, if it names one.
     pub buffer: Option<PassSize>,
+}
+
+/// One of a program's external textures, by its place there.
+pub(super) struct BoundExternal {
+    pub index: usize,
+    pub texture: Texture,
 }
 
 impl Program {

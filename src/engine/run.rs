@@ -68,7 +68,7 @@ impl Engine {
         inputs: &FrameInputs,
     ) -> Result<Program, EngineError> {
         let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
-        running.draw(&mut self.shared, None, inputs, DrawMode::Whole)?;
+        running.draw(&self.shared, None, inputs, DrawMode::Whole)?;
         self.shared.gpu.wait()?;
         Ok(running.program)
     }
@@ -106,7 +106,7 @@ impl Engine {
     /// Draws one frame. Does not wait for the device.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Whole)?;
+        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Whole)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok(stats)
     }
@@ -122,7 +122,7 @@ impl Engine {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<bool, EngineError> {
         let Some(running) = &mut self.running else { return Ok(true) };
-        running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Divided)?;
+        running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Divided)?;
         self.shared.gpu.wait()?;
         running.draw_remaining(&self.shared, &self.display, rows, goes_on)
     }
@@ -143,7 +143,7 @@ impl Engine {
     ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
         let Some(running) = &mut self.running else { return Ok(Default::default()) };
         let mut watch = Watch::new(now, &running.program);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Watched(&mut watch))?;
+        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Watched(&mut watch))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, watch.times(&running.program)))
     }
@@ -159,7 +159,7 @@ impl Engine {
         let running = self.running.as_mut().ok_or_else(none)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let mut capture = Capture::new(pass, converter);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, DrawMode::Inspected(&mut capture))?;
+        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Inspected(&mut capture))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, capture.taken.ok_or_else(none)?))
     }

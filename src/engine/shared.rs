@@ -1,15 +1,12 @@
-//! The parts that every program draws with: the device, samplers, the keyboard, and textures for channels that have
-//! none.
+//! The parts that every program draws with: the device, samplers, and textures for channels that have none.
 
 use eddy_gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor};
-use eddy_media::Keyboard;
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 
 pub(super) struct Shared {
     pub gpu: Gpu,
     pub samplers: Samplers,
     pub fallbacks: FallbackTextures,
-    pub keyboard: KeyboardTexture,
     pub mips: MipMaker,
 }
 
@@ -18,7 +15,6 @@ impl Shared {
         Ok(Self {
             samplers: Samplers::new(&gpu),
             fallbacks: FallbackTextures::new(&gpu)?,
-            keyboard: KeyboardTexture::new(&gpu)?,
             mips: MipMaker::new(&gpu),
             gpu,
         })
@@ -54,30 +50,6 @@ impl FallbackTextures {
             Dimension::D2 => &self.flat.all_levels,
             Dimension::D3 => &self.volume.all_levels,
             Dimension::Cube => &self.cube.all_levels,
-        }
-    }
-}
-
-/// The keyboard as a texture, 256 x 3 texels.
-pub(super) struct KeyboardTexture {
-    pub texture: Texture,
-    shown: Vec<u8>,
-    /// Number of times that it has changed.
-    pub changes: u64,
-}
-
-impl KeyboardTexture {
-    fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let descriptor = TextureDescriptor { label: "keyboard", shape: Keyboard::SHAPE, is_target: false };
-        Ok(Self { texture: Texture::new(gpu, &descriptor)?, shown: Vec::new(), changes: 0 })
-    }
-
-    /// Writes the keys of a frame if they are other than before.
-    pub fn show(&mut self, gpu: &Gpu, keyboard: &Keyboard) {
-        if self.shown != keyboard.bytes() {
-            self.texture.write(gpu, keyboard.bytes());
-            self.shown = keyboard.bytes().to_vec();
-            self.changes += 1;
         }
     }
 }

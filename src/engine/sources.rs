@@ -9,8 +9,8 @@ use eddy_glsl::{
     walkable::{Detail, Walkable},
 };
 use eddy_project::{
-    Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
-    Source, Stage, lines_not_obeyed,
+    Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source,
+    Stage, lines_not_obeyed,
 };
 use eddy_texture::Dimension;
 use std::{
@@ -345,9 +345,5 @@ pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
 
 /// Returns the dimension of the texture that a channel reads.
 pub(super) fn dimension(channel: Option<&Channel>) -> Dimension {
-    match channel.map(|c| &c.input) {
-        Some(Input::Cubemap(_) | Input::CubemapPass) => Dimension::Cube,
-        Some(Input::Volume(_)) => Dimension::D3,
-        _ => Dimension::D2,
-    }
+    channel.map_or(Dimension::D2, |channel| channel.input.row().dimension)
 }

@@ -42,13 +42,9 @@ pub enum When {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An index into [`FramePlan::targets`].
-    Target {
-        index: usize,
-        when: When,
-    },
-    Keyboard,
-    /// The media the project names for this channel.
-    Media,
+    Target { index: usize, when: When },
+    /// A texture that something else than a pass fills.
+    External,
     /// No input, or one that no texture can be had for: opaque black, of size 0.
     Nothing,
 }
@@ -113,7 +109,7 @@ impl Draw {
     /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it
     /// is one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
-        let read = is_picture.then_some(Read { source: Source::Media, sampler: FILL_SAMPLER, mips: false });
+        let read = is_picture.then_some(Read { source: Source::External, sampler: FILL_SAMPLER, mips: false });
         Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
     }
 }
@@ -205,13 +201,14 @@ impl FramePlan {
         let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
         let formats = settings.formats();
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
-            let dimension = if *id == PassId::Cubemap { Dimension::Cube } else { Dimension::D2 };
+            let row = id.row();
+            let size = if settings.size == PassSize::Canvas { row.size } else { settings.size };
             let first = self.targets.len();
             self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
                 index,
-                dimension,
-                size: settings.size,
+                dimension: row.target.unwrap_or_default(),
+                size,
                 format,
                 doubled: false,
                 mips: false,
@@ -248,28 +245,16 @@ impl FramePlan {
         let sampler = effective_sampler(project, pass, channel);
         let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
             None => Source::Nothing,
-            Some(Input::Keyboard) => Source::Keyboard,
-            Some(Input::Texture(_)) => Source::Media,
-            Some(input @ (Input::Buffer(name) | Input::Target { buffer: name, .. })) => {
-                let index = input.buffer().map_or(0, |(_, index)| index);
-                self.target_read(project, drawn, place, PassId::Buffer(name.clone()), index)
-            }
-            Some(Input::CubemapPass) => self.target_read(project, drawn, place, PassId::Cubemap, 0),
-            Some(
-                Input::Cubemap(_)
-                | Input::Volume(_)
-                | Input::Video(_)
-                | Input::Music(_)
-                | Input::Microphone
-                | Input::Webcam,
-            ) => Source::Nothing,
+            Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
+            Some(input) if input.row().undrawn.is_some() => Source::Nothing,
+            Some(Input::Media { .. } | Input::Device(_)) => Source::External,
         };
         Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })
     }
 
-    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: PassId, index: usize) -> Source {
-        let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == id);
-        let Some(index) = self.targets(project, &id).nth(index) else { return Source::Nothing };
+    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: &PassId, index: usize) -> Source {
+        let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
+        let Some(index) = self.targets(project, id).nth(index) else { return Source::Nothing };
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
@@ -298,7 +283,7 @@ impl FramePlan {
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
                 (0..4).any(|c| {
-                    project.passes[p].channels[c].as_ref().is_some_and(|ch| input_is(&ch.input, &id, own_index))
+                    project.passes[p].channels[c].as_ref().is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
                         && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
                 })
             });
@@ -320,26 +305,18 @@ impl FramePlan {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {
                         Source::Target { index, .. } => self.targets[index].mips,
-                        Source::Media => true,
-                        Source::Keyboard | Source::Nothing => false,
+                        Source::External => true,
+                        Source::Nothing => false,
                     };
             }
         }
     }
 }
 
-fn input_is(input: &Input, id: &PassId, target: usize) -> bool {
-    match (input, id) {
-        (Input::Buffer(_) | Input::Target { .. }, PassId::Buffer(other)) => input.buffer() == Some((other, target)),
-        (Input::CubemapPass, PassId::Cubemap) => true,
-        _ => false,
-    }
-}
-
 /// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
 fn drawing_order(project: &Project) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
-    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| *id(i) != PassId::Sound).collect();
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| id(i).is_picture()).collect();
     order.sort_by(|&a, &b| id(a).drawing_order(id(b)));
     order
 }
@@ -356,14 +333,8 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
             continue;
         }
         for (channel, fact) in project.passes[pass].channels.iter().zip(facts[pass].channels) {
-            let id = match channel.as_ref().map(|c| &c.input) {
-                Some(Input::Buffer(name) | Input::Target { buffer: name, .. }) if fact.is_read => {
-                    PassId::Buffer(name.clone())
-                }
-                Some(Input::CubemapPass) if fact.is_read => PassId::Cubemap,
-                _ => continue,
-            };
-            todo.extend(index_of(&id));
+            let read = channel.as_ref().filter(|_| fact.is_read).and_then(|c| c.input.target());
+            todo.extend(read.and_then(|(id, _)| index_of(id)));
         }
     }
     reached

@@ -14,7 +14,7 @@ fn channel(input: Input, filter: Filter, wrap: Wrap) -> Option<Channel> {
 }
 
 fn buffer(name: &str) -> Option<Channel> {
-    channel(Input::Buffer(name.into()), Filter::Linear, Wrap::Clamp)
+    channel(Input::buffer(name), Filter::Linear, Wrap::Clamp)
 }
 
 fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
@@ -73,7 +73,7 @@ fn truth_table_of_reads() {
 
 #[test]
 fn buffers_see_last_frames_cubemap_and_image_this_frames() {
-    let cube = || channel(Input::CubemapPass, Filter::Linear, Wrap::Clamp);
+    let cube = || channel(Input::pass(PassId::Cubemap), Filter::Linear, Wrap::Clamp);
     let project = project(vec![
         pass(PassId::Buffer("A".into()), [cube(), None, None, None]),
         pass(PassId::Cubemap, [buffer("A"), cube(), None, None]),
@@ -131,7 +131,7 @@ fn only_buffers_read_back_or_discarded_are_doubled() {
 
 #[test]
 fn mips_exist_only_where_a_sampler_asks_and_a_read_can_reach_them() {
-    let mip = |name: &str| channel(Input::Buffer(name.into()), Filter::Mipmap, Wrap::Clamp);
+    let mip = |name: &str| channel(Input::buffer(name), Filter::Mipmap, Wrap::Clamp);
     let project = project(vec![
         pass(PassId::Buffer("A".into()), [None, None, None, None]),
         pass(PassId::Buffer("B".into()), [None, None, None, None]),
@@ -151,7 +151,7 @@ fn mips_exist_only_where_a_sampler_asks_and_a_read_can_reach_them() {
 
 #[test]
 fn site_rules_share_filter_in_a_pass_and_wrap_in_the_project() {
-    let a = |filter, wrap| channel(Input::Buffer("A".into()), filter, wrap);
+    let a = |filter, wrap| channel(Input::buffer("A"), filter, wrap);
     let mut project = project(vec![
         pass(PassId::Buffer("A".into()), [a(Filter::Nearest, Wrap::Clamp), None, None, None]),
         pass(PassId::Image, [a(Filter::Nearest, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), None, None]),
@@ -169,9 +169,9 @@ fn site_rules_share_filter_in_a_pass_and_wrap_in_the_project() {
 #[test]
 fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
     let project =
-        project(vec![pass(PassId::Image, [channel(Input::Keyboard, Filter::Linear, Wrap::Repeat), None, None, None])]);
+        project(vec![pass(PassId::Image, [channel(Input::KEYBOARD, Filter::Linear, Wrap::Repeat), None, None, None])]);
     let read = plan(&project).draws[0].reads[0].clone().unwrap();
-    assert_eq!((read.sampler.filter, read.sampler.wrap, read.source), (Filter::Nearest, Wrap::Clamp, Source::Keyboard));
+    assert_eq!((read.sampler.filter, read.sampler.wrap, read.source), (Filter::Nearest, Wrap::Clamp, Source::External));
 }
 
 #[test]
@@ -282,7 +282,7 @@ fn with_scene() -> (Project, Vec<PassFacts>) {
         camera: Default::default(),
         stages: Vec::new(),
     });
-    let second = channel(Input::Target { buffer: "scene".into(), index: 1 }, Filter::Mipmap, Wrap::Clamp);
+    let second = channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 1 }, Filter::Mipmap, Wrap::Clamp);
     let a = pass(PassId::Buffer("A".into()), [second, None, None, None]);
     let image = pass(PassId::Image, [buffer("scene"), buffer("A"), None, None]);
     let nothing = PassFacts { discards: true, ..PassFacts::default() };
@@ -328,7 +328,7 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
 fn a_target_that_is_not_there_reads_as_nothing() {
     let (mut project, facts) = with_scene();
     project.passes[1].channels[0] =
-        channel(Input::Target { buffer: "scene".into(), index: 3 }, Filter::Linear, Wrap::Clamp);
+        channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 3 }, Filter::Linear, Wrap::Clamp);
     let plan = FramePlan::new(&project, &facts, &[], true);
     assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, Source::Nothing);
 }

@@ -1,7 +1,7 @@
 //! Bytes that a frame cannot do without, from its plan alone.
 
 use super::{FramePlan, Source, Target};
-use eddy_texture::{Dimension, TextureShape};
+use eddy_texture::TextureShape;
 
 /// The least that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,10 +74,7 @@ impl Target {
     /// Returns the shape of each of its textures.
     pub fn shape(&self, canvas: (u32, u32)) -> TextureShape {
         let (width, height) = self.size.of(canvas);
-        let shape = match self.dimension {
-            Dimension::Cube => TextureShape::cube(1024, self.format),
-            dimension => TextureShape { dimension, ..TextureShape::flat(width, height, self.format) },
-        };
+        let shape = TextureShape { dimension: self.dimension, ..TextureShape::flat(width, height, self.format) };
         if self.mips { shape.with_mips() } else { shape }
     }
 
@@ -95,7 +92,7 @@ impl Target {
 fn target_of(read: &super::Read) -> Option<usize> {
     match read.source {
         Source::Target { index, .. } => Some(index),
-        Source::Keyboard | Source::Media | Source::Nothing => None,
+        Source::External | Source::Nothing => None,
     }
 }
 
@@ -103,7 +100,7 @@ fn target_of(read: &super::Read) -> Option<usize> {
 mod tests {
     use super::*;
     use eddy_project::{PassId, PassSize};
-    use eddy_texture::TexelFormat;
+    use eddy_texture::{Dimension, TexelFormat};
 
     #[test]
     fn a_mip_chain_and_a_second_texture_are_counted() {

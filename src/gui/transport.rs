@@ -10,7 +10,7 @@ use super::{
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
-    project::{PassId, Tab},
+    project::Tab,
     session::{Command, Session},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
@@ -179,7 +179,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         .show_ui(ui, |ui| {
             for tab in session.tabs() {
                 let Tab::Pass(id) = tab else { continue };
-                if id == PassId::Sound {
+                if !id.is_picture() {
                     continue;
                 }
                 let entry = ui.selectable_label(id == *shown, id.title());

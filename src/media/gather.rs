@@ -2,7 +2,7 @@
 
 use super::{MediaKey, MediaSet, MeshKey, load::load_within};
 use eddy_diag::Diagnostic;
-use eddy_project::{FillValue, Input, Media, Pass, PassId, Project, limits};
+use eddy_project::{FillValue, Input, Media, Pass, Project, limits};
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
@@ -19,7 +19,7 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
 
 /// Loads the picture files of the project's own folder alone, with the warnings of [`gather`].
 pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
-    pictures(project, None, set, |input| matches!(input, Input::Texture(Media::File(_))))
+    pictures(project, None, set, |input| input.row().undrawn.is_none() && matches!(input.media(), Some(Media::File(_))))
 }
 
 fn pictures(
@@ -36,15 +36,12 @@ fn pictures(
             warnings
                 .push(Diagnostic::warning(None, format!("iChannel{n} of {}: {message}", pass.id.title())).hint(hint));
         };
-        let media = match input {
-            Input::Texture(media) => media,
-            Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass | Input::Keyboard => continue,
-            other => {
-                let (name, hint) = unsupported(other);
-                warn(format!("{name} cannot be read yet; the channel is black and of size 0"), hint);
-                continue;
-            }
-        };
+        if let Some(undrawn) = input.row().undrawn {
+            let hint = "read an image file, a buffer or the keyboard instead".into();
+            warn(format!("{undrawn}; the channel is black and of size 0"), hint);
+            continue;
+        }
+        let Some(media) = input.media() else { continue };
         let key = MediaKey { media: media.clone(), vflip };
         if let Some((message, hint)) = failed.get(&key) {
             warn(message.clone(), hint.clone());
@@ -106,36 +103,23 @@ impl MediaSet {
 }
 
 fn inputs(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Input, bool)> {
-    project.passes.iter().filter(|p| p.id != PassId::Sound).flat_map(|pass| {
+    project.passes.iter().filter(|p| p.id.is_picture()).flat_map(|pass| {
         pass.channels
             .iter()
             .enumerate()
+            // What a pass is not drawn for is told of the pass.
             .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, &c.input, c.sampler.vflip)))
+            .filter(|(_, _, input, _)| input.target().is_none())
     })
-}
-
-fn unsupported(input: &Input) -> (&'static str, String) {
-    let picture = "read an image file, a buffer or the keyboard instead".to_owned();
-    match input {
-        Input::Cubemap(_) => ("a cubemap image", picture),
-        Input::Volume(_) => ("a volume", picture),
-        Input::Video(_) => ("a video", picture),
-        Input::Music(_) => ("music", picture),
-        Input::Microphone => ("the microphone", picture),
-        Input::Webcam => ("the webcam", picture),
-        Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass | Input::Keyboard | Input::Texture(_) => {
-            ("this", picture)
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{Channel, Origin, Sampler, Source};
+    use eddy_project::{Channel, InputKind, Origin, PassId, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
-        let channels = inputs.map(|i| i.map(|input| Channel { input, sampler: Sampler::TEXTURE }));
+        let channels = inputs.map(|i| i.map(Channel::new));
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
         let image = Pass { channels, ..Pass::new(PassId::Image, source) };
         Project::new("p", vec![image], Origin::Unsaved)
@@ -143,9 +127,10 @@ mod tests {
 
     #[test]
     fn what_is_there_is_loaded_once_and_what_is_not_is_a_warning() {
-        let missing = Input::Texture(Media::Picked("/nowhere/pic.png".into()));
-        let noise = || Some(Input::Texture(Media::Builtin("noise-rgba-64".into())));
-        let (set, warnings) = gather(&project([noise(), noise(), Some(missing), Some(Input::Webcam)]), None);
+        let missing = Input::texture(Media::Picked("/nowhere/pic.png".into()));
+        let noise = || Some(Input::texture(Media::Builtin("noise-rgba-64".into())));
+        let (set, warnings) =
+            gather(&project([noise(), noise(), Some(missing), Some(Input::Device(InputKind::Webcam))]), None);
         assert_eq!(set.len(), 1);
         let messages: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
         assert_eq!(warnings.len(), 2, "{messages:?}");
@@ -156,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_project_without_pictures_warns_of_nothing() {
-        let p = project([Some(Input::Keyboard), Some(Input::Buffer("A".into())), None, Some(Input::CubemapPass)]);
+        let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassId::Cubemap))]);
         assert_eq!(gather(&p, None), (MediaSet::new(), vec![]));
     }
 }

@@ -14,11 +14,8 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
 
 /// The pass that an input reads and that the project does not have.
 pub fn missing_pass(project: &Project, input: &Input) -> Option<PassId> {
-    let id = match input {
-        Input::CubemapPass => PassId::Cubemap,
-        other => PassId::Buffer(other.buffer()?.0.to_owned()),
-    };
-    project.pass(&id).is_none().then_some(id)
+    let (id, _) = input.target()?;
+    project.pass(id).is_none().then(|| id.clone())
 }
 
 /// Returns a warning for each channel that reads a pass which is not there. `place`: where it is said what a channel
@@ -71,7 +68,7 @@ pub(super) fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
         let mut filters: BTreeMap<&str, Vec<(String, Filter)>> = BTreeMap::new();
         for (index, channel) in pass.channels.iter().enumerate() {
             let Some(channel) = channel else { continue };
-            let Input::Buffer(buffer) = &channel.input else { continue };
+            let Input::Pass { id: PassId::Buffer(buffer), target: 0 } = &channel.input else { continue };
             let place = format!("iChannel{index} of {}", pass.id.title());
             filters.entry(buffer).or_default().push((place.clone(), channel.sampler.filter));
             wraps.entry(buffer).or_default().push((place, channel.sampler.wrap));

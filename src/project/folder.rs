@@ -15,7 +15,7 @@
 //! exist. A GLSL file of another name is a buffer where such a line names it.
 
 use super::{
-    Channel, Input, Origin, Pass, PassId, Project, Sampler, Source,
+    Channel, Input, Origin, Pass, PassId, Project, Source,
     advice::unread,
     directives::{self, Around},
     file_names::{Role, role_of_file},
@@ -63,12 +63,12 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let passes = directives::files_of_passes(project);
     let buffers: [Option<Channel>; 4] = ["A", "B", "C", "D"].map(|name| {
-        let input = Input::Buffer(name.into());
-        project.pass(&PassId::Buffer(name.into())).map(|_| Channel { input, sampler: Sampler::BUFFER })
+        let id = PassId::Buffer(name.into());
+        project.pass(&id).map(|_| Channel::new(Input::pass(id)))
     });
     let mut places = Vec::new();
     for (i, pass) in project.passes.iter_mut().enumerate() {
-        let default = if pass.id == PassId::Sound { Default::default() } else { buffers.clone() };
+        let default = if pass.id.is_picture() { buffers.clone() } else { Default::default() };
         let around = Around { id: &pass.id, file: &pass.source.name, passes: &passes };
         let declared = directives::read(&pass.source.text, Project::pass_id(i), around, &default);
         diagnostics.extend(declared.diagnostics);
@@ -140,9 +140,9 @@ mod tests {
         let keys: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
         assert_eq!(keys, ["buffer_a", "buffer_c", "buffer_zoom", "image", "sound"]);
         let image = &project.pass(&PassId::Image).unwrap().channels;
-        assert_eq!(image[0].as_ref().unwrap().input, Input::Buffer("A".into()));
+        assert_eq!(image[0].as_ref().unwrap().input, Input::buffer("A"));
         assert_eq!(image[1], None);
-        assert_eq!(image[2].as_ref().unwrap().input, Input::Buffer("C".into()));
+        assert_eq!(image[2].as_ref().unwrap().input, Input::buffer("C"));
         assert_eq!(project.pass(&PassId::Sound).unwrap().channels, <[Option<Channel>; 4]>::default());
     }
 

@@ -1,6 +1,6 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{CustomUniformValues, Group, Included, PassId, PassSettings, Source};
+use super::{CustomUniformValues, Group, Included, Input, PassId, PassSettings, Source};
 use std::{collections::BTreeSet, path::PathBuf};
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
@@ -77,28 +77,17 @@ pub struct Channel {
     pub sampler: Sampler,
 }
 
-/// A source of texels.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Input {
-    /// A buffer by name; one without a pass reads zeros. A pass with several targets gives the first.
-    Buffer(String),
-    /// A further target of a geometry pass, counted from 1.
-    Target {
-        buffer: String,
-        index: usize,
-    },
-    /// The cubemap pass.
-    CubemapPass,
-    Keyboard,
-    /// A 2D picture.
-    Texture(Media),
-    Cubemap(Media),
-    Volume(Media),
-    Video(Media),
-    /// A music file or stream.
-    Music(Media),
-    Microphone,
-    Webcam,
+impl Channel {
+    /// A channel as it is made new: with the sampler that its kind of input has on the site.
+    pub fn new(input: Input) -> Channel {
+        Channel { sampler: input.row().sampler, input }
+    }
+
+    /// Returns the sampler that a channel of no buffer is read by.
+    pub fn sampler(&self) -> Sampler {
+        let row = self.input.row();
+        if row.has_fixed_sampler { row.sampler } else { self.sampler }
+    }
 }
 
 /// The source of a picture, volume or sound.
@@ -162,40 +151,6 @@ pub enum SamplerRules {
     Site,
 }
 
-impl Input {
-    /// Returns what is read from outside the passes.
-    pub fn media(&self) -> Option<&Media> {
-        match self {
-            Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
-            _ => None,
-        }
-    }
-
-    pub fn media_mut(&mut self) -> Option<&mut Media> {
-        match self {
-            Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
-            _ => None,
-        }
-    }
-
-    /// The name of the buffer that is read.
-    pub fn buffer_mut(&mut self) -> Option<&mut String> {
-        match self {
-            Input::Buffer(name) | Input::Target { buffer: name, .. } => Some(name),
-            _ => None,
-        }
-    }
-
-    /// The buffer that is read, and which of its targets.
-    pub fn buffer(&self) -> Option<(&str, usize)> {
-        match self {
-            Input::Buffer(name) => Some((name, 0)),
-            Input::Target { buffer, index } => Some((buffer, *index)),
-            _ => None,
-        }
-    }
-}
-
 impl Origin {
     /// The folder that relative media paths start from; `None` where there is none on disk.
     pub fn base_dir(&self) -> Option<&std::path::Path> {
@@ -222,12 +177,8 @@ impl Project {
         let passes = &self.passes;
         let read = |index: usize| {
             passes[index].channels.iter().flatten().filter_map(|channel| {
-                let id = match &channel.input {
-                    Input::Buffer(name) | Input::Target { buffer: name, .. } => PassId::Buffer(name.clone()),
-                    Input::CubemapPass => PassId::Cubemap,
-                    _ => return None,
-                };
-                passes.iter().position(|p| p.id == id)
+                let (id, _) = channel.input.target()?;
+                passes.iter().position(|p| p.id == *id)
             })
         };
         // A pass that is drawn later still holds the last frame.

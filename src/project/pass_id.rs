@@ -1,6 +1,6 @@
 //! The names of passes, and the two orders that they stand in.
 
-use super::limits;
+use super::{PassKind, limits};
 use std::cmp::Ordering;
 
 /// Names a pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
@@ -16,14 +16,7 @@ impl PassId {
     /// Compares by when in a frame passes are drawn. All buffers are equal: a stable sort leaves them in the project's
     /// order, which an author chooses.
     pub fn drawing_order(&self, other: &PassId) -> Ordering {
-        let turn = |id: &PassId| match id {
-            PassId::Buffer(_) => 0,
-            PassId::Cubemap => 1,
-            PassId::Image => 2,
-            // It makes no picture.
-            PassId::Sound => 3,
-        };
-        turn(self).cmp(&turn(other))
+        self.row().order.cmp(&other.row().order)
     }
 
     /// Compares by the places of tabs: as passes are drawn, buffers by name.
@@ -33,21 +26,19 @@ impl PassId {
 
     /// Returns the title that tabs show: `Buffer A`, `Cube A`, `Sound`, `Image`.
     pub fn title(&self) -> String {
+        let title = self.row().title;
         match self {
-            PassId::Buffer(name) => format!("Buffer {name}"),
-            PassId::Cubemap => "Cube A".into(),
-            PassId::Sound => "Sound".into(),
-            PassId::Image => "Image".into(),
+            PassId::Buffer(name) => format!("{title}{name}"),
+            _ => title.into(),
         }
     }
 
     /// Returns the spelling of file names, `eddy.toml` and `--pass`: `buffer_a`, `cube_a`, `sound`, `image`.
     pub fn key(&self) -> String {
+        let key = self.row().key;
         match self {
-            PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),
-            PassId::Cubemap => "cube_a".into(),
-            PassId::Sound => "sound".into(),
-            PassId::Image => "image".into(),
+            PassId::Buffer(name) => format!("{key}{}", name.to_lowercase()),
+            _ => key.into(),
         }
     }
 
@@ -62,20 +53,13 @@ impl PassId {
             return None;
         }
         let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
-        Some(match flat.as_str() {
-            "" => return None,
-            "image" => PassId::Image,
-            "sound" => PassId::Sound,
-            "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
-            _ => {
-                let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
-                if !PassId::is_name(name) {
-                    return None;
-                }
-                // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
-                PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
-            }
-        })
+        if let Some(kind) = PassKind::find(|row| row.spellings.contains(&flat.as_str())) {
+            return kind.id();
+        }
+        let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
+        // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
+        let kept = || if name.len() == 1 { name.to_uppercase() } else { name.to_owned() };
+        PassId::is_name(name).then(|| PassId::Buffer(kept()))
     }
 
     /// The buffer that a person calls so: `glow`, `Buffer glow`, `Velocity field`. Names are kept without blanks, `_`

@@ -28,7 +28,7 @@ pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
 pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
     for pass in &mut project.passes {
         for channel in pass.channels.iter_mut().flatten() {
-            let input = std::mem::replace(&mut channel.input, Input::Keyboard);
+            let input = std::mem::replace(&mut channel.input, Input::KEYBOARD);
             channel.input = at_home(input, folder);
         }
         for draw in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.draws) {

@@ -137,7 +137,7 @@ fn not_built(project: &Project) -> Vec<Diagnostic> {
     let texts = Sources::new(project);
     let mut found = texts.check_common();
     for (index, pass) in project.passes.iter().enumerate() {
-        if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
+        if !pass.id.is_drawn() {
             let compiled = texts.compile_pass(index, [false; 4], Driver::default());
             diag::append(&mut found, compiled.map_or_else(|errors| errors, |pass| pass.diagnostics));
         }

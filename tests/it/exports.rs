@@ -131,7 +131,7 @@ fn settings_pictures_and_further_buffers_are_named() {
     buffer.settings.size = project::PassSize::Scale(0.5);
     buffer.settings.format = project::TexelFormat::Rgba16f;
     let mut channel = buffer.channels[0].clone().unwrap();
-    channel.input = project::Input::Texture(project::Media::File("rock.png".into()));
+    channel.input = project::Input::texture(project::Media::File("rock.png".into()));
     buffer.channels[1] = Some(channel);
     let mut further = buffer.clone();
     further.id = PassId::Buffer("velocity".into());

@@ -77,7 +77,10 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!((g.draws[1].vertex, g.draws[1].fragment), (Text::File(1), Text::Own));
     assert_eq!(g.draws[0].mesh, MeshSource::File("models/tri.obj".into()));
     assert_eq!((g.camera.yaw, g.camera.pitch, g.camera.distance), (45.0, 20.0, 6.5));
-    assert_eq!(p.passes[1].channels[0].as_ref().unwrap().input, Input::Target { buffer: "scene".into(), index: 1 });
+    assert_eq!(
+        p.passes[1].channels[0].as_ref().unwrap().input,
+        Input::Pass { id: PassId::Buffer("scene".into()), target: 1 }
+    );
     let titles: Vec<String> = p.tabs().iter().map(Tab::title).collect();
     assert_eq!(titles, ["Buffer scene", "scene.vert.glsl", "hull.vert.glsl", "Image"]);
     for (id, source) in p.sources().iter().skip(1) {

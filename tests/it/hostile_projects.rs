@@ -3,8 +3,7 @@
 
 use crate::support::{self, program::Bench};
 use eddy::project::{
-    self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Sampler, Source, Stage,
-    limits,
+    self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Source, Stage, limits,
 };
 use serde_json::json;
 use std::{
@@ -178,7 +177,7 @@ fn an_import_writes_into_its_folder_whatever_the_ids_are() {
     // What reads such an id reads the pass that has it.
     let project = load(&b.path("deep/er/new")).unwrap();
     let channel = project.pass(&PassId::Image).unwrap().channels[0].clone();
-    assert_eq!(channel.unwrap().input, Input::Buffer("A".into()));
+    assert_eq!(channel.unwrap().input, Input::buffer("A"));
 }
 
 #[test]
@@ -342,7 +341,7 @@ fn an_export_carries_nothing_from_outside() {
 }
 
 fn picked(path: &Path) -> Option<Channel> {
-    Some(Channel { input: Input::Texture(Media::Picked(path.to_owned())), sampler: Sampler::TEXTURE })
+    Some(Channel::new(Input::texture(Media::Picked(path.to_owned()))))
 }
 
 #[test]

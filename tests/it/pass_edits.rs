@@ -124,7 +124,7 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: None });
     stage.session.apply(Command::UndoPassEdit);
     let image = stage.session.project().pass(&PassId::Image).unwrap();
-    assert_eq!(image.channels[0].as_ref().unwrap().input, Input::Buffer("A".into()));
+    assert_eq!(image.channels[0].as_ref().unwrap().input, Input::buffer("A"));
     stage.session.apply(Command::UndoPassEdit);
     assert_eq!(*stage.session.project(), before, "one drag is one step");
     assert!(stage.session.pass_undo().is_none());

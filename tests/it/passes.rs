@@ -185,8 +185,7 @@ fn resting() -> Project {
              ivec2(p), 0); }";
     let mouse = "void mainImage(out vec4 o, in vec2 p) { o = iMouse; }";
     let keys = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(32, 0), 0); }";
-    let keyboard =
-        eddy::project::Channel { input: eddy::project::Input::Keyboard, sampler: eddy::project::Sampler::KEYBOARD };
+    let keyboard = eddy::project::Channel::new(eddy::project::Input::KEYBOARD);
     let show = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
         o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) * 0.1; }";
     project(vec![

@@ -3,7 +3,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::{Channel, Input, PassEdit, PassId, Sampler, Tab},
+    project::{Channel, Input, PassEdit, PassId, Tab},
     session::{Command, Level, probe::ProbePlace},
 };
 use std::{fs, time::Duration};
@@ -94,7 +94,7 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     edit(&mut edited, IMAGE, &SHOW.replace("0);", "0).yxzw;"));
     edit(&mut edited, IMAGE, "void mainImage(");
     edit(&mut edited, IMAGE, SHOW);
-    let channel = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    let channel = Some(Channel::new(Input::KEYBOARD));
     for channel in [channel, None] {
         edited.session.apply(Command::SetChannel { pass: PassId::Image, index: 2, channel });
         edited.until_compiled();

@@ -234,8 +234,7 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
 fn channels_changed_here_and_on_disk_ask() {
     let toml = "eddy = 1\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
-    let channel =
-        eddy::project::Channel { input: eddy::project::Input::Keyboard, sampler: eddy::project::Sampler::KEYBOARD };
+    let channel = eddy::project::Channel::new(eddy::project::Input::KEYBOARD);
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
     stage.write("eddy.toml", "eddy = 1\n[passes.image]\nchannels.1 = { texture = \"noise-rgba-64\" }\n");
     stage.until("the question", |s| s.question().is_some());
@@ -302,7 +301,7 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
     let elsewhere = tempfile::tempdir().unwrap();
     let path = elsewhere.path().join("pic.png");
     fs::write(&path, picture(50)).unwrap();
-    let input = Input::Texture(Media::Picked(path.clone()));
+    let input = Input::texture(Media::Picked(path.clone()));
     let channel = Channel { input, sampler: Sampler { filter: eddy::project::Filter::Nearest, ..Sampler::TEXTURE } };
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
     stage.until_red(50);

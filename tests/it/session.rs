@@ -9,7 +9,7 @@ use eddy::{
         offline::Offline,
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
-    project::{self, Channel, Input, PassEdit, PassId, Sampler, Tab},
+    project::{self, Channel, Input, PassEdit, PassId, Tab},
     session::{
         Answer, Command, Level, Meanwhile, Outcome, PendingAction, Question, Request, Session, SessionOptions,
         TabDiagnostic,
@@ -127,7 +127,7 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
     expect(&mut stage, "its repeat", vec![Command::KeyDown(32)], 0);
     expect(&mut stage, "again: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
     expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
-    let channel = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    let channel = Some(Channel::new(Input::KEYBOARD));
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 1, channel });
     stage.until_compiled();
     expect(&mut stage, "again: a channel, once it is compiled", vec![], 1);
@@ -264,7 +264,7 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     let mut stage = Stage::bare(gpu);
     stage.edit(&plain(0.4));
     stage.session.apply(Command::AddTab(Tab::Common));
-    let channel = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    let channel = Some(Channel::new(Input::KEYBOARD));
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 2, channel: channel.clone() });
     stage.session.apply(Command::Close);
     stage.session.apply(Command::Answer(Answer::Save));
@@ -396,7 +396,7 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     stage.session.apply(Command::Pause);
     let channels = |stage: &Stage| stage.session.project().pass(&PassId::Image).unwrap().channels.clone();
     stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
-    assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::Keyboard));
+    assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::KEYBOARD));
     stage.session.apply(Command::CompileNow);
     stage.until_compiled();
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());

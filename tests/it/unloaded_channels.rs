@@ -2,7 +2,7 @@
 //! where a buffer without a pass is a texture of zeros. Drawn by the device, and walked.
 
 use crate::support::{gpu, meshes, program::Bench, walked::assert_walked, *};
-use eddy::project::{Channel, Input, Media, Project, Sampler};
+use eddy::project::{Channel, Input, InputKind, Media, PassId, Project, Sampler};
 
 const OPAQUE: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 const ZERO: [f32; 4] = [0.0; 4];
@@ -32,7 +32,13 @@ const DEEP_READS: &[&str] = &[
 /// Inputs that Eddy has no texture for. The engine is given no media here, so that a file is missing too.
 fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
-    let inputs = [Input::Webcam, Input::Microphone, Input::Video(file()), Input::Music(file()), Input::Texture(file())];
+    let inputs = [
+        Input::Device(InputKind::Webcam),
+        Input::Device(InputKind::Microphone),
+        Input::Media { kind: InputKind::Video, media: file() },
+        Input::Media { kind: InputKind::Music, media: file() },
+        Input::texture(file()),
+    ];
     [None].into_iter().chain(inputs.map(Some)).collect()
 }
 
@@ -61,7 +67,11 @@ fn a_channel_without_a_texture_is_one_opaque_black_texel_to_every_read() {
         READS.iter().for_each(|(expression, expected)| check(input.clone(), expression, *expected));
     }
     let file = || Media::File("nowhere".into());
-    for input in [Input::Volume(file()), Input::Cubemap(file()), Input::CubemapPass] {
+    for input in [
+        Input::Media { kind: InputKind::Volume, media: file() },
+        Input::Media { kind: InputKind::Cubemap, media: file() },
+        Input::pass(PassId::Cubemap),
+    ] {
         for read in DEEP_READS {
             // llvmpipe's weights of eight equal texels make a bit less than 1.
             check(Some(input.clone()), &format!("floor({read} * 4.0 + 0.5) / 4.0"), OPAQUE);
@@ -79,7 +89,7 @@ fn a_buffer_without_a_pass_and_the_frame_before_the_first_are_zeros() {
         ("vec4(textureSize(iChannel0, 0), iChannelResolution[0].xy)", [4.0; 4]),
     ] {
         for name in ["C", "B"] {
-            check(Some(Input::Buffer(name.into())), expression, expected);
+            check(Some(Input::buffer(name)), expression, expected);
         }
     }
 }

@@ -69,8 +69,9 @@ impl<'a> Capture<'a> {
                 Some(self.before(running, index, *target)?)
             }
             Some(Source::Target { index, .. }) => Some(running.targets[*index].newest()),
-            Some(Source::Keyboard) => Some(&shared.keyboard.texture),
-            Some(Source::Media | Source::Nothing) | None => bound.media.as_ref(),
+            Some(Source::External | Source::Nothing) | None => {
+                bound.external.as_ref().map(|external| &external.texture)
+            }
         };
         let Some(texture) = texture else { return Ok(TextureCopy::black()) };
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));

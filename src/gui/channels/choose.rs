@@ -10,7 +10,7 @@ use crate::{
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
-    project::{Channel, Filter, Input, Media, PassId, Sampler, Wrap},
+    project::{Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap},
     session::Command,
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
@@ -37,21 +37,25 @@ pub fn choose(
         }
         for other in &session.project().passes {
             let PassId::Buffer(name) = &other.id else { continue };
-            for index in 0..other.settings.formats().len() {
-                let (input, place) = match index {
-                    0 => (Input::Buffer(name.clone()), format!("choose:buffer:{name}")),
-                    _ => (Input::Target { buffer: name.clone(), index }, format!("choose:buffer:{name}:{index}")),
+            for target in 0..other.settings.formats().len() {
+                let input = Input::Pass { id: other.id.clone(), target };
+                let place = match target {
+                    0 => format!("choose:buffer:{name}"),
+                    _ => format!("choose:buffer:{name}:{target}"),
                 };
                 let item = ui.selectable_label(now == Some(&input), input_name(&input));
                 if out.clicked(&place, &item) && now != Some(&input) {
-                    set(out, Some(Channel { input, sampler: Sampler::BUFFER }));
+                    set(out, Some(Channel::new(input)));
                 }
             }
         }
-        let item = ui.selectable_label(now == Some(&Input::Keyboard), "Keyboard");
-        if out.clicked("choose:keyboard", &item) {
-            let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: false };
-            set(out, Some(Channel { input: Input::Keyboard, sampler }));
+        let rows = InputKind::all().map(InputKind::row);
+        for row in rows.filter(|row| row.source == InputSource::Device && row.undrawn.is_none()) {
+            let input = Input::Device(row.kind);
+            let item = ui.selectable_label(now == Some(&input), row.title);
+            if out.clicked(&format!("choose:{}", row.key), &item) {
+                set(out, Some(Channel::new(input)));
+            }
         }
         if out.clicked("choose:file", &ui.button("Image file…")) {
             out.wishes.push(ShellCommand::Pick(Pick::Picture { channel: index }));
@@ -66,7 +70,7 @@ pub fn choose(
         ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
         ui.horizontal_wrapped(|ui| {
             for name in media::builtin::names() {
-                let input = Input::Texture(Media::Builtin(name.to_owned()));
+                let input = Input::texture(Media::Builtin(name.to_owned()));
                 let (rect, response) = ui.allocate_exact_size(vec2(84.0, 82.0), Sense::click());
                 let chosen = now == Some(&input);
                 accessible::choice(&response, egui::Role::Button, chosen, name);
@@ -74,7 +78,7 @@ pub fn choose(
                     texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
                 }
                 if out.clicked(&format!("choose:texture:{name}"), &response) && !chosen {
-                    set(out, Some(Channel { input, sampler: Sampler::TEXTURE }));
+                    set(out, Some(Channel::new(input)));
                 }
                 response.on_hover_text(name);
             }
@@ -96,7 +100,7 @@ fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatc
 
 /// Filter, wrap and flip, as far as the input has them.
 fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut UiOutput, Option<Channel>)) {
-    if matches!(channel.input, Input::Keyboard | Input::Music(_) | Input::Microphone) {
+    if channel.input.row().has_fixed_sampler {
         return;
     }
     let mut sampler = channel.sampler;
@@ -116,7 +120,7 @@ fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut
             }
         });
         accessible::name(&wrap.response, egui::Role::ComboBox, "Wrap");
-        if matches!(channel.input, Input::Texture(_) | Input::Cubemap(_) | Input::Video(_) | Input::Webcam) {
+        if channel.input.row().has_vflip {
             ui.checkbox(&mut sampler.vflip, "flip").on_hover_text("Put the top row of the image at v = 1");
         }
     });

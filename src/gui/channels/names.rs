@@ -1,20 +1,15 @@
 //! Owns what inputs and samplers are called.
 
-use crate::project::{Channel, Filter, Input, Media, Wrap};
+use crate::project::{Channel, Filter, Input, InputKind, Media, Wrap};
 
 pub fn input_name(input: &Input) -> String {
+    let title = input.row().title;
     match input {
-        Input::Buffer(name) => format!("Buffer {name}"),
-        Input::Target { buffer, index } => format!("Buffer {buffer}, target {index}"),
-        Input::CubemapPass => "Cube A".into(),
-        Input::Keyboard => "Keyboard".into(),
-        Input::Texture(m) => media_name(m),
-        Input::Cubemap(m) => format!("cubemap {}", media_name(m)),
-        Input::Volume(m) => format!("volume {}", media_name(m)),
-        Input::Video(m) => format!("video {}", media_name(m)),
-        Input::Music(m) => format!("music {}", media_name(m)),
-        Input::Microphone => "microphone".into(),
-        Input::Webcam => "webcam".into(),
+        Input::Pass { id, target: 0 } => id.title(),
+        Input::Pass { id, target } => format!("{}, target {target}", id.title()),
+        Input::Media { kind: InputKind::Texture, media } => media_name(media),
+        Input::Media { media, .. } => format!("{title} {}", media_name(media)),
+        Input::Device(_) => title.into(),
     }
 }
 
@@ -45,9 +40,6 @@ pub fn wrap_name(wrap: Wrap) -> &'static str {
 }
 
 pub fn sampler_name(channel: &Channel) -> String {
-    if channel.input == Input::Keyboard {
-        return "nearest, clamp".into();
-    }
-    let s = channel.sampler;
-    format!("{}, {}", filter_name(s.filter), wrap_name(s.wrap))
+    let sampler = channel.sampler();
+    format!("{}, {}", filter_name(sampler.filter), wrap_name(sampler.wrap))
 }

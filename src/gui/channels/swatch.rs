@@ -6,7 +6,7 @@ use crate::{
         theme,
         thumbnails::{Subject, Thumbnail, Thumbnails},
     },
-    project::{Input, Origin, PassId},
+    project::{Input, InputKind, Origin, PassId},
     session::Session,
 };
 use egui::{FontId, Rect, Ui, vec2};
@@ -25,14 +25,8 @@ pub struct Swatches<'a> {
 impl Swatches<'_> {
     /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
     pub fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
-        let buffer = match input {
-            Input::Buffer(name) => Some((name, 0)),
-            Input::Target { buffer, index } => Some((buffer, *index)),
-            _ => None,
-        };
-        if let Some((name, index)) = buffer {
-            let pass = PassId::Buffer(name.clone());
-            if let Some((texture, aspect)) = self.live.get(ui, self.session, &pass, index) {
+        if let Some((pass, index)) = input.target().filter(|(pass, _)| pass.is_drawn()) {
+            if let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index) {
                 let shown = fitting(place, aspect);
                 ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
                 return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
@@ -52,21 +46,19 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
     let painter = ui.painter();
     painter.rect_filled(place, 3.0, theme::of(ui).surround);
     let letter = match input {
-        Input::Texture(media) => match thumbnails.get(Subject::Texture(media.clone(), folder(session))) {
-            Thumbnail::Ready(texture) => {
-                let size = texture.size_vec2();
-                let shown = fitting(place, size.x / size.y.max(1.0));
-                return egui::Image::new(&texture).corner_radius(3.0).paint_at(ui, shown);
+        Input::Media { kind: InputKind::Texture, media } => {
+            match thumbnails.get(Subject::Texture(media.clone(), folder(session))) {
+                Thumbnail::Ready(texture) => {
+                    let size = texture.size_vec2();
+                    let shown = fitting(place, size.x / size.y.max(1.0));
+                    return egui::Image::new(&texture).corner_radius(3.0).paint_at(ui, shown);
+                }
+                Thumbnail::Waiting => "…",
+                Thumbnail::Failed(_) => "!",
             }
-            Thumbnail::Waiting => "…",
-            Thumbnail::Failed(_) => "!",
-        },
-        Input::Buffer(name) | Input::Target { buffer: name, .. } => name.as_str(),
-        Input::Keyboard => "K",
-        Input::CubemapPass | Input::Cubemap(_) => "C",
-        Input::Volume(_) => "V",
-        Input::Video(_) | Input::Webcam => "film",
-        Input::Music(_) | Input::Microphone => "snd",
+        }
+        Input::Pass { id: PassId::Buffer(name), .. } => name.as_str(),
+        other => other.row().glyph,
     };
     // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
     let layout = |size: f32| {

@@ -274,7 +274,7 @@ const READS_SECOND: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(
 fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
     let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
     things(&stage);
-    let picture = || Some(Input::Texture(Media::File("red.png".into())));
+    let picture = || Some(Input::texture(Media::File("red.png".into())));
     stage.drop_files(&["red.png"], None);
     assert_eq!((reads(&stage, 0), reads(&stage, 2)), (None, picture()), "the text reads iChannel2");
     let notice = stage.session.notices().last().unwrap().clone();
@@ -297,7 +297,7 @@ fn a_dropped_model_is_drawn_by_a_pass_of_its_own() {
     things(&stage);
     stage.drop_files(&["triangle.obj"], None);
     let model = PassId::Buffer("model".into());
-    assert_eq!(reads(&stage, 2), Some(Input::Buffer("model".into())));
+    assert_eq!(reads(&stage, 2), Some(Input::buffer("model")));
     stage.until("a frame of it", |stage| {
         stage.session.compile_state().last.is_some() && !stage.session.compile_state().compiling
     });
@@ -330,7 +330,7 @@ fn a_dropped_json_and_a_dropped_folder_are_opened_with_their_channels() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE), ("rings.json", RINGS)]) else { return };
     stage.drop_files(&["rings.json"], None);
     assert_eq!(stage.session.project().name, "Rings");
-    assert_eq!(reads(&stage, 2), Some(Input::Buffer("A".into())));
+    assert_eq!(reads(&stage, 2), Some(Input::buffer("A")));
     stage.until("its picture", |stage| {
         let state = stage.session.compile_state();
         state.last.is_some() && !state.compiling && stage.session.diagnostics().is_empty()
@@ -344,7 +344,7 @@ fn a_dropped_json_and_a_dropped_folder_are_opened_with_their_channels() {
     }
     stage.drop_files(&["waves"], None);
     assert_eq!(stage.session.project().name, "Waves");
-    assert_eq!(reads(&stage, 1), Some(Input::Buffer("A".into())));
+    assert_eq!(reads(&stage, 1), Some(Input::buffer("A")));
 }
 
 #[test]
@@ -354,7 +354,7 @@ fn a_text_that_is_pasted_beside_the_code_is_opened() {
     let text = "#iChannel3 \"keyboard\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     stage.frame(vec![Event::Paste(text.into())]);
     assert_eq!(stage.session.project().name, "Pasted shader");
-    assert_eq!(reads(&stage, 3), Some(Input::Keyboard));
+    assert_eq!(reads(&stage, 3), Some(Input::KEYBOARD));
     assert!(stage.session.is_dirty(), "it lies nowhere else");
     stage.frame(vec![Event::Paste("https://www.shadertoy.com/view/abc".into())]);
     assert!(stage.session.notices().last().unwrap().text.contains("bookmarklet"));

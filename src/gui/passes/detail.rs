@@ -6,7 +6,7 @@ use crate::{
         accessible, theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    project::{FillKind, Filter, Pass, PassEdit, PassId, PassSize, Project, Region, Tab, TexelFormat, Wrap},
+    project::{FillKind, Filter, Pass, PassEdit, PassId, PassKind, PassSize, Project, Region, Tab, TexelFormat, Wrap},
     session::{Command, Session},
 };
 use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
@@ -38,7 +38,8 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
         shows(ui, tab, None, out);
         return;
     };
-    let is_buffer = matches!(pass.id, PassId::Buffer(_));
+    let is_buffer = pass.id.kind() == PassKind::Buffer;
+    let has = |key: &str| pass.id.row().refusal(key).is_none();
     Grid::new("pass settings").num_columns(2).spacing([14.0, 9.0]).show(ui, |ui| {
         ui.label("Name");
         if is_buffer {
@@ -54,7 +55,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
         };
         ui.add(egui::Label::new(RichText::new(file).color(theme::of(ui).weak)).truncate());
         ui.end_row();
-        if is_buffer {
+        if has("size") {
             ui.label("Size");
             size(ui, session, pass, out);
             ui.end_row();
@@ -62,7 +63,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             format(ui, pass, out);
             ui.end_row();
         }
-        if is_buffer || pass.id == PassId::Image {
+        if has("region") {
             ui.label("Region");
             region(ui, session, pass, out);
             ui.end_row();
@@ -76,25 +77,20 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             ui.end_row();
         }
         let can_be_filled = pass.settings.meshes().is_none();
-        if is_buffer && can_be_filled {
+        if has("initial") && can_be_filled {
             ui.label("Initial state");
             fills::show(ui, pass, FillKind::Initial, &mut typed.initial, out);
             ui.end_row();
         }
-        if (is_buffer || pass.id == PassId::Image) && can_be_filled {
+        if has("boundary") && can_be_filled {
             ui.label("Edges").on_hover_text("Overwrite the outermost texels after each draw");
             fills::show(ui, pass, FillKind::Boundary, &mut typed.boundary, out);
             ui.end_row();
         }
     });
-    let note = match &pass.id {
-        PassId::Image => "Image has the picture's resolution and 32-bit floats.",
-        PassId::Cubemap => "Cubemap passes are saved, but Eddy does not draw them yet.",
-        PassId::Sound => "Sound passes are saved, but Eddy does not play them yet.",
-        PassId::Buffer(_) if pass.settings.meshes().is_some() => {
-            "This pass draws meshes. Edit eddy.toml to change the meshes and the camera."
-        }
-        PassId::Buffer(_) => "",
+    let note = match pass.settings.meshes() {
+        Some(_) => "This pass draws meshes. Edit eddy.toml to change the meshes and the camera.",
+        None => pass.id.row().undrawn.unwrap_or(pass.id.row().note),
     };
     if !note.is_empty() {
         ui.add_space(4.0);
@@ -110,7 +106,7 @@ fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
         if out.clicked("passes:text", &ui.button("Edit code")) {
             out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
         }
-        if let Some(pass) = pass.filter(|id| !matches!(id, PassId::Sound | PassId::Cubemap))
+        if let Some(pass) = pass.filter(|id| id.is_drawn())
             && out.clicked("passes:show", &ui.button("Show this pass"))
         {
             out.ask(Command::ShowPass(pass.clone()));
@@ -327,9 +323,8 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
 
 /// The filter and the wrap of all channels that read a buffer.
 fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut UiOutput) {
-    let PassId::Buffer(name) = id else { return };
     let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
-    let readers: Vec<_> = channels.filter(|c| c.input.buffer().is_some_and(|(b, _)| b == name)).collect();
+    let readers: Vec<_> = channels.filter(|c| c.input.target().is_some_and(|(of, _)| of == id)).collect();
     if readers.is_empty() {
         ui.colored_label(theme::of(ui).weak, "no channel reads it");
         return;

@@ -14,7 +14,7 @@ use crate::{
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     playback::capture::file_stem,
-    project::{PassId, Tab},
+    project::Tab,
     session::{Command, Level, Session, probe::ProbePlace},
 };
 use egui::Ui;
@@ -215,7 +215,7 @@ impl Shell {
     /// Returns what only the open project and this machine have to offer: passes to show, and recent projects.
     pub(super) fn offers(session: &Session) -> Vec<Offer> {
         let passes = session.tabs().into_iter().filter_map(|tab| match tab {
-            Tab::Pass(id) if id != PassId::Sound => Some(id),
+            Tab::Pass(id) if id.is_picture() => Some(id),
             _ => None,
         });
         let shows = passes.map(|id| Offer {

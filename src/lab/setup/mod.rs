@@ -239,7 +239,7 @@ impl Setup {
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
             let PassId::Buffer(name) = id else { return Err(lacks("a buffer to be given".into())) };
             pass.source.text = GIVEN.into();
-            pass.channels = [Some(Channel { input: Input::Buffer(name.clone()), sampler }), None, None, None];
+            pass.channels = [Some(Channel { input: Input::buffer(name), sampler }), None, None, None];
         }
         for Edit { pass, old, new } in &self.edits {
             let source = match pass {

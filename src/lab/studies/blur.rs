@@ -49,7 +49,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
         let mut pass = Pass {
             id: PassId::Buffer(name.to_owned()),
             source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
-            channels: [Some(Channel { input: Input::Buffer(reads), sampler }), None, None, None],
+            channels: [Some(Channel { input: Input::buffer(reads), sampler }), None, None, None],
             settings: Default::default(),
         };
         pass.settings.size = PassSize::Scale(0.5f64.powi(level as i32));
@@ -67,7 +67,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
     }
     let place = project.passes.iter().position(|p| p.id == PassId::Buffer("field".into())).unwrap_or(0);
     if let Some(Channel { input, .. }) = &mut project.passes[place].channels[0] {
-        *input = Input::Buffer(before);
+        *input = Input::buffer(before);
     }
     project.passes.splice(place..place, passes);
 }

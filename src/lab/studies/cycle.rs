@@ -60,5 +60,5 @@ fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
 
 fn channels(reads: &[&str]) -> [Option<Channel>; 4] {
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Repeat, vflip: true };
-    std::array::from_fn(|n| reads.get(n).map(|name| Channel { input: Input::Buffer((*name).to_owned()), sampler }))
+    std::array::from_fn(|n| reads.get(n).map(|name| Channel { input: Input::buffer(*name), sampler }))
 }

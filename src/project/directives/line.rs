@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, Filter, Input, Media, PassId, Sampler, Wrap, file_names,
+    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -57,10 +57,9 @@ fn is_glsl(path: &str) -> bool {
 
 /// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
 pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
-    let with = |input, sampler| Some(Channel { input, sampler });
-    let picture = |path: &str| with(Input::Texture(Media::File(PathBuf::from(path))), Sampler::TEXTURE);
+    let picture = |path: &str| Some(Channel::new(Input::texture(Media::File(PathBuf::from(path)))));
     if let Some(name) = value.strip_prefix("builtin://") {
-        return with(Input::Texture(Media::Builtin(name.to_owned())), Sampler::TEXTURE);
+        return Some(Channel::new(Input::texture(Media::Builtin(name.to_owned()))));
     }
     if value.starts_with("http://") || value.starts_with("https://") {
         diagnostics.push(
@@ -89,8 +88,11 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     if is_file && !is_glsl && !path.is_empty() {
         return picture(path);
     }
-    if word.eq_ignore_ascii_case("keyboard") {
-        return with(Input::Keyboard, Sampler::KEYBOARD);
+    let device = InputKind::find(|row| {
+        row.source == InputSource::Device && row.directive.is_some_and(|own| word.eq_ignore_ascii_case(own))
+    });
+    if let Some(device) = device {
+        return Some(Channel::new(Input::Device(device)));
     }
     match file_names::pass_of_stem(word) {
         Some(id) if is_glsl && !around.passes.iter().any(|(_, known)| *known == id) => {
@@ -108,7 +110,8 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     if !is_glsl && file.extension().is_some() {
         return picture(path);
     }
-    let known = ["self", "keyboard", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"];
+    let words = InputKind::all().filter_map(|kind| kind.row().directive);
+    let known = words.chain(["self", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]);
     let mut diagnostic = Diagnostic::error(span, format!("\"{value}\" is not an input that a channel can read"));
     if let Some(near) = nearest(word, known) {
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
@@ -122,25 +125,18 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
 
 /// The channel that reads a pass.
 fn pass(id: &PassId, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
-    let input = match id {
-        PassId::Buffer(name) => Input::Buffer(name.clone()),
-        PassId::Cubemap => Input::CubemapPass,
-        PassId::Image | PassId::Sound if id == around.id => {
-            diagnostics.push(
-                Diagnostic::error(span, format!("{} cannot read itself", id.title()))
-                    .hint("move the feedback into buffer_a.glsl and read \"buffer_a\""),
-            );
-            return None;
+    let (message, hint) = match id.row().input {
+        Some(_) => return Some(Channel::new(Input::pass(id.clone()))),
+        None if id == around.id => {
+            (format!("{} cannot read itself", id.title()), "move the feedback into buffer_a.glsl and read \"buffer_a\"")
         }
-        PassId::Image | PassId::Sound => {
-            diagnostics.push(
-                Diagnostic::error(span, format!("a channel cannot read {}", id.title()))
-                    .hint("a channel can read buffers, the cubemap pass, image files and the keyboard"),
-            );
-            return None;
-        }
+        None => (
+            format!("a channel cannot read {}", id.title()),
+            "a channel can read buffers, the cubemap pass, image files and the keyboard",
+        ),
     };
-    Some(Channel { input, sampler: Sampler::BUFFER })
+    diagnostics.push(Diagnostic::error(span, message).hint(hint));
+    None
 }
 
 pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) {

@@ -27,17 +27,17 @@ fn directives_name_inputs_and_samplers() {
     );
     assert_eq!(
         c[0],
-        Some(Channel { input: Input::Buffer("A".into()), sampler: Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER } })
+        Some(Channel { input: Input::buffer("A"), sampler: Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER } })
     );
     assert_eq!(
         c[1],
         Some(Channel {
-            input: Input::Texture(Media::File("sub/pic.png".into())),
+            input: Input::texture(Media::File("sub/pic.png".into())),
             sampler: Sampler { filter: Filter::Nearest, ..Sampler::TEXTURE }
         })
     );
-    assert_eq!(c[2].as_ref().unwrap().input, Input::Keyboard);
-    assert_eq!(c[3].as_ref().unwrap().input, Input::Buffer("B".into()));
+    assert_eq!(c[2].as_ref().unwrap().input, Input::KEYBOARD);
+    assert_eq!(c[3].as_ref().unwrap().input, Input::buffer("B"));
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn every_spelling_of_a_pass_means_it() {
         ("file://other/buffer_b.glsl", "B"),
     ] {
         let read = channels(&format!("#iChannel2 \"{value}\"\n"));
-        assert_eq!(read[2].as_ref().map(|c| &c.input), Some(&Input::Buffer(buffer.into())), "{value}");
+        assert_eq!(read[2].as_ref().map(|c| &c.input), Some(&Input::buffer(buffer)), "{value}");
     }
 }
 
@@ -115,11 +115,11 @@ fn every_spelling_of_a_pass_means_it() {
 fn a_setting_alone_is_one_of_the_usual_channels() {
     let id = PassId::Image;
     let around = Around { id: &id, file: "image.glsl", passes: &[] };
-    let usual = [Some(Channel { input: Input::Buffer("A".into()), sampler: Sampler::BUFFER }), None, None, None];
+    let usual = [Some(Channel::new(Input::buffer("A"))), None, None, None];
     let found = read("#iChannel0::WrapMode \"Repeat\"\n", SourceId(1), around, &usual);
     assert_eq!(found.diagnostics, []);
     let first = found.channels.unwrap()[0].clone().unwrap();
-    assert_eq!((first.input, first.sampler.wrap), (Input::Buffer("A".into()), Wrap::Repeat));
+    assert_eq!((first.input, first.sampler.wrap), (Input::buffer("A"), Wrap::Repeat));
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn a_channel_that_is_said_twice_is_told_of() {
     let said = of_a("#iChannel0 \"self\"\n#iChannel0 \"buffer_b\"\n#iChannel1 \"self\"\n#iChannel1 \"buffer_a\"\n");
     assert_eq!(said.diagnostics.len(), 1, "two lines that say the same do no harm: {:?}", said.diagnostics);
     assert!(said.diagnostics[0].message.contains("iChannel0") && said.diagnostics[0].labels.len() == 1);
-    assert_eq!(said.channels.unwrap()[0].as_ref().unwrap().input, Input::Buffer("B".into()));
+    assert_eq!(said.channels.unwrap()[0].as_ref().unwrap().input, Input::buffer("B"));
 }
 
 #[test]

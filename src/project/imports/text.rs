@@ -1,6 +1,6 @@
 //! A pasted text is Shadertoy JSON, GLSL, the name of a file, or an address.
 
-use crate::{Loaded, Project, ProjectError, folder, json, limits, presets, unescaped};
+use crate::{Loaded, PassKind, Project, ProjectError, folder, json, limits, presets, unescaped};
 use eddy_diag::Diagnostic;
 use std::path::Path;
 
@@ -99,7 +99,7 @@ fn shown(line: &str) -> String {
 
 /// Returns whether a text has a function that a pass begins with.
 fn has_main(text: &str) -> bool {
-    ["mainImage", "mainCubemap", "mainSound", "void main"].iter().any(|main| text.contains(main))
+    PassKind::all().map(|kind| kind.row().entry).chain(["void main"]).any(|main| text.contains(main))
 }
 
 /// A project whose Image pass is the text; its `#iChannel` lines say what it reads.

@@ -2,7 +2,7 @@
 
 use crate::{
     Camera, Channel, Cull, DepthTest, Geometry, Input, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
-    PassSettings, Project, Sampler, Source, Stage, limits,
+    PassSettings, Project, Source, Stage, limits,
 };
 use std::path::Path;
 
@@ -98,9 +98,8 @@ impl Project {
 
     /// Lets a channel read a picture.
     pub fn read_picture(&mut self, id: &PassId, channel: usize, picture: &Path) {
-        let input = Input::Texture(Media::Picked(picture.to_owned()));
         if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel { input, sampler: Sampler::TEXTURE });
+            *slot = Some(Channel::new(Input::texture(Media::Picked(picture.to_owned()))));
         }
     }
 
@@ -142,10 +141,8 @@ impl Project {
 
     /// Lets a channel read what a buffer has drawn.
     pub fn read_buffer(&mut self, id: &PassId, channel: usize, buffer: &PassId) {
-        let PassId::Buffer(name) = buffer else { return };
-        let input = Input::Buffer(name.clone());
         if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel { input, sampler: Sampler::BUFFER });
+            *slot = Some(Channel::new(Input::pass(buffer.clone())));
         }
     }
 }

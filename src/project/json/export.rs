@@ -50,11 +50,9 @@ pub fn export(project: &Project) -> String {
 fn pass(pass: &Pass, code: String) -> Value {
     let inputs: Vec<Value> =
         pass.channels.iter().enumerate().filter_map(|(n, c)| Some(input(n, c.as_ref()?))).collect();
-    let (kind, output) = match &pass.id {
-        PassId::Buffer(name) => ("buffer", ids::of_buffer(name)),
-        PassId::Cubemap => ("cubemap", ids::CUBEMAP.to_owned()),
-        PassId::Sound => ("sound", ids::SOUND.to_owned()),
-        PassId::Image => ("image", ids::IMAGE.to_owned()),
+    let output = match &pass.id {
+        PassId::Buffer(name) => ids::of_buffer(name),
+        other => other.row().json_output.to_owned(),
     };
     json!({
         "inputs": inputs,
@@ -62,26 +60,22 @@ fn pass(pass: &Pass, code: String) -> Value {
         "code": code,
         "name": pass.id.title(),
         "description": "",
-        "type": kind,
+        "type": pass.id.row().json_type,
     })
 }
 
 fn input(n: usize, channel: &Channel) -> Value {
-    let fixed = |kind: &'static str, id: &str, path: &str| (kind, id.to_owned(), path.to_owned());
-    let (kind, id, path) = match &channel.input {
-        Input::Buffer(name) => ("buffer", ids::of_buffer(name), ids::preview(name)),
+    let row = channel.input.row();
+    let of_row = || row.json_id.map(|(id, path)| (id.to_owned(), path.to_owned())).unwrap_or_default();
+    let (id, path) = match &channel.input {
         // Only geometry passes have further targets, and a project with one is not exported.
-        Input::Target { buffer, .. } => ("buffer", ids::of_buffer(buffer), ids::preview(buffer)),
-        Input::CubemapPass => fixed("cubemap", ids::CUBEMAP, "/media/previz/cubemap00.png"),
-        Input::Keyboard => fixed("keyboard", ids::KEYBOARD, "/presets/tex00.jpg"),
-        Input::Microphone => fixed("mic", ids::MICROPHONE, "/presets/mic.png"),
-        Input::Webcam => fixed("webcam", ids::WEBCAM, "/presets/webcam.png"),
-        Input::Texture(m) => of_media("texture", m),
-        Input::Cubemap(m) => of_media("cubemap", m),
-        Input::Volume(m) => of_media("volume", m),
-        Input::Video(m) => of_media("video", m),
-        Input::Music(m @ Media::Site { path, .. }) if path.starts_with("http") => of_media("musicstream", m),
-        Input::Music(m) => of_media("music", m),
+        Input::Pass { id: PassId::Buffer(name), .. } => (ids::of_buffer(name), ids::preview(name)),
+        Input::Pass { .. } | Input::Device(_) => of_row(),
+        Input::Media { media, .. } => of_media(media),
+    };
+    let kind = match (row.json_stream_type, channel.input.media()) {
+        (Some(stream), Some(Media::Site { path, .. })) if path.starts_with("http") => stream,
+        _ => row.json_type,
     };
     let sampler = channel.sampler;
     json!({
@@ -107,13 +101,14 @@ fn input(n: usize, channel: &Channel) -> Value {
     })
 }
 
-fn of_media(kind: &'static str, media: &Media) -> (&'static str, String, String) {
+/// Returns the id and the path of a picture.
+fn of_media(media: &Media) -> (String, String) {
     match media {
-        Media::Builtin(name) => (kind, String::new(), format!("builtin://{name}")),
-        Media::File(path) => (kind, String::new(), format!("file://{}", path.to_string_lossy().replace('\\', "/"))),
+        Media::Builtin(name) => (String::new(), format!("builtin://{name}")),
+        Media::File(path) => (String::new(), format!("file://{}", path.to_string_lossy().replace('\\', "/"))),
         // Where the picture lies on this machine is nobody else's to know.
-        Media::Picked(path) => (kind, String::new(), format!("file://{}", file_name(path))),
-        Media::Site { id, path } => (kind, id.clone(), path.clone()),
+        Media::Picked(path) => (String::new(), format!("file://{}", file_name(path))),
+        Media::Site { id, path } => (id.clone(), path.clone()),
     }
 }
 

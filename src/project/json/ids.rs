@@ -1,13 +1,6 @@
-//! The site's fixed ids: what a pass writes and what an input reads.
+//! The site's ids of buffers: what one writes and what an input reads.
 
 use crate::PassId;
-
-pub const IMAGE: &str = "4dfGRr";
-pub const SOUND: &str = "XsfGRr";
-pub const CUBEMAP: &str = "4dX3Rr";
-pub const KEYBOARD: &str = "4dXGRr";
-pub const WEBCAM: &str = "4sf3zn";
-pub const MICROPHONE: &str = "XdXGRr";
 
 /// Buffer A to D. The API's older answers have the numbers.
 const BUFFERS: [(&str, &str, &str); 4] =

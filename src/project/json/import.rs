@@ -11,8 +11,8 @@ use super::{
     several,
 };
 use crate::{
-    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules, Source,
-    Wrap, limits,
+    Channel, Filter, Info, Input, InputKind, InputRow, InputSource, Media, Origin, Pass, PassId, PassKind, Project,
+    ProjectError, Sampler, SamplerRules, Source, Wrap, limits, listed,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use serde_json::{Map, Value, value::RawValue};
@@ -20,6 +20,9 @@ use std::{
     collections::{BTreeMap, HashMap, HashSet, VecDeque},
     path::PathBuf,
 };
+
+/// The type of the text that is put before every pass.
+const COMMON: &str = "common";
 
 /// The `ver` that the site writes, and the only one that it reads.
 const VERSION: &str = "0.1";
@@ -222,23 +225,19 @@ fn project(
             let message = format!("the code of a pass is larger than {}", limits::GLSL_TEXT);
             return Err(Diagnostic::error(None, message).hint("shorten it"));
         }
-        let id = match &*kind {
-            "common" => {
-                if common.is_some() {
-                    return Err(Diagnostic::error(None, "the shader has two Common passes").hint("remove one of them"));
-                }
-                common = Some(Source { name: "Common".into(), path: None, text: code.into() });
-                continue;
+        if kind == COMMON {
+            if common.is_some() {
+                return Err(Diagnostic::error(None, "the shader has two Common passes").hint("remove one of them"));
             }
-            "image" => PassId::Image,
-            "sound" => PassId::Sound,
-            "cubemap" => PassId::Cubemap,
-            "buffer" => PassId::Buffer(names.of_passes.pop_front().unwrap_or_default()),
-            other => {
-                return Err(Diagnostic::error(None, format!("a pass has the unknown type \"{}\"", shown(other)))
-                    .hint("the types are common, buffer, cubemap, sound and image"));
-            }
+            common = Some(Source { name: "Common".into(), path: None, text: code.into() });
+            continue;
+        }
+        let Some(known) = PassKind::find(|row| row.json_type == kind) else {
+            let message = format!("a pass has the unknown type \"{}\"", shown(&kind));
+            return Err(Diagnostic::error(None, message).hint(types()));
         };
+        let buffer = || PassId::Buffer(names.of_passes.pop_front().unwrap_or_default());
+        let id = known.id().unwrap_or_else(buffer);
         if passes.iter().any(|p| p.id == id) {
             return Err(Diagnostic::error(None, format!("the shader has two passes named {}", id.title()))
                 .hint("remove one of them"));
@@ -246,7 +245,7 @@ fn project(
         let mut channels: [Option<Channel>; 4] = Default::default();
         for input in pass.inputs.iter().flat_map(|inputs| &inputs.0) {
             if let Some((n, channel)) = channel(input, &id, &names, warnings) {
-                if matches!(channel.input, Input::Buffer(_)) {
+                if matches!(channel.input, Input::Pass { id: PassId::Buffer(_), .. }) {
                     reads.push((passes.len(), n));
                 }
                 channels[n] = Some(channel);
@@ -285,33 +284,36 @@ fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
         return Ok(kind.trim().to_lowercase());
     }
     let name = pass.name.as_ref().map(Scalar::text).unwrap_or_default();
-    let kind = match PassId::parse(&name) {
-        _ if name.trim().eq_ignore_ascii_case("common") => "common",
-        Some(PassId::Image) => "image",
-        Some(PassId::Sound) => "sound",
-        Some(PassId::Cubemap) => "cubemap",
-        Some(PassId::Buffer(_)) if name.trim().to_lowercase().starts_with("buf") => "buffer",
+    let is_called_buffer = || name.trim().to_lowercase().starts_with("buf");
+    match PassId::parse(&name) {
+        _ if name.trim().eq_ignore_ascii_case(COMMON) => Ok(COMMON.to_owned()),
+        Some(id) if !matches!(id, PassId::Buffer(_)) || is_called_buffer() => Ok(id.row().json_type.to_owned()),
         _ => {
-            return Err(Diagnostic::error(None, format!("the pass \"{}\" has no \"type\"", shown(&name)))
-                .hint("the types are common, buffer, cubemap, sound and image"));
+            let message = format!("the pass \"{}\" has no \"type\"", shown(&name));
+            Err(Diagnostic::error(None, message).hint(types()))
         }
-    };
-    Ok(kind.to_owned())
+    }
+}
+
+/// Lists the types of passes.
+fn types() -> String {
+    let types: Vec<&str> = [COMMON].into_iter().chain(PassKind::all().map(|kind| kind.row().json_type)).collect();
+    format!("the types are {}", listed(&types))
 }
 
 /// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is
 /// not kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay
 /// the same, there and here.
 fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
-    let mut wraps: HashMap<String, Wrap> = HashMap::new();
+    let mut wraps: HashMap<PassId, Wrap> = HashMap::new();
     for &(pass, n) in reads {
-        if let Some(Channel { input: Input::Buffer(name), sampler }) = &passes[pass].channels[n] {
-            wraps.insert(name.clone(), sampler.wrap);
+        if let Some(Channel { input: Input::Pass { id, .. }, sampler }) = &passes[pass].channels[n] {
+            wraps.insert(id.clone(), sampler.wrap);
         }
     }
     for channel in passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
-        if let Input::Buffer(name) = &channel.input
-            && let Some(wrap) = wraps.get(name)
+        if let Input::Pass { id, .. } = &channel.input
+            && let Some(wrap) = wraps.get(id)
         {
             channel.sampler.wrap = *wrap;
         }
@@ -333,8 +335,11 @@ impl BufferNames {
         let outputs = |p: &RenderPass| -> Vec<String> {
             p.outputs.iter().flat_map(|o| &o.0).filter_map(|o| o.id.as_ref().map(Scalar::text)).collect()
         };
-        let buffers: Vec<(&RenderPass, Vec<String>)> =
-            passes.iter().filter(|p| kind(p).is_ok_and(|kind| kind == "buffer")).map(|p| (p, outputs(p))).collect();
+        let buffers: Vec<(&RenderPass, Vec<String>)> = passes
+            .iter()
+            .filter(|p| kind(p).is_ok_and(|kind| kind == PassKind::Buffer.row().json_type))
+            .map(|p| (p, outputs(p)))
+            .collect();
         let claims: Vec<Option<String>> =
             buffers.iter().map(|(_, ids)| ids.iter().find_map(|i| ids::buffer(i))).collect();
         let claimed: HashSet<&String> = claims.iter().flatten().collect();
@@ -394,47 +399,24 @@ fn channel(
     let kind = input.r#type.as_deref().or(input.ctype.as_deref()).unwrap_or_default();
     let path = input.filepath.as_deref().or(input.src.as_deref()).unwrap_or_default();
     let input_id = input.id.as_ref().map(Scalar::text).unwrap_or_default();
-    let media = || media(&input_id, path);
-    let read = match kind {
-        "buffer" => match ids::buffer(&input_id)
-            .or_else(|| names.of_ids.get(&input_id).cloned())
-            .or_else(|| ids::buffer_of_preview(path))
-        {
-            Some(name) => Input::Buffer(name),
-            None => {
-                warnings.push(
-                    Diagnostic::warning(
-                        None,
-                        format!(
-                            "iChannel{n} of {} reads a buffer of the unknown id \"{}\"",
-                            id.title(),
-                            shown(&input_id)
-                        ),
-                    )
-                    .hint("the channel is left empty and reads black"),
-                );
-                return None;
-            }
-        },
-        "cubemap" if input_id == ids::CUBEMAP || path.contains("/previz/cubemap") => Input::CubemapPass,
-        "cubemap" => Input::Cubemap(media()),
-        "texture" => Input::Texture(media()),
-        "volume" => Input::Volume(media()),
-        "video" => Input::Video(media()),
-        "music" | "musicstream" => Input::Music(media()),
-        "keyboard" => Input::Keyboard,
-        "mic" => Input::Microphone,
-        "webcam" => Input::Webcam,
-        other => {
-            warnings.push(
-                Diagnostic::warning(
-                    None,
-                    format!("iChannel{n} of {} has the unknown type \"{}\"", id.title(), shown(other)),
-                )
-                .hint("the channel is left empty and reads black"),
-            );
-            return None;
-        }
+    let mut unknown = |message: String| {
+        warnings.push(Diagnostic::warning(None, message).hint("the channel is left empty and reads black"));
+    };
+    let Some(found) = input_kind(kind, &input_id, path) else {
+        unknown(format!("iChannel{n} of {} has the unknown type \"{}\"", id.title(), shown(kind)));
+        return None;
+    };
+    let buffer = || {
+        let of_ids = || names.of_ids.get(&input_id).cloned();
+        ids::buffer(&input_id).or_else(of_ids).or_else(|| ids::buffer_of_preview(path)).map(Input::buffer)
+    };
+    let read = match found.row().source {
+        InputSource::Media => Some(Input::Media { kind: found, media: media(&input_id, path) }),
+        InputSource::Pass | InputSource::Device => found.unnamed().or_else(buffer),
+    };
+    let Some(read) = read else {
+        unknown(format!("iChannel{n} of {} reads a buffer of the unknown id \"{}\"", id.title(), shown(&input_id)));
+        return None;
     };
     let stored = input.sampler.as_ref();
     let word = |get: fn(&RenderSampler) -> Option<&String>| stored.and_then(get).map(|s| s.to_lowercase());
@@ -452,6 +434,15 @@ fn channel(
         vflip: stored.and_then(|s| s.vflip.as_ref()).is_none_or(|v| v.text() != "false"),
     };
     Some((n, Channel { input: read, sampler }))
+}
+
+/// Returns the kind of an input. Cubemaps from a file and from a pass have the same type.
+fn input_kind(json_type: &str, id: &str, path: &str) -> Option<InputKind> {
+    let is_pass = |row: &InputRow| row.json_id.is_none_or(|(own, _)| own == id || path.contains("/previz/cubemap"));
+    InputKind::find(|row| {
+        let is_type = row.json_type == json_type || row.json_stream_type == Some(json_type);
+        is_type && (row.source != InputSource::Pass || is_pass(row))
+    })
 }
 
 /// A path of the site, or one that [`super::export`] wrote for a picture the site does not have.

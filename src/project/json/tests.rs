@@ -1,7 +1,9 @@
 //! Tests of the site's JSON: what is read, what is written, and that nothing is lost on the way there and back.
 
 use super::{export, holds_several, import, import_one};
-use crate::{Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap};
+use crate::{
+    Channel, Filter, Info, Input, InputKind, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
+};
 use serde_json::{Value, json};
 
 fn input(channel: u32, kind: &str, id: &str, path: &str, wrap: &str) -> Value {
@@ -44,8 +46,8 @@ fn the_three_shapes_give_the_same_project() {
     let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers in the list's order, by output id, Image last");
     assert_eq!(&*project.common.as_ref().unwrap().text, "// common");
-    assert_eq!(project.passes[1].channels[2].as_ref().unwrap().input, Input::CubemapPass);
-    assert_eq!(project.passes[2].channels[1].as_ref().unwrap().input, Input::Buffer("B".into()));
+    assert_eq!(project.passes[1].channels[2].as_ref().unwrap().input, Input::pass(PassId::Cubemap));
+    assert_eq!(project.passes[2].channels[1].as_ref().unwrap().input, Input::buffer("B"));
     assert_eq!(project.sampler_rules, SamplerRules::Site);
     assert_eq!((project.info.id.as_str(), project.info.author.as_str()), ("XxXxXx", "me"));
     assert_eq!(project.info.extra["viewed"], json!(7));
@@ -63,10 +65,10 @@ fn the_api_spelling_is_read_too() {
     assert_eq!(project.name, "x", "a shader without a name is called after its file");
     let channels = &project.passes[0].channels;
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
-    assert_eq!(channels[0], Some(Channel { input: Input::Buffer("A".into()), sampler }));
-    assert_eq!(channels[1].as_ref().unwrap().input, Input::Buffer("D".into()));
+    assert_eq!(channels[0], Some(Channel { input: Input::buffer("A"), sampler }));
+    assert_eq!(channels[1].as_ref().unwrap().input, Input::buffer("D"));
     let wood = Media::Site { id: "XsfGRn".into(), path: "/media/a/1f7d.jpg".into() };
-    assert_eq!(channels[2].as_ref().unwrap().input, Input::Texture(wood));
+    assert_eq!(channels[2].as_ref().unwrap().input, Input::texture(wood));
 }
 
 #[test]
@@ -179,29 +181,54 @@ fn an_export_reads_back_as_the_same_project() {
             pass(
                 PassId::Buffer("C".into()),
                 [
-                    channel(Input::Buffer("blur".into()), n, Wrap::Clamp, true),
-                    channel(Input::Texture(Media::Builtin("noise-rgba-64".into())), m, Wrap::Repeat, false),
-                    channel(Input::Texture(Media::File("dir/pic.png".into())), l, Wrap::Clamp, true),
-                    channel(Input::Volume(site("v", "/media/a/v.bin")), l, Wrap::Repeat, true),
+                    channel(Input::buffer("blur"), n, Wrap::Clamp, true),
+                    channel(Input::texture(Media::Builtin("noise-rgba-64".into())), m, Wrap::Repeat, false),
+                    channel(Input::texture(Media::File("dir/pic.png".into())), l, Wrap::Clamp, true),
+                    channel(
+                        Input::Media { kind: InputKind::Volume, media: site("v", "/media/a/v.bin") },
+                        l,
+                        Wrap::Repeat,
+                        true,
+                    ),
                 ],
             ),
             pass(
                 PassId::Buffer("blur".into()),
                 [
-                    channel(Input::Music(site("m", "/media/a/m.mp3")), l, Wrap::Clamp, true),
-                    channel(Input::Music(site("s", "https://soundcloud.com/x/y")), l, Wrap::Clamp, true),
-                    channel(Input::Microphone, l, Wrap::Clamp, true),
-                    channel(Input::Webcam, l, Wrap::Clamp, true),
+                    channel(
+                        Input::Media { kind: InputKind::Music, media: site("m", "/media/a/m.mp3") },
+                        l,
+                        Wrap::Clamp,
+                        true,
+                    ),
+                    channel(
+                        Input::Media { kind: InputKind::Music, media: site("s", "https://soundcloud.com/x/y") },
+                        l,
+                        Wrap::Clamp,
+                        true,
+                    ),
+                    channel(Input::Device(InputKind::Microphone), l, Wrap::Clamp, true),
+                    channel(Input::Device(InputKind::Webcam), l, Wrap::Clamp, true),
                 ],
             ),
-            pass(PassId::Cubemap, [channel(Input::CubemapPass, l, Wrap::Clamp, true), None, None, None]),
+            pass(PassId::Cubemap, [channel(Input::pass(PassId::Cubemap), l, Wrap::Clamp, true), None, None, None]),
             pass(
                 PassId::Image,
                 [
                     None,
-                    channel(Input::Keyboard, n, Wrap::Clamp, true),
-                    channel(Input::Cubemap(site("c", "/media/a/c.png")), m, Wrap::Clamp, false),
-                    channel(Input::Video(site("w", "/media/a/w.webm")), l, Wrap::Clamp, true),
+                    channel(Input::KEYBOARD, n, Wrap::Clamp, true),
+                    channel(
+                        Input::Media { kind: InputKind::Cubemap, media: site("c", "/media/a/c.png") },
+                        m,
+                        Wrap::Clamp,
+                        false,
+                    ),
+                    channel(
+                        Input::Media { kind: InputKind::Video, media: site("w", "/media/a/w.webm") },
+                        l,
+                        Wrap::Clamp,
+                        true,
+                    ),
                 ],
             ),
             pass(PassId::Sound, Default::default()),
@@ -276,7 +303,7 @@ fn what_other_tools_write_is_read() {
         "info": { "name": "n", "viewed": 1e999, "likes": 4 } }"#;
     let project = read(twice);
     assert_eq!(&*project.passes[0].source.text, "// \u{fffd} \u{1f600}");
-    assert_eq!(project.passes[0].channels[2].as_ref().unwrap().input, Input::Keyboard);
+    assert_eq!(project.passes[0].channels[2].as_ref().unwrap().input, Input::KEYBOARD);
     assert_eq!((&project.info.extra["viewed"], &project.info.extra["likes"]), (&Value::Null, &json!(4)));
     let deep = format!("{}{}", "[".repeat(5000), "]".repeat(5000));
     let text = format!(

@@ -15,14 +15,8 @@ impl Reader<'_> {
     pub(super) fn fills(&mut self, id: &PassId, table: &dyn TableLike, settings: &mut PassSettings) {
         for key in KEYS {
             let Some(item) = table.get(key) else { continue };
-            let why = match id {
-                PassId::Image if key == "initial" => {
-                    "no pass can read the last frame of Image; give a buffer this key, and show it in Image"
-                }
-                PassId::Cubemap | PassId::Sound => "only buffers and Image are drawn",
-                _ if settings.meshes().is_some() => "a pass that draws meshes is cleared in every frame",
-                _ => continue,
-            };
+            let cleared = || settings.meshes().map(|_| "a pass that draws meshes is cleared in every frame");
+            let Some(why) = id.row().refusal(key).or_else(cleared) else { continue };
             self.error(item.span(), format!("{} has no {key}", id.title()), why);
             return;
         }

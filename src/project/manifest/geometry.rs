@@ -81,8 +81,7 @@ impl Reader<'_> {
             }
             return None;
         };
-        if !matches!(id, PassId::Buffer(_)) {
-            let hint = "draw the meshes in a buffer, and read it here: channels.0 = { buffer = \"scene\" }";
+        if let Some(hint) = id.row().refusal("draw") {
             self.error(item.span(), format!("{} draws no meshes", id.title()), hint);
             return None;
         }

@@ -82,25 +82,5 @@ pub(super) use read::project;
 pub(super) use renamed::follow_renames;
 pub use write::write;
 
-use super::{Input, Sampler};
-
 /// Version of the form this build writes and the newest it reads.
 const VERSION: i64 = 1;
-
-/// Media kinds by their word in the file.
-const KINDS: [&str; 5] = ["texture", "cubemap", "volume", "video", "music"];
-
-/// Returns what a channel has that the file does not say.
-fn default_sampler(input: &Input) -> Sampler {
-    match input {
-        Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass => Sampler::BUFFER,
-        Input::Keyboard => Sampler::KEYBOARD,
-        Input::Texture(_) => Sampler::TEXTURE,
-        Input::Cubemap(_)
-        | Input::Volume(_)
-        | Input::Video(_)
-        | Input::Music(_)
-        | Input::Microphone
-        | Input::Webcam => Sampler::BUFFER,
-    }
-}

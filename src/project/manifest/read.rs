@@ -1,13 +1,13 @@
 //! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
 
 use super::{
-    KINDS, VERSION, default_sampler, fills, geometry,
+    VERSION, fills, geometry,
     reader::{Reader, silent},
     settings,
 };
 use crate::{
-    Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project, ProjectError,
-    SamplerRules, Source, Wrap,
+    Channel, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId,
+    PassKind, Project, ProjectError, SamplerRules, Source, Wrap,
     file_names::{self, Role},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
@@ -30,20 +30,8 @@ const TOP: [&str; 12] = [
     "groups",
     "shadertoy",
 ];
-const INPUTS: [&str; 12] = [
-    "buffer",
-    "cube_a",
-    "keyboard",
-    "texture",
-    "cubemap",
-    "volume",
-    "video",
-    "music",
-    "microphone",
-    "webcam",
-    "file",
-    "site",
-];
+/// Keys of inputs that are of the kind that `kind` says.
+const PLACES: [&str; 2] = ["file", "site"];
 const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "target"];
 
 /// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as
@@ -177,14 +165,16 @@ impl Reader<'_> {
         for (name, item) in table.iter() {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
             let Some(id) = file_names::pass_of_stem(name) else {
-                let hint =
-                    match nearest(name, ["image", "sound", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]) {
-                        Some(near) => format!("did you mean {near}?"),
-                        None if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ')) => {
-                            "a pass is image, sound, cube_a, or buffer_ and a name".into()
-                        }
-                        None => PassId::NAMES.to_owned(),
-                    };
+                let fixed: Vec<&str> =
+                    PassKind::all().rev().filter(|kind| kind.id().is_some()).map(|kind| kind.row().key).collect();
+                let buffers = ["buffer_a", "buffer_b", "buffer_c", "buffer_d"];
+                let hint = match nearest(name, fixed.iter().copied().chain(buffers)) {
+                    Some(near) => format!("did you mean {near}?"),
+                    None if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ')) => {
+                        format!("a pass is {}, or buffer_ and a name", fixed.join(", "))
+                    }
+                    None => PassId::NAMES.to_owned(),
+                };
                 self.error(at, format!("there is no pass {}", name.escape_debug()), hint);
                 continue;
             };
@@ -227,20 +217,13 @@ impl Reader<'_> {
 
     /// Channels that read a pass the project does not have: legal, but more often a slip.
     fn check_reads(&mut self, table: &dyn TableLike, passes: &[Pass]) {
-        let names: Vec<&str> =
-            passes.iter().filter_map(|p| if let PassId::Buffer(n) = &p.id { Some(n.as_str()) } else { None }).collect();
         let mut found = Vec::new();
         for pass in passes {
             for (n, channel) in pass.channels.iter().enumerate() {
-                let missing = match channel.as_ref().map(|c| &c.input) {
-                    Some(Input::Buffer(name) | Input::Target { buffer: name, .. })
-                        if !names.contains(&name.as_str()) =>
-                    {
-                        PassId::Buffer(name.clone())
-                    }
-                    Some(Input::CubemapPass) if !passes.iter().any(|p| p.id == PassId::Cubemap) => PassId::Cubemap,
-                    _ => continue,
-                };
+                let Some((missing, _)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+                if passes.iter().any(|p| p.id == *missing) {
+                    continue;
+                }
                 let item = table
                     .iter()
                     .find(|(key, _)| file_names::pass_of_stem(key).as_ref() == Some(&pass.id))
@@ -264,11 +247,10 @@ impl Reader<'_> {
     fn check_targets(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         for pass in passes {
             for (n, channel) in pass.channels.iter().enumerate() {
-                let Some(Input::Target { buffer, index }) = channel.as_ref().map(|c| &c.input) else { continue };
-                let id = PassId::Buffer(buffer.clone());
-                let Some(read) = passes.iter().find(|p| p.id == id) else { continue };
+                let Some((id, index)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+                let Some(read) = passes.iter().find(|p| p.id == *id) else { continue };
                 let count = read.settings.formats().len();
-                if *index < count {
+                if index < count {
                     continue;
                 }
                 let item = table
@@ -306,19 +288,21 @@ impl Reader<'_> {
 
     fn channel(&mut self, n: usize, item: &Item) -> Option<Channel> {
         let table = self.table(&format!("channels.{n}"), item)?;
-        self.check_keys(&format!("channel {n}"), table, &[&INPUTS, &SETTINGS]);
-        let named: Vec<&str> = table.iter().map(|(k, _)| k).filter(|k| INPUTS.contains(k)).collect();
+        let inputs: Vec<&str> = InputKind::all().map(|kind| kind.row().key).chain(PLACES).collect();
+        self.check_keys(&format!("channel {n}"), table, &[&inputs, &SETTINGS]);
+        let named: Vec<&str> = table.iter().map(|(k, _)| k).filter(|k| inputs.contains(k)).collect();
         let &[key] = named.as_slice() else {
             let message = if named.is_empty() {
                 format!("channel {n} has no input")
             } else {
                 format!("channel {n} reads {} at once", listed(&named))
             };
-            self.error(item.span(), message, format!("use one of {}", listed(&INPUTS)));
+            self.error(item.span(), message, format!("use one of {}", listed(&inputs)));
             return None;
         };
-        let kind = self.one_of(table, "kind", &KINDS);
-        if kind.is_some() && !matches!(key, "file" | "site") {
+        let media = InputKind::all().map(InputKind::row).filter(|row| row.source == InputSource::Media);
+        let kind = self.one_of(table, "kind", &media.map(|row| row.key).collect::<Vec<_>>());
+        if kind.is_some() && !PLACES.contains(&key) {
             let at = table.get("kind").and_then(Item::span);
             self.error(at, "kind belongs to file or site only", "remove it");
         }
@@ -327,42 +311,22 @@ impl Reader<'_> {
         {
             self.error(item.span(), "target belongs to buffer only", "remove it");
         }
-        let input = match key {
-            "buffer" => {
-                let name = self.string(table, key)?;
-                match PassId::parse(&name) {
-                    Some(PassId::Buffer(name)) => match self.target(table)? {
-                        0 => Input::Buffer(name),
-                        index => Input::Target { buffer: name, index },
-                    },
-                    Some(PassId::Cubemap) => Input::CubemapPass,
-                    _ => {
-                        let at = table.get(key).and_then(Item::span);
-                        self.error(at, format!("\"{name}\" is not a buffer"), "write a buffer pass: buffer = \"A\"");
-                        return None;
-                    }
-                }
-            }
-            "cube_a" | "keyboard" | "microphone" | "webcam" => {
-                if !self.boolean(table, key)? {
-                    return None;
-                }
-                match key {
-                    "cube_a" => Input::CubemapPass,
-                    "keyboard" => Input::Keyboard,
-                    "microphone" => Input::Microphone,
-                    _ => Input::Webcam,
-                }
-            }
-            "file" => of_kind(kind.unwrap_or("texture"), Media::File(PathBuf::from(self.string(table, key)?))),
-            "site" => {
+        let kind = kind.filter(|_| PLACES.contains(&key)).unwrap_or(key);
+        let kind = InputKind::find(|row| row.key == kind).unwrap_or(InputKind::Texture);
+        let input = match (key, kind.row().source) {
+            ("file", _) => Input::Media { kind, media: Media::File(PathBuf::from(self.string(table, key)?)) },
+            ("site", _) => {
                 let path = self.string(table, key)?;
                 let id = self.string(table, "site_id").unwrap_or_default();
-                of_kind(kind.unwrap_or("texture"), Media::Site { id, path })
+                Input::Media { kind, media: Media::Site { id, path } }
             }
-            kind => of_kind(kind, Media::Builtin(self.string(table, kind)?)),
+            (_, InputSource::Media) => Input::Media { kind, media: Media::Builtin(self.string(table, key)?) },
+            (_, InputSource::Pass | InputSource::Device) => match kind.unnamed() {
+                Some(input) => self.boolean(table, key)?.then_some(input)?,
+                None => self.buffer(table, key)?,
+            },
         };
-        let mut sampler = default_sampler(&input);
+        let mut sampler = input.row().sampler;
         match self.one_of(table, "filter", &["nearest", "linear", "mipmap"]) {
             Some("nearest") => sampler.filter = Filter::Nearest,
             Some("linear") => sampler.filter = Filter::Linear,
@@ -378,6 +342,20 @@ impl Reader<'_> {
             sampler.vflip = self.boolean(table, "vflip")?;
         }
         Some(Channel { input, sampler })
+    }
+
+    /// Returns the buffer that a channel names; the cubemap pass may be named so, too.
+    fn buffer(&mut self, channel: &dyn TableLike, key: &str) -> Option<Input> {
+        let name = self.string(channel, key)?;
+        match PassId::parse(&name) {
+            Some(id @ PassId::Buffer(_)) => Some(Input::Pass { id, target: self.target(channel)? }),
+            Some(id @ PassId::Cubemap) => Some(Input::pass(id)),
+            _ => {
+                let at = channel.get(key).and_then(Item::span);
+                self.error(at, format!("\"{name}\" is not a buffer"), "write a buffer pass: buffer = \"A\"");
+                None
+            }
+        }
     }
 
     /// Returns the target of a buffer that a channel reads. `None`: said wrongly.
@@ -423,14 +401,4 @@ impl Reader<'_> {
 /// The channel an entry of `channels` says, if it says one without a mistake.
 pub fn channel(item: &Item) -> Option<Channel> {
     silent(|reader| reader.channel(0, item)).flatten()
-}
-
-fn of_kind(kind: &str, media: Media) -> Input {
-    match kind {
-        "cubemap" => Input::Cubemap(media),
-        "volume" => Input::Volume(media),
-        "video" => Input::Video(media),
-        "music" => Input::Music(media),
-        _ => Input::Texture(media),
-    }
 }

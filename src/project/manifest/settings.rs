@@ -20,20 +20,8 @@ fn whole(value: &Value) -> Option<u32> {
 impl Reader<'_> {
     pub(super) fn settings(&mut self, id: &PassId, table: &dyn TableLike) -> PassSettings {
         let mut settings = PassSettings::default();
-        let refused: &[&str] = match id {
-            PassId::Buffer(_) => &[],
-            PassId::Image => &["size", "format"],
-            PassId::Cubemap | PassId::Sound => &KEYS,
-        };
-        for key in refused {
-            if let Some(item) = table.get(key) {
-                let why = match id {
-                    PassId::Image => {
-                        "Image has the picture's resolution and 32-bit floats; give a buffer this key \
-                                      and show it in Image"
-                    }
-                    _ => "only buffers have it",
-                };
+        for key in KEYS {
+            if let (Some(item), Some(why)) = (table.get(key), id.row().refusal(key)) {
                 self.error(item.span(), format!("{} has no {key}", id.title()), why);
                 return settings;
             }

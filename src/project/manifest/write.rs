@@ -1,12 +1,13 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
 use super::{
-    VERSION, default_sampler,
+    VERSION,
     edit::{child, key_of, set},
     fills, geometry, read, settings, uniforms,
 };
 use crate::{
-    Channel, CustomUniformValue, Filter, Input, Media, PassId, Project, SamplerRules, Wrap, file_names::pass_of_stem,
+    Channel, CustomUniformValue, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules, Wrap,
+    file_names::pass_of_stem,
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -191,36 +192,16 @@ fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
 
 fn entry(channel: &Channel) -> InlineTable {
     let mut table = InlineTable::new();
+    let row = channel.input.row();
     match &channel.input {
-        Input::Buffer(name) => {
-            let is_plain = PassId::parse(name) == Some(PassId::Buffer(name.clone()));
-            let name = if is_plain { name.clone() } else { PassId::Buffer(name.clone()).key() };
-            table.insert("buffer", name.into());
+        Input::Pass { id: id @ PassId::Buffer(name), .. } => {
+            let is_plain = PassId::parse(name).as_ref() == Some(id);
+            table.insert(row.key, if is_plain { name.clone() } else { id.key() }.into());
         }
-        Input::Target { buffer, index } => {
-            table = self::entry(&Channel { input: Input::Buffer(buffer.clone()), sampler: channel.sampler });
-            table.insert("target", (*index as i64).into());
-            return table;
-        }
-        Input::CubemapPass => {
-            table.insert("cube_a", true.into());
-        }
-        Input::Keyboard => {
-            table.insert("keyboard", true.into());
-        }
-        Input::Microphone => {
-            table.insert("microphone", true.into());
-        }
-        Input::Webcam => {
-            table.insert("webcam", true.into());
-        }
-        Input::Texture(m) => media(&mut table, "texture", m),
-        Input::Cubemap(m) => media(&mut table, "cubemap", m),
-        Input::Volume(m) => media(&mut table, "volume", m),
-        Input::Video(m) => media(&mut table, "video", m),
-        Input::Music(m) => media(&mut table, "music", m),
+        Input::Pass { .. } | Input::Device(_) => drop(table.insert(row.key, true.into())),
+        Input::Media { media, .. } => self::media(&mut table, row, media),
     }
-    let (sampler, default) = (channel.sampler, default_sampler(&channel.input));
+    let (sampler, default) = (channel.sampler, row.sampler);
     if sampler.filter != default.filter {
         let filter = match sampler.filter {
             Filter::Nearest => "nearest",
@@ -239,13 +220,16 @@ fn entry(channel: &Channel) -> InlineTable {
     if sampler.vflip != default.vflip {
         table.insert("vflip", sampler.vflip.into());
     }
+    if let Some((_, target)) = channel.input.target().filter(|(_, target)| *target > 0) {
+        table.insert("target", (target as i64).into());
+    }
     table
 }
 
-fn media(table: &mut InlineTable, kind: &str, media: &Media) {
+fn media(table: &mut InlineTable, row: &InputRow, media: &Media) {
     match media {
         Media::Builtin(name) => {
-            table.insert(kind, name.as_str().into());
+            table.insert(row.key, name.as_str().into());
             return;
         }
         Media::File(path) => {
@@ -265,7 +249,7 @@ fn media(table: &mut InlineTable, kind: &str, media: &Media) {
             }
         }
     }
-    if kind != "texture" {
-        table.insert("kind", kind.into());
+    if row.kind != InputKind::Texture {
+        table.insert("kind", row.key.into());
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{error::PassEditError, groups};
 use crate::{
-    Boundary, Fill, FillValue, Filter, Pass, PassId, PassSize, Project, Region, Sampler, Source, Tab, TexelFormat,
-    Wrap, confine,
+    Boundary, Fill, FillValue, Filter, Pass, PassId, PassKind, PassSize, Project, Region, Sampler, Source, Tab,
+    TexelFormat, Wrap, confine,
     draws::draws,
     file_names::{self, Role},
     limits,
@@ -122,9 +122,10 @@ impl Project {
                 if region.is_some_and(|r| r.width == 0 || r.height == 0) {
                     return Err(PassEditError::BadRegion);
                 }
-                let is_image = *pass == PassId::Image;
-                let found = if is_image { self.found(pass)? } else { self.buffer(pass, "region")? };
-                found.settings.region = *region;
+                if pass.row().refusal("region").is_some() {
+                    self.buffer(pass, "region")?;
+                }
+                self.found(pass)?.settings.region = *region;
             }
             PassEdit::Initial(pass, value) => {
                 self.buffer(pass, "initial state")?;
@@ -168,27 +169,25 @@ impl Project {
     /// A pass whose texels can be filled from outside its own program.
     fn filled(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
         let found = self.found(id)?;
-        let is_drawn = matches!(id, PassId::Buffer(_) | PassId::Image);
         // One that draws meshes is cleared in every frame.
-        if !is_drawn || found.settings.meshes().is_some() {
+        if !id.is_drawn() || found.settings.meshes().is_some() {
             return Err(PassEditError::NotHere { pass: id.title(), what });
         }
         Ok(found)
     }
 
     /// The samplers of all channels that read a buffer.
-    fn readers(&mut self, id: &PassId) -> Result<impl Iterator<Item = &mut Sampler>, PassEditError> {
-        let PassId::Buffer(name) = id.clone() else {
-            return Err(PassEditError::NotHere { pass: id.title(), what: "filter and wrap" });
-        };
-        self.found(id)?;
+    fn readers<'p>(&'p mut self, id: &'p PassId) -> Result<impl Iterator<Item = &'p mut Sampler>, PassEditError> {
+        self.buffer(id, "filter and wrap")?;
         let channels = self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten());
-        Ok(channels.filter(move |c| c.input.buffer().is_some_and(|(b, _)| b == name)).map(|c| &mut c.sampler))
+        Ok(channels.filter(move |c| c.input.target().is_some_and(|(of, _)| of == id)).map(|c| &mut c.sampler))
     }
 
     fn rename(&mut self, from: &PassId, name: &str) -> Result<Option<(PassId, PassId)>, PassEditError> {
         self.found(from)?;
-        let PassId::Buffer(old) = from else { return Err(PassEditError::NotABuffer(from.title())) };
+        if from.kind() != PassKind::Buffer {
+            return Err(PassEditError::NotABuffer(from.title()));
+        }
         let to = PassId::buffer_named(name).ok_or_else(|| PassEditError::BadName(name.trim().to_owned()))?;
         if to == *from {
             return Ok(None);
@@ -196,13 +195,12 @@ impl Project {
         if self.pass(&to).is_some() {
             return Err(PassEditError::Taken(to.title()));
         }
-        let PassId::Buffer(new) = &to else { return Err(PassEditError::BadName(name.trim().to_owned())) };
         let pass = self.found(from)?;
         pass.id = to.clone();
         pass.source.follow_rename(from, &to);
         for channel in self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
-            if let Some(buffer) = channel.input.buffer_mut().filter(|buffer| *buffer == old) {
-                buffer.clone_from(new);
+            if let Some(id) = channel.input.pass_mut().filter(|id| *id == from) {
+                id.clone_from(&to);
             }
         }
         for id in self.groups.iter_mut().flat_map(|g| &mut g.passes).filter(|id| *id == from) {

@@ -70,10 +70,10 @@ fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
     let to = buffer("velocityfield");
     assert_eq!(done, PassEdited { is_changed: true, renamed: Some((buffer("A"), to.clone())) });
     let reads = |id: &PassId, n: usize| project.pass(id).unwrap().channels[n].clone().unwrap().input;
-    assert_eq!(reads(&to, 0), Input::Buffer("velocityfield".into()));
-    assert_eq!(reads(&buffer("B"), 0), Input::Buffer("velocityfield".into()));
-    assert_eq!(reads(&PassId::Image, 0), Input::Buffer("velocityfield".into()));
-    assert_eq!(reads(&PassId::Image, 1), Input::Buffer("C".into()));
+    assert_eq!(reads(&to, 0), Input::buffer("velocityfield"));
+    assert_eq!(reads(&buffer("B"), 0), Input::buffer("velocityfield"));
+    assert_eq!(reads(&PassId::Image, 0), Input::buffer("velocityfield"));
+    assert_eq!(reads(&PassId::Image, 1), Input::buffer("C"));
     assert_eq!(project.groups[0].passes, [to.clone(), buffer("B")]);
 
     let after = saved(&project, dir.path());
@@ -217,7 +217,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
     let a = after.pass(&buffer("A")).unwrap();
     assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), TexelFormat::Rg16f));
     let read = Some(Channel {
-        input: Input::Buffer("A".into()),
+        input: Input::buffer("A"),
         sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true },
     });
     assert_eq!(a.channels[0], read);

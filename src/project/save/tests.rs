@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    Boundary, Channel, Fill, Filter, Info, Input, Pass, PassSettings, PassSize, Region, Sampler, TexelFormat, Wrap,
-    load,
+    Boundary, Channel, Fill, Filter, Info, Input, InputKind, Pass, PassSettings, PassSize, Region, Sampler,
+    TexelFormat, Wrap, load,
 };
 use std::{
     fs,
@@ -128,15 +128,19 @@ fn any_channel(r: &mut Random) -> Channel {
         _ => Media::Site { id: r.text(), path: r.text() },
     };
     let input = match r.below(10) {
-        0 | 1 => Input::Buffer(r.of(&["A", "B", "blur", "image", "sound", "cubea"]).into()),
-        2 => Input::CubemapPass,
-        3 => Input::Keyboard,
-        4 => Input::Microphone,
-        5 => Input::Webcam,
-        6 => Input::Texture(media),
-        7 => Input::Cubemap(media),
-        8 => Input::Volume(media),
-        _ => [Input::Video(media.clone()), Input::Music(media)][r.below(2)].clone(),
+        0 | 1 => Input::buffer(r.of(&["A", "B", "blur", "image", "sound", "cubea"])),
+        2 => Input::pass(PassId::Cubemap),
+        3 => Input::KEYBOARD,
+        4 => Input::Device(InputKind::Microphone),
+        5 => Input::Device(InputKind::Webcam),
+        6 => Input::texture(media),
+        7 => Input::Media { kind: InputKind::Cubemap, media },
+        8 => Input::Media { kind: InputKind::Volume, media },
+        _ => [
+            Input::Media { kind: InputKind::Video, media: media.clone() },
+            Input::Media { kind: InputKind::Music, media },
+        ][r.below(2)]
+        .clone(),
     };
     let filter = [Filter::Nearest, Filter::Linear, Filter::Mipmap][r.below(3)];
     let wrap = [Wrap::Clamp, Wrap::Repeat][r.below(2)];
@@ -335,7 +339,7 @@ fn one_file_holds_a_lone_image_and_says_so_when_it_cannot() {
     project.passes[0].source.text = "#iChannel0 \"keyboard\"\nnew".into();
     let saved = save(&project, &path, Overwrite::Refuse).unwrap();
     assert_eq!(reloaded(&path), saved);
-    project.passes[0].channels[1] = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    project.passes[0].channels[1] = Some(Channel::new(Input::KEYBOARD));
     let error = save(&project, &path, Overwrite::Refuse).unwrap_err();
     assert!(matches!(error, ProjectError::CannotHold { .. }) && error.to_string().contains("folder"), "{error}");
     let folder = save(&project, &dir.path().join("plasma"), Overwrite::Refuse).unwrap();
@@ -376,7 +380,7 @@ fn pictures_go_along_into_a_new_folder() {
     let saved = save(&reloaded(&old), &dir.path().join("far/new"), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("far/new/pics/a.png")).unwrap(), "inside");
     let media = |n: usize| match &saved.passes[0].channels[n].as_ref().unwrap().input {
-        Input::Texture(Media::File(path)) => path.clone(),
+        Input::Media { media: Media::File(path), .. } => path.clone(),
         other => panic!("{other:?}"),
     };
     assert_eq!(media(0), Path::new("pics/a.png"));

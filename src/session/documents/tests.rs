@@ -1,7 +1,9 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use eddy_project::{Channel, CustomUniformValue, Included, Input, PassBody, PassId, Sampler, SamplerRules, Source};
+use eddy_project::{
+    Channel, CustomUniformValue, Included, Input, InputKind, PassBody, PassId, Sampler, SamplerRules, Source,
+};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project::new("p", Vec::new(), Origin::Folder { path: "/p".into(), has_manifest });
@@ -31,7 +33,7 @@ fn text<'a>(d: &'a Documents, tab: &Tab) -> &'a str {
 }
 
 fn rebind(project: &mut Project) {
-    let channel = Channel { input: Input::Keyboard, sampler: Sampler::BUFFER };
+    let channel = Channel { input: Input::KEYBOARD, sampler: Sampler::BUFFER };
     project.pass_mut(&PassId::Image).unwrap().channels[0] = Some(channel);
 }
 
@@ -61,7 +63,8 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         ("a pass less", |p, _| drop(p.passes.pop())),
         ("the order", |p, _| p.passes.reverse()),
         ("a channel", |p, _| {
-            p.passes[0].channels[3] = Some(Channel { input: Input::Webcam, sampler: Sampler::BUFFER })
+            p.passes[0].channels[3] =
+                Some(Channel { input: Input::Device(InputKind::Webcam), sampler: Sampler::BUFFER })
         }),
         ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
         ("groups", |p, _| p.groups.push(eddy_project::Group { name: "g".into(), passes: vec![], steps: 2 })),

@@ -19,6 +19,7 @@ use std::{
 
 /// The packages, each in the folder of its name, and the modules of the root package.
 const LAYERS: &[&str] = &[
+    "texture",
     "diag",
     "project",
     "media",
@@ -65,6 +66,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["SystemTime", "Zoned"],
         &[
+            "texture",
             "diag",
             "project",
             "media",
@@ -80,9 +82,9 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
-    (&["env"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
-    (&["fs", "File", "OpenOptions"], &["diag", "glsl", "graph", "gpu", "engine", "background", "debugger"]),
+    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
+    (&["env"], &["texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
+    (&["fs", "File", "OpenOptions"], &["texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"]),
 ];
 
 /// Where a render pass may be begun otherwise than by `Gpu::pass`, which keeps a driver's fault away: there, and where

@@ -2,8 +2,8 @@
 
 use super::{buffer, image, pass, project};
 use eddy::project::{
-    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, Project, Sampler,
-    Source, Stage, TexelFormat, Wrap,
+    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassId, Project,
+    Sampler, Source, Stage, TexelFormat, Wrap,
 };
 
 /// A mesh before the camera, as a manifest that says nothing more has it.
@@ -42,8 +42,8 @@ pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, dr
 /// A channel that reads a target of the scene.
 pub fn target(index: usize) -> Option<Channel> {
     let input = match index {
-        0 => Input::Buffer("scene".into()),
-        index => Input::Target { buffer: "scene".into(), index },
+        0 => Input::buffer("scene"),
+        index => Input::Pass { id: PassId::Buffer("scene".into()), target: index },
     };
     Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
 }

@@ -34,7 +34,7 @@ pub fn buffer(name: &str) -> PassId {
 
 /// A channel that reads a buffer.
 pub fn reads(name: &str, filter: Filter, wrap: Wrap) -> Option<Channel> {
-    Some(Channel { input: Input::Buffer(name.into()), sampler: Sampler { filter, wrap, vflip: true } })
+    Some(Channel { input: Input::buffer(name), sampler: Sampler { filter, wrap, vflip: true } })
 }
 
 pub fn nearest(name: &str) -> Option<Channel> {

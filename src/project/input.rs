@@ -1,0 +1,342 @@
+//! Owns what a channel can read: [`Input`], and the table of its kinds. A kind is a row of [`ROWS`]; whoever needs to
+//! know something of a kind asks its row.
+
+use super::{Filter, Media, PassId, PassKind, Sampler, Wrap, pass_kind};
+use eddy_texture::Dimension;
+
+/// A source of texels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input {
+    /// One of the targets of a pass, counted from 0. A pass that the project does not have reads zeros.
+    Pass { id: PassId, target: usize },
+    /// Something that is loaded.
+    Media { kind: InputKind, media: Media },
+    /// A device of the machine.
+    Device(InputKind),
+}
+
+/// A kind of input. What is known of each stands in its [`InputRow`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum InputKind {
+    Buffer,
+    CubemapPass,
+    Keyboard,
+    Texture,
+    Cubemap,
+    Volume,
+    Video,
+    Music,
+    Microphone,
+    Webcam,
+}
+
+/// The variant of [`Input`] that a kind belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputSource {
+    Pass,
+    Media,
+    Device,
+}
+
+/// What is known of a kind of input.
+#[derive(Debug)]
+pub struct InputRow {
+    pub kind: InputKind,
+    pub source: InputSource,
+    /// The name for people; of passes and image files, whose own names say enough, a general one.
+    pub title: &'static str,
+    /// Stands for it where there is no small picture.
+    pub glyph: &'static str,
+    /// The key of a channel in `eddy.toml`; of media also the value of `kind`.
+    pub key: &'static str,
+    /// The type in the site's JSON.
+    pub json_type: &'static str,
+    /// The type there of media that are streamed from another site.
+    pub json_stream_type: Option<&'static str>,
+    /// The id and the path that the site's JSON has for the only input of this kind.
+    pub json_id: Option<(&'static str, &'static str)>,
+    /// The word of an `#iChannel` line. Buffers and files are named there by their own names.
+    pub directive: Option<&'static str>,
+    pub dimension: Dimension,
+    /// The sampler of a new channel.
+    pub sampler: Sampler,
+    /// It is always read by [`InputRow::sampler`], whatever is stored.
+    pub has_fixed_sampler: bool,
+    /// [`Sampler::vflip`] means something.
+    pub has_vflip: bool,
+    /// Files that one of media is made of, none for others.
+    pub files: usize,
+    /// The beginning of a sentence, for a kind that Eddy does not read yet; `None` for those that it does.
+    pub undrawn: Option<&'static str>,
+}
+
+const LINEAR_CLAMP: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
+
+/// A row to start from: a single 2D picture that Eddy reads.
+const PICTURE: InputRow = InputRow {
+    kind: InputKind::Texture,
+    source: InputSource::Media,
+    title: "image file",
+    glyph: "img",
+    key: "texture",
+    json_type: "texture",
+    json_stream_type: None,
+    json_id: None,
+    directive: None,
+    dimension: Dimension::D2,
+    sampler: LINEAR_CLAMP,
+    has_fixed_sampler: false,
+    has_vflip: true,
+    files: 1,
+    undrawn: None,
+};
+/// The same of a pass.
+const PASS: InputRow = InputRow { source: InputSource::Pass, has_vflip: false, files: 0, ..PICTURE };
+/// The same of a device.
+const DEVICE: InputRow = InputRow { source: InputSource::Device, files: 0, ..PICTURE };
+
+/// Every kind, in the order in which messages list them and in which [`InputKind`] has them.
+static ROWS: [InputRow; 10] = [
+    InputRow {
+        kind: InputKind::Buffer,
+        title: "Buffer",
+        glyph: "B",
+        key: "buffer",
+        json_type: "buffer",
+        sampler: Sampler::BUFFER,
+        ..PASS
+    },
+    InputRow {
+        kind: InputKind::CubemapPass,
+        title: pass_kind::CUBEMAP.title,
+        glyph: "C",
+        key: "cube_a",
+        json_type: "cubemap",
+        json_id: Some(("4dX3Rr", "/media/previz/cubemap00.png")),
+        directive: Some("cube_a"),
+        dimension: Dimension::Cube,
+        undrawn: pass_kind::CUBEMAP.undrawn,
+        ..PASS
+    },
+    InputRow {
+        kind: InputKind::Keyboard,
+        title: "Keyboard",
+        glyph: "K",
+        key: "keyboard",
+        json_type: "keyboard",
+        json_id: Some(("4dXGRr", "/presets/tex00.jpg")),
+        directive: Some("keyboard"),
+        sampler: Sampler::KEYBOARD,
+        has_fixed_sampler: true,
+        has_vflip: false,
+        ..DEVICE
+    },
+    InputRow { sampler: Sampler::TEXTURE, ..PICTURE },
+    InputRow {
+        kind: InputKind::Cubemap,
+        title: "cubemap",
+        glyph: "C",
+        key: "cubemap",
+        json_type: "cubemap",
+        dimension: Dimension::Cube,
+        files: 6,
+        undrawn: Some("a cubemap image cannot be read yet"),
+        ..PICTURE
+    },
+    InputRow {
+        kind: InputKind::Volume,
+        title: "volume",
+        glyph: "V",
+        key: "volume",
+        json_type: "volume",
+        dimension: Dimension::D3,
+        has_vflip: false,
+        undrawn: Some("a volume cannot be read yet"),
+        ..PICTURE
+    },
+    InputRow {
+        kind: InputKind::Video,
+        title: "video",
+        glyph: "film",
+        key: "video",
+        json_type: "video",
+        undrawn: Some("a video cannot be read yet"),
+        ..PICTURE
+    },
+    InputRow {
+        kind: InputKind::Music,
+        title: "music",
+        glyph: "snd",
+        key: "music",
+        json_type: "music",
+        json_stream_type: Some("musicstream"),
+        has_fixed_sampler: true,
+        has_vflip: false,
+        undrawn: Some("music cannot be read yet"),
+        ..PICTURE
+    },
+    InputRow {
+        kind: InputKind::Microphone,
+        title: "microphone",
+        glyph: "snd",
+        key: "microphone",
+        json_type: "mic",
+        json_id: Some(("XdXGRr", "/presets/mic.png")),
+        has_fixed_sampler: true,
+        has_vflip: false,
+        undrawn: Some("the microphone cannot be read yet"),
+        ..DEVICE
+    },
+    InputRow {
+        kind: InputKind::Webcam,
+        title: "webcam",
+        glyph: "film",
+        key: "webcam",
+        json_type: "webcam",
+        json_id: Some(("4sf3zn", "/presets/webcam.png")),
+        undrawn: Some("the webcam cannot be read yet"),
+        ..DEVICE
+    },
+];
+
+impl InputKind {
+    /// Returns every kind, in the order in which messages list them.
+    pub fn all() -> impl Iterator<Item = InputKind> {
+        ROWS.iter().map(|row| row.kind)
+    }
+
+    pub fn row(self) -> &'static InputRow {
+        &ROWS[self as usize]
+    }
+
+    /// Returns the kind whose row is as asked.
+    pub(crate) fn find(is_it: impl Fn(&InputRow) -> bool) -> Option<InputKind> {
+        ROWS.iter().find(|row| is_it(row)).map(|row| row.kind)
+    }
+
+    /// Returns the input of this kind that has no name of its own: a device, or the cubemap pass.
+    pub(crate) fn unnamed(self) -> Option<Input> {
+        match self.row().source {
+            InputSource::Device => Some(Input::Device(self)),
+            InputSource::Pass => PassKind::find(|pass| pass.input == Some(self))?.id().map(Input::pass),
+            InputSource::Media => None,
+        }
+    }
+}
+
+impl Input {
+    pub const KEYBOARD: Input = Input::Device(InputKind::Keyboard);
+
+    /// The first target of a pass.
+    pub fn pass(id: PassId) -> Input {
+        Input::Pass { id, target: 0 }
+    }
+
+    /// The first target of a buffer, by its name.
+    pub fn buffer(name: impl Into<String>) -> Input {
+        Input::pass(PassId::Buffer(name.into()))
+    }
+
+    /// A 2D picture.
+    pub fn texture(media: Media) -> Input {
+        Input::Media { kind: InputKind::Texture, media }
+    }
+
+    pub fn kind(&self) -> InputKind {
+        match self {
+            Input::Pass { id, .. } => id.row().input.unwrap_or(InputKind::Buffer),
+            Input::Media { kind, .. } | Input::Device(kind) => *kind,
+        }
+    }
+
+    /// Returns what is known of its kind.
+    pub fn row(&self) -> &'static InputRow {
+        self.kind().row()
+    }
+
+    /// Returns what is read from outside the passes.
+    pub fn media(&self) -> Option<&Media> {
+        match self {
+            Input::Media { media, .. } => Some(media),
+            Input::Pass { .. } | Input::Device(_) => None,
+        }
+    }
+
+    pub fn media_mut(&mut self) -> Option<&mut Media> {
+        match self {
+            Input::Media { media, .. } => Some(media),
+            Input::Pass { .. } | Input::Device(_) => None,
+        }
+    }
+
+    /// The pass that is read, and which of its targets.
+    pub fn target(&self) -> Option<(&PassId, usize)> {
+        match self {
+            Input::Pass { id, target } => Some((id, *target)),
+            Input::Media { .. } | Input::Device(_) => None,
+        }
+    }
+
+    pub fn pass_mut(&mut self) -> Option<&mut PassId> {
+        match self {
+            Input::Pass { id, .. } => Some(id),
+            Input::Media { .. } | Input::Device(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Channel, Origin, Pass, Project, Source, files::Files, folder, json, manifest};
+    use std::collections::BTreeMap;
+
+    fn project(channel: &Channel) -> Project {
+        let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
+        let channels = [Some(channel.clone()), None, None, None];
+        Project::new("p", vec![Pass { channels, ..Pass::new(PassId::Image, source) }], Origin::Unsaved)
+    }
+
+    /// An input of a kind.
+    fn example(row: &InputRow) -> Input {
+        let media = Media::File("a.bin".into());
+        match row.source {
+            InputSource::Media => Input::Media { kind: row.kind, media },
+            InputSource::Pass | InputSource::Device => row.kind.unnamed().unwrap_or_else(|| Input::buffer("A")),
+        }
+    }
+
+    fn read(project: &Project) -> Option<Channel> {
+        project.pass(&PassId::Image)?.channels[0].clone()
+    }
+
+    #[test]
+    fn a_row_is_found_by_its_kind_and_says_everything() {
+        for (index, row) in ROWS.iter().enumerate() {
+            assert_eq!((row.kind as usize, row.kind.row().key, example(row).kind()), (index, row.key, row.kind));
+            assert!(![row.title, row.glyph, row.key, row.json_type].contains(&""), "{row:?}");
+            let is_sentence = |text: &str| text.split(' ').count() > 2;
+            assert!(row.undrawn.is_none_or(is_sentence), "{row:?}");
+            assert_eq!(row.files > 0, row.source == InputSource::Media, "{row:?}");
+            assert!(row.files != 1 || row.dimension != Dimension::Cube, "a cube has six faces: {row:?}");
+        }
+    }
+
+    #[test]
+    fn every_kind_goes_through_every_form_of_a_project() {
+        let files = BTreeMap::from([("image.glsl".to_owned(), Vec::new())]);
+        for row in &ROWS {
+            let channel = Channel::new(example(row));
+            let text = manifest::write(&project(&channel), None, "p", false);
+            assert!(!text.contains("filter"), "its sampler is that of a new channel: {text}");
+            let loaded = manifest::project("p", "p".into(), &text, &Files::in_memory(&files), Origin::Unsaved);
+            assert_eq!(read(&loaded.unwrap().project), Some(channel.clone()), "{text}");
+            let json = json::export(&project(&channel));
+            assert_eq!(read(&json::import(&json, "p").unwrap().0), Some(channel.clone()), "{json}");
+            let Some(word) = row.directive else { continue };
+            let mut said = Project::of_image("p".into(), format!("#iChannel0 \"{word}\"\n"));
+            folder::declare_channels(&mut said);
+            assert_eq!(read(&said), Some(channel), "{word}");
+        }
+    }
+}
