@@ -31,13 +31,10 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
     match channel.input.kind() {
         InputKind::Buffer | InputKind::CubemapPass => None,
         InputKind::Keyboard => Some(Box::new(Keyboard::default())),
-        InputKind::Texture => {
-            let key = MediaKey { media: channel.input.media()?.clone(), vflip: channel.sampler.vflip };
-            Some(Box::new(Picture(media.get(&key)?.clone())))
+        InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
+            Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
-        InputKind::Cubemap
-        | InputKind::Volume
-        | InputKind::Video
+        InputKind::Video
         | InputKind::Music
         | InputKind::Microphone
         | InputKind::Webcam => None,

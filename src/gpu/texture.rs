@@ -61,10 +61,10 @@ impl Texture {
         gpu.check_size(label, shape.width, shape.height)?;
         let mut usage =
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST;
-        if is_target || shape.levels > 1 {
+        let is_volume = shape.dimension == Dimension::D3;
+        if is_target || shape.levels > 1 && !is_volume {
             usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
         }
-        let is_volume = shape.dimension == Dimension::D3;
         let raw = gpu.guarded(label, || {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -112,13 +112,20 @@ impl Texture {
 
     /// Writes level 0. `bytes` holds the rows of each layer or slice without padding, row 0 first.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
-        let TextureShape { width, height, format, .. } = self.shape;
+        self.write_level(gpu, 0, bytes);
+    }
+
+    /// Writes a level in the same way.
+    pub fn write_level(&self, gpu: &Gpu, level: u32, bytes: &[u8]) {
+        let [width, height, depth] = self.shape.level(level);
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(width * format.bytes() as u32),
+            bytes_per_row: Some(width * self.shape.format.bytes() as u32),
             rows_per_image: Some(height),
         };
-        gpu.queue.write_texture(self.raw.as_image_copy(), bytes, layout, extent(self.shape));
+        let to = wgpu::TexelCopyTextureInfo { mip_level: level, ..self.raw.as_image_copy() };
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: depth * self.shape.layers() };
+        gpu.queue.write_texture(to, bytes, layout, size);
     }
 
     /// Writes one texel of level 0. `bytes`: as many as a texel of the format has.

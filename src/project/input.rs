@@ -139,8 +139,8 @@ static ROWS: [InputRow; 10] = [
         key: "cubemap",
         json_type: "cubemap",
         dimension: Dimension::Cube,
+        sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Clamp, vflip: false },
         files: 6,
-        undrawn: Some("a cubemap image cannot be read yet"),
         ..PICTURE
     },
     InputRow {
@@ -150,8 +150,8 @@ static ROWS: [InputRow; 10] = [
         key: "volume",
         json_type: "volume",
         dimension: Dimension::D3,
+        sampler: Sampler::TEXTURE,
         has_vflip: false,
-        undrawn: Some("a volume cannot be read yet"),
         ..PICTURE
     },
     InputRow {

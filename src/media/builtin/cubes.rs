@@ -125,7 +125,7 @@ fn periodic_noise(x: f32, y: f32, period: i32, seed: u32) -> f32 {
     let ((column, s), (row, t)) = (cell(x), cell(y));
     let ease = |f: f32| f * f * (3.0 - 2.0 * f);
     let between = |a: f32, b: f32, f: f32| a + (b - a) * ease(f);
-    let at = |i, j| random((column + i).rem_euclid(period), row + j, seed);
+    let at = |i: i32, j: i32| random((column + i).rem_euclid(period), row + j, seed);
     between(between(at(0, 0), at(1, 0), s), between(at(0, 1), at(1, 1), s), t)
 }
 

@@ -49,9 +49,8 @@ pub fn of_directions(side: u32, format: TexelFormat, mut texel: impl FnMut([f32;
     Texels { shape, bytes }
 }
 
-/// Joins six pictures, first row at the top, in the order of [`Face::ALL`]. `vflip` does what the site does: each is
-/// turned upside down, and the top and the bottom change places.
-pub fn of_faces(mut faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
+/// Joins six pictures, first row at the top, in the order of [`Face::ALL`]. `vflip`: see [`turned`].
+pub fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
     let first = faces[0].shape;
     if first.width != first.height {
         return Err(format!("a face must be square, and this one has {}x{} texels", first.width, first.height));
@@ -64,20 +63,18 @@ pub fn of_faces(mut faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
             return Err(format!("all six faces must have bytes, or all floats; {face:?} differs"));
         }
     }
-    if vflip {
-        faces.swap(Face::PlusY as usize, Face::MinusY as usize);
-    }
     let shape = TextureShape::cube(first.width, first.format);
-    let mut bytes = Vec::with_capacity(shape.bytes() as usize);
-    for face in faces {
-        let rows = face.bytes.chunks_exact(face.row_bytes());
-        if vflip {
-            bytes.extend(rows.rev().flatten());
-        } else {
-            bytes.extend(rows.flatten());
-        }
-    }
-    Ok(small_floats(Texels { shape, bytes }))
+    let cube = small_floats(Texels { shape, bytes: faces.into_iter().flat_map(|face| face.bytes).collect() });
+    Ok(if vflip { turned(cube) } else { cube })
+}
+
+/// Turns a cubemap as the site does: each face upside down, and the top and the bottom change places.
+pub fn turned(cube: Texels) -> Texels {
+    let (row, face) = (cube.row_bytes(), cube.bytes.len() / 6);
+    let faces: Vec<&[u8]> = cube.bytes.chunks_exact(face).collect();
+    let order = [Face::PlusX, Face::MinusX, Face::MinusY, Face::PlusY, Face::PlusZ, Face::MinusZ];
+    let bytes = order.iter().flat_map(|f| faces[*f as usize].chunks_exact(row).rev().flatten()).copied().collect();
+    Texels { shape: cube.shape, bytes }
 }
 
 /// Cuts a picture, first row at the top, into a cubemap; its sides tell the layout:
@@ -100,13 +97,8 @@ pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
     } else if is(1, 6) {
         of_faces(cut(width, std::array::from_fn(|i| (0, i as u32))), vflip)
     } else if is(2, 1) {
-        let panorama = panorama(&picture);
-        let faces = std::array::from_fn(|i| {
-            let TextureShape { width: side, format, .. } = panorama.shape;
-            let bytes = panorama.bytes.chunks_exact(panorama.bytes.len() / 6).nth(i).unwrap_or_default();
-            Texels::flat(side, side, format, bytes.to_vec())
-        });
-        of_faces(faces, vflip)
+        let cube = small_floats(panorama(&picture));
+        Ok(if vflip { turned(cube) } else { cube })
     } else {
         Err(format!(
             "the image has {width}x{height} texels, which is no layout of a cubemap: a cross is 4:3 or 3:4, a strip \
