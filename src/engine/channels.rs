@@ -10,7 +10,7 @@ use eddy_glsl::{ChannelUse, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Filter, Input, PassSettings, Project};
+use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
@@ -116,8 +116,12 @@ fn resolution(shape: TextureShape) -> [f32; 3] {
 /// target.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
     let (id, index) = channel.input.target().filter(|(id, _)| id.is_drawn())?;
+    if *id == PassId::Cubemap {
+        project.pass(id)?;
+    }
     let mut settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-    settings.format = settings.formats().get(index).copied().unwrap_or_default();
+    settings.format = id.formats(&settings).get(index).copied().unwrap_or_default();
+    settings.size = id.size(&settings);
     Some(settings)
 }
 

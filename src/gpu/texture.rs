@@ -21,6 +21,8 @@ pub struct Texture {
     pub all_levels: wgpu::TextureView,
     /// Level 0 alone, of the first layer: what passes draw into.
     pub level_0: wgpu::TextureView,
+    /// The same of the other faces of a cube.
+    other_faces: Vec<wgpu::TextureView>,
 }
 
 /// Returns what wgpu calls a format.
@@ -77,25 +79,46 @@ impl Texture {
                 view_formats: &[],
             })
         })?;
-        let level_0 = raw.create_view(&wgpu::TextureViewDescriptor {
-            label: Some(label),
-            dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
-            mip_level_count: Some(1),
-            array_layer_count: Some(1),
-            ..Default::default()
-        });
+        let level_0 = |layer| {
+            raw.create_view(&wgpu::TextureViewDescriptor {
+                label: Some(label),
+                dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
+                mip_level_count: Some(1),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
         let all_levels = raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some(label),
             dimension: Some(view_dimension(shape.dimension)),
             ..Default::default()
         });
-        Ok(Texture { raw, shape, all_levels, level_0 })
+        let other_faces = (1..shape.layers()).map(level_0).collect();
+        Ok(Texture { level_0: level_0(0), other_faces, all_levels, shape, raw })
+    }
+
+    /// Level 0 of a layer.
+    pub fn layer(&self, layer: u32) -> &wgpu::TextureView {
+        match layer {
+            0 => &self.level_0,
+            face => &self.other_faces[face as usize - 1],
+        }
     }
 
     /// Returns level 0 as a pass draws into it and keeps it.
     pub fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+        self.layer_attachment(0, load)
+    }
+
+    /// Returns the same of a layer.
+    pub fn layer_attachment(
+        &self,
+        layer: u32,
+        load: wgpu::LoadOp<wgpu::Color>,
+    ) -> wgpu::RenderPassColorAttachment<'_> {
         wgpu::RenderPassColorAttachment {
-            view: &self.level_0,
+            view: self.layer(layer),
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
@@ -148,16 +171,18 @@ impl Texture {
         encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
     }
 
-    /// Sets all texels of level 0. The texture must be a target.
+    /// Sets all texels of level 0 of every layer. The texture must be a target.
     pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, color: wgpu::Color) {
-        gpu.pass(
-            encoder,
-            wgpu::RenderPassDescriptor {
-                label: Some("clear"),
-                color_attachments: &[Some(self.attachment(wgpu::LoadOp::Clear(color)))],
-                ..Default::default()
-            },
-            |_| (),
-        );
+        for layer in 0..self.shape.layers() {
+            gpu.pass(
+                encoder,
+                wgpu::RenderPassDescriptor {
+                    label: Some("clear"),
+                    color_attachments: &[Some(self.layer_attachment(layer, wgpu::LoadOp::Clear(color)))],
+                    ..Default::default()
+                },
+                |_| (),
+            );
+        }
     }
 }

@@ -115,7 +115,6 @@ static ROWS: [InputRow; 10] = [
         json_id: Some(("4dX3Rr", "/media/previz/cubemap00.png")),
         directive: Some("cube_a"),
         dimension: Dimension::Cube,
-        undrawn: pass_kind::CUBEMAP.undrawn,
         ..PASS
     },
     InputRow {

@@ -48,6 +48,13 @@ pub fn picture(text: &str) -> Result<Picture, String> {
     Ok(Picture { pass: pass(name)?, target })
 }
 
+/// The number of a cubemap's face.
+pub fn face(text: &str) -> Result<usize, String> {
+    const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+    let face = FACES.iter().position(|face| face.eq_ignore_ascii_case(text));
+    face.ok_or_else(|| format!("a face is one of {}", FACES.join(", ")))
+}
+
 pub fn pass(text: &str) -> Result<PassId, String> {
     PassId::parse(text)
         .ok_or_else(|| "unknown pass; write image, buffer_a, buffer_b … or the name of another buffer".into())

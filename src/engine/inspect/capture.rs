@@ -98,7 +98,7 @@ impl<'a> Capture<'a> {
     }
 
     fn level(&self, gpu: &Gpu, texture: &Texture, level: u32) -> Result<Level, EngineError> {
-        let floats = self.converter.convert_level(gpu, texture, level)?;
+        let floats = self.converter.convert_level(gpu, texture, (0, level))?;
         let texels = Readback::default().rgba32float(gpu, &floats)?;
         Ok(Level { width: floats.width(), height: floats.height(), texels })
     }
