@@ -18,7 +18,7 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{FillKind, Input, InputKind, Media, Pass, PassId, PassSettings, Project};
+use eddy_project::{FillKind, Pass, PassId, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.

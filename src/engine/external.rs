@@ -113,6 +113,11 @@ impl External {
         Ok(Self { key, source, texture, version: 0 })
     }
 
+    /// The texels, where they are the same in every frame.
+    pub fn texels(&self) -> Option<&Arc<Texels>> {
+        self.source.constant()
+    }
+
     /// Writes the texels of a frame if they are other than before.
     pub fn update(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         if self.source.advance(inputs) {

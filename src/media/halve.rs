@@ -1,4 +1,4 @@
-//! The next level of a volume's mip chain.
+//! Texels as numbers, and the next level of a volume's mip chain.
 
 use super::Texels;
 use eddy_texture::{TexelFormat, TextureShape};
@@ -36,6 +36,23 @@ impl Texels {
             }
         }
         Texels { shape, bytes }
+    }
+
+    /// The texels as a shader reads them: bytes as their 255th parts, missing components as 0, alpha as 1.
+    pub fn floats(&self) -> Vec<[f32; 4]> {
+        let TextureShape { width, height, format, .. } = self.shape;
+        let is_bytes = matches!(format, TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8);
+        let scale = if is_bytes { 255.0 } else { 1.0 };
+        let count = self.bytes.len() as u32 / format.bytes() as u32;
+        let texel = |i: u32| {
+            let at = [i % width, i / width % height, i / width / height];
+            let mut texel = [0.0, 0.0, 0.0, 1.0];
+            for (c, value) in texel.iter_mut().enumerate().take(format.components()) {
+                *value = self.component(at, c) / scale;
+            }
+            texel
+        };
+        (0..count).map(texel).collect()
     }
 
     /// A component of a texel, as stored.

@@ -23,7 +23,7 @@ use crate::{
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
 use std::{path::PathBuf, time::Duration};
-use values::{PROJECT, format, picture, seconds, size};
+use values::{PROJECT, face, format, picture, seconds, size};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]

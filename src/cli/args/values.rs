@@ -3,6 +3,7 @@
 use crate::{
     playback::{capture::Format, recording::Recording},
     project::PassId,
+    texture::Face,
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 
@@ -50,9 +51,8 @@ pub fn picture(text: &str) -> Result<Picture, String> {
 
 /// The number of a cubemap's face.
 pub fn face(text: &str) -> Result<usize, String> {
-    const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
-    let face = FACES.iter().position(|face| face.eq_ignore_ascii_case(text));
-    face.ok_or_else(|| format!("a face is one of {}", FACES.join(", ")))
+    let face = Face::ALL.iter().position(|face| face.name().eq_ignore_ascii_case(text));
+    face.ok_or_else(|| format!("a face is one of {}", Face::ALL.map(Face::name).join(", ")))
 }
 
 pub fn pass(text: &str) -> Result<PassId, String> {

@@ -5,9 +5,9 @@
 use super::noise::hash2;
 use crate::{
     Texels,
-    load::cube::{Face, of_directions},
+    load::cube::of_directions,
 };
-use eddy_texture::TexelFormat;
+use eddy_texture::{Face, TexelFormat};
 
 /// Texels along a face of the sharp and of the blurred ones.
 const SIDES: (u32, u32) = (256, 64);
@@ -58,8 +58,8 @@ fn blurred(color: fn([f32; 3]) -> Color) -> Texels {
         .iter()
         .flat_map(|face| (0..COARSE * COARSE).map(move |i| (face, i % COARSE, i / COARSE)))
         .map(|(face, x, y)| {
-            let center = |n: u32| (2 * n + 1) as f32 / COARSE as f32 - 1.0;
-            let [x, y, z] = face.direction(center(x), center(y));
+            let center = |n: u32| f64::from(2 * n + 1) / f64::from(COARSE) - 1.0;
+            let [x, y, z] = face.direction(center(x), center(y)).map(|c| c as f32);
             let length = (x * x + y * y + z * z).sqrt();
             // A texel's solid angle goes with the third power of the distance to it.
             let weight = 1.0 / (length * length * length);

@@ -338,7 +338,7 @@ fn a_cubemap_is_six_files_or_one() {
     assert_eq!(faces(cube("sky.png", false).unwrap()), [10, 11, 12, 13, 14, 15]);
     assert_eq!(faces(cube("sky.png", true).unwrap()), [10, 11, 13, 12, 14, 15]);
     save("sky_3.png", 8, 8, 0);
-    assert!(cube("sky.png", false).unwrap_err().to_string().contains("MinusY has 8x8"));
+    assert!(cube("sky.png", false).unwrap_err().to_string().contains("face -y has 8x8"));
     save("cross.png", 16, 12, 7);
     let cross = cube("cross.png", false).unwrap();
     assert_eq!((cross.shape.dimension, cross.shape.width), (Dimension::Cube, 4));
