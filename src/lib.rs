@@ -24,3 +24,4 @@ pub use eddy_media as media;
 pub use eddy_playback as playback;
 pub use eddy_project as project;
 pub use eddy_session as session;
+pub use eddy_texture as texture;

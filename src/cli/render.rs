@@ -69,7 +69,7 @@ fn draw<'a>(
         }
         measures.take(&project, &mut offline, frame, report)?;
         if let Some(path) = targets.path(index, &report.sweep, frame) {
-            targets.write(&path, &offline.read(&wanted.pass, wanted.target)?)?;
+            targets.write(&path, &offline.read(&wanted.pass, args.face.unwrap_or(wanted.target))?)?;
             written.push(path);
         }
     }

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     engine::Pixels,
     playback::capture::{self, Format},
-    project,
+    project::{self, PassId},
 };
 use anyhow::Context;
 use std::{
@@ -46,6 +46,9 @@ enum Place {
 impl Targets {
     /// Err: what was asked for cannot be meant.
     pub fn of(args: &RenderArgs) -> Result<Targets, String> {
+        if args.face.is_some() && args.pass.pass != PassId::Cubemap {
+            return Err("--face: only a cubemap has faces; add --pass cube_a".into());
+        }
         let (at, frames) = frames(args)?;
         let sweep = sweep::combinations(&args.sweep)?;
         let Some(out) = &args.out else {

@@ -15,7 +15,7 @@ use eddy_project::{Filter, Wrap};
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
-    /// One for each program.
+    /// One for each program; of a cubemap pass, which has one, one for each face.
     uniforms: Vec<wgpu::BindGroup>,
     /// One for each choice of textures: bit i says which of its two the target of channel i shows. Made when first
     /// needed.
@@ -24,9 +24,12 @@ pub(super) struct DrawBindings {
 
 impl DrawBindings {
     /// Binds the uniforms of draw `index`.
-    fn new(gpu: &Gpu, compiled: &CompiledDraw, index: usize, uniforms: &Uniforms) -> Self {
-        let group = |(n, pipeline)| uniform_group(gpu, compiled, (n, pipeline), index, uniforms);
-        Self { uniforms: compiled.body.pipelines().enumerate().map(group).collect(), channels: Default::default() }
+    fn new(gpu: &Gpu, compiled: &CompiledDraw, index: usize, layers: u32, uniforms: &Uniforms) -> Self {
+        let of_layer = |layer| {
+            let programs = compiled.body.pipelines().enumerate();
+            programs.map(move |program| uniform_group(gpu, compiled, program, (index, layer), uniforms))
+        };
+        Self { uniforms: (0..layers).flat_map(of_layer).collect(), channels: Default::default() }
     }
 
     /// Uniforms, and the channels as the targets stand now.
@@ -64,7 +67,9 @@ pub(super) struct Bindings {
 
 impl Bindings {
     pub fn new(gpu: &Gpu, program: &Program, uniforms: &Uniforms) -> Self {
-        let bind = |index, compiled: &CompiledDraw| DrawBindings::new(gpu, compiled, index, uniforms);
+        let bind = |index, compiled: &CompiledDraw| {
+            DrawBindings::new(gpu, compiled, index, program.plan.layers(index), uniforms)
+        };
         let fill = |index, fill: &Option<Box<FillProgram>>| fill.as_ref().map(|f| bind(index, &f.compiled));
         let draws = || program.draws.iter().enumerate();
         Self {
@@ -92,15 +97,15 @@ pub(super) fn draw_fill(
     }
 }
 
-/// Binds the uniforms of program `n` of draw `index`.
+/// Binds the uniforms of program `n` of a layer of draw `index`.
 fn uniform_group(
     gpu: &Gpu,
     compiled: &CompiledDraw,
     (n, program): (usize, &StagePipeline),
-    index: usize,
+    (index, layer): (usize, u32),
     uniforms: &Uniforms,
 ) -> wgpu::BindGroup {
-    let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.block_binding(index) }];
+    let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.block_binding(index, layer) }];
     for (binding, table) in &program.tables {
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource: table.as_entire_binding() });
     }

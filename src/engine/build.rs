@@ -18,7 +18,7 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{FillKind, Input, InputKind, Media, Pass, PassId, PassSettings, Project};
+use eddy_project::{FillKind, Pass, PassId, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -240,7 +240,7 @@ impl Builder {
                     Ok(compiled) => {
                         let filter_mode = filter_mode(&self.gpu, project, media, index);
                         let parts = CompiledParts { compiled, fills: [None, None], filter_mode };
-                        probe_of_image = Some((without_undrawn_passes(probed(pass)), parts));
+                        probe_of_image = Some((probed(pass), parts));
                     }
                     Err(errors) => said.extend(errors),
                 }
@@ -248,7 +248,7 @@ impl Builder {
             match texts.compile_pass_with(&mut self.stages, index, options) {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
-                    drawable.passes.push(without_undrawn_passes(pass.clone()));
+                    drawable.passes.push(pass.clone());
                     let filter_mode = filter_mode(&self.gpu, project, media, index);
                     passes.push(CompiledParts { compiled, fills, filter_mode });
                 }
@@ -277,7 +277,7 @@ struct Compilation {
 
 /// Returns what the device's driver needs of the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
-    let has_small_floats = pass.settings.formats().into_iter().any(TexelFormat::is_small_float);
+    let has_small_floats = pass.id.formats(&pass.settings).into_iter().any(TexelFormat::is_small_float);
     Driver {
         tables_in_memory: !gpu.has_storage_buffers,
         opaque_uniforms: gpu.recompiles_for_uniforms,
@@ -298,16 +298,6 @@ fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
     let settings = PassSettings { size, region, format: TexelFormat::Rgba32f, ..PassSettings::default() };
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
-}
-
-/// A channel that reads a pass which is not drawn is as one whose file is missing.
-fn without_undrawn_passes(mut pass: Pass) -> Pass {
-    for channel in pass.channels.iter_mut().flatten() {
-        if let Some((id, _)) = channel.input.target().filter(|(id, _)| !id.is_drawn()) {
-            channel.input = Input::Media { kind: InputKind::Cubemap, media: Media::Builtin(id.key()) };
-        }
-    }
-    pass
 }
 
 fn facts(compiled: &CompiledPass) -> PassFacts {

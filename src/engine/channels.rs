@@ -10,8 +10,8 @@ use eddy_glsl::{ChannelUse, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Filter, Input, PassSettings, Project};
-use eddy_texture::{TexelFormat, TextureShape};
+use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
+use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
 /// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
@@ -79,7 +79,7 @@ impl ChannelBinder<'_> {
 
     /// Returns the one channel of a fill that is the picture of a file.
     pub fn bind_fill(&mut self, path: &Path, texels: &Arc<Texels>, used: ChannelUse) -> Result<BoundChannel, GpuError> {
-        let MediaKey { media, vflip } = MediaKey::of_fill(path);
+        let MediaKey { media, vflip, .. } = MediaKey::of_fill(path);
         let key = ExternalKey { input: Input::texture(media), vflip, mips: false };
         Ok(BoundChannel {
             texture: used.texture,
@@ -104,16 +104,24 @@ impl ChannelBinder<'_> {
     }
 }
 
+/// Returns the channel's `iChannelResolution`. The site leaves that of a cubemap's files at zeros.
 fn resolution(shape: TextureShape) -> [f32; 3] {
-    [shape.width, shape.height, shape.depth].map(|side| side as f32)
+    match shape.dimension {
+        Dimension::Cube => [0.0; 3],
+        Dimension::D2 | Dimension::D3 => [shape.width, shape.height, shape.depth].map(|side| side as f32),
+    }
 }
 
 /// Returns the settings of the pass that the channel names, if it names one that is drawn; the format is that of the
 /// target.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
     let (id, index) = channel.input.target().filter(|(id, _)| id.is_drawn())?;
+    if *id == PassId::Cubemap {
+        project.pass(id)?;
+    }
     let mut settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-    settings.format = settings.formats().get(index).copied().unwrap_or_default();
+    settings.format = id.formats(&settings).get(index).copied().unwrap_or_default();
+    settings.size = id.size(&settings);
     Some(settings)
 }
 

@@ -104,8 +104,8 @@ impl Engine {
             costs.push(PassCost {
                 pass: pass.id.clone(),
                 role: if pass.id.is_drawn() { PassRole::Unread } else { PassRole::Unsupported },
-                size: pass.settings.size.of(canvas),
-                formats: pass.settings.formats(),
+                size: pass.id.size(&pass.settings).of(canvas),
+                formats: pass.id.formats(&pass.settings),
                 steps: 0,
                 // What reads a pass that is not drawn reads zeros, which take their room.
                 held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),

@@ -31,13 +31,10 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
     match channel.input.kind() {
         InputKind::Buffer | InputKind::CubemapPass => None,
         InputKind::Keyboard => Some(Box::new(Keyboard::default())),
-        InputKind::Texture => {
-            let key = MediaKey { media: channel.input.media()?.clone(), vflip: channel.sampler.vflip };
-            Some(Box::new(Picture(media.get(&key)?.clone())))
+        InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
+            Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
-        InputKind::Cubemap
-        | InputKind::Volume
-        | InputKind::Video
+        InputKind::Video
         | InputKind::Music
         | InputKind::Microphone
         | InputKind::Webcam => None,
@@ -114,6 +111,11 @@ impl External {
             }
         };
         Ok(Self { key, source, texture, version: 0 })
+    }
+
+    /// The texels, where they are the same in every frame.
+    pub fn texels(&self) -> Option<&Arc<Texels>> {
+        self.source.constant()
     }
 
     /// Writes the texels of a frame if they are other than before.

@@ -149,7 +149,8 @@ impl Running {
     fn set_uniforms(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         for (index, (compiled, draw)) in self.program.planned_draws().enumerate() {
             let own = self.targets[draw.targets.start].size();
-            self.uniforms.set(index, &uniforms::block(inputs, own, self.canvas, &compiled.channels));
+            let block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
+            self.uniforms.set(index, self.program.plan.layers(index), &block);
             let Some(meshes) = compiled.body.meshes() else { continue };
             for (n, (_, mesh)) in meshes.programs.iter().enumerate() {
                 self.uniforms.set_mesh(meshes.first + n, &mesh.block(&meshes.camera, inputs, own, self.canvas));
@@ -184,6 +185,7 @@ impl Running {
                 None => return false,
             },
         };
+        let texels = texels * u64::from(program.plan.layers(index));
         if !changes.must_draw(index, draw, inputs) {
             stats.passes_cached += 1;
             let bytes = draw.all_targets().map(|target| program.plan.targets[target].format.bytes());
@@ -194,12 +196,31 @@ impl Running {
         true
     }
 
-    /// Encodes one draw, of all rows or of some.
+    /// Encodes one draw, of all rows or of some; of a cube all faces.
     fn encode(
         &mut self,
         shared: &Shared,
         encoder: &mut wgpu::CommandEncoder,
         index: usize,
+        rows: Option<std::ops::Range<u32>>,
+    ) {
+        for layer in 0..self.program.plan.layers(index) {
+            self.encode_layer(shared, encoder, (index, layer), rows.clone());
+        }
+        let draw = &self.program.plan.draws[index];
+        for target in &mut self.targets[draw.targets.clone()] {
+            target.front = target.back();
+            if let Some(chain) = target.chains.get(target.front) {
+                shared.mips.build(&shared.gpu, encoder, chain);
+            }
+        }
+    }
+
+    fn encode_layer(
+        &mut self,
+        shared: &Shared,
+        encoder: &mut wgpu::CommandEncoder,
+        (index, layer): (usize, u32),
         rows: Option<std::ops::Range<u32>>,
     ) {
         let Self { program, targets, depths, bindings, timer, .. } = self;
@@ -219,7 +240,7 @@ impl Running {
                 _ if rows.is_some() => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw, &compiled.body),
             };
-            Some(targets[index].textures[targets[index].back()].attachment(load))
+            Some(targets[index].textures[targets[index].back()].layer_attachment(layer, load))
         };
         let attachments: Vec<_> = draw.all_targets().map(attach).collect();
         let depth = depths.get(index).and_then(Option::as_ref);
@@ -250,7 +271,7 @@ impl Running {
             };
             match &compiled.body {
                 DrawBody::Screen(program) => {
-                    begin(pass, program, 0);
+                    begin(pass, program, layer as usize);
                     pass.draw(0..3, 0..1);
                 }
                 DrawBody::Meshes(meshes) => {
@@ -269,12 +290,6 @@ impl Running {
                 }
             }
         });
-        for target in &mut targets[draw.targets.clone()] {
-            target.front = target.back();
-            if let Some(chain) = target.chains.get(target.front) {
-                shared.mips.build(&shared.gpu, encoder, chain);
-            }
-        }
     }
 }
 

@@ -14,7 +14,7 @@ use super::{
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
 use eddy_project::{CustomUniformValues, PassId};
-use eddy_texture::TexelFormat;
+use eddy_texture::{Dimension, TexelFormat};
 
 /// A device, and the program that runs on it.
 pub struct Engine {
@@ -379,17 +379,23 @@ impl Engine {
         self.read_target(pass, 0)
     }
 
-    /// Does the same as [`Engine::read`] for one of the pass's targets.
+    /// Does the same as [`Engine::read`] for one of the pass's targets, or for one of a cubemap's faces in the order +x,
+    /// -x, +y, -y, +z, -z.
     pub fn read_target(&mut self, pass: &PassId, index: usize) -> Result<Pixels, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
+        let is_cube = running.target(pass, 0)?.newest().shape.dimension == Dimension::Cube;
+        let (index, face) = if is_cube { (0, index as u32) } else { (index, 0) };
         let newest = running.target(pass, index)?.newest();
+        if face >= newest.shape.layers() {
+            return Err(EngineError::NoSuchTarget { pass: pass.title(), index: face as usize });
+        }
         let (width, height) = (newest.width(), newest.height());
         let texels = if newest.shape.format == TexelFormat::Rgba32f {
             Readback::default().rgba32float(gpu, newest)?
         } else {
             let converter = self.converter.get_or_insert_with(|| FloatConverter::new(gpu));
-            Readback::default().rgba32float(gpu, &converter.convert(gpu, newest)?)?
+            Readback::default().rgba32float(gpu, &converter.convert_level(gpu, newest, (face, 0))?)?
         };
         Ok(Pixels { width, height, texels })
     }

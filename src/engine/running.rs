@@ -158,7 +158,8 @@ impl Running {
         let inputs = FrameInputs::at_fixed_step(0, 60.0);
         for (index, (compiled, draw)) in program.planned_draws().enumerate() {
             let own = targets[draw.targets.start].size();
-            uniforms.set(index, &uniforms::block(&inputs, own, *canvas, &compiled.channels));
+            let layers = program.plan.layers(index);
+            uniforms.set(index, layers, &uniforms::block(&inputs, own, *canvas, &compiled.channels));
         }
         uniforms.write(&shared.gpu);
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("initial") };

@@ -18,8 +18,10 @@ const _: () = assert!(size_of::<UniformBlock>() <= STRIDE as usize && size_of::<
 
 /// All passes' uniform blocks as bytes and in buffers, which are written once a frame.
 pub(super) struct Uniforms {
-    /// The site's uniforms, a block for each draw.
+    /// The site's uniforms, a block for each draw; of a cubemap pass one for each face.
     blocks: Blocks,
+    /// The first block of each draw.
+    first: Vec<usize>,
     /// The matrices of meshes, a block for each program of each pass.
     meshes: Blocks,
     /// The author's own, one block for all passes, written when one changes.
@@ -69,17 +71,27 @@ fn uniform_buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
 impl Uniforms {
     pub fn new(gpu: &Gpu, program: &Program) -> Self {
         let custom_uniforms = program.custom_uniforms.len();
+        let mut count = 0;
+        let first = (0..program.draws.len()).map(|draw| {
+            count += program.plan.layers(draw) as usize;
+            count - program.plan.layers(draw) as usize
+        });
+        let first: Vec<usize> = first.collect();
         Self {
-            blocks: Blocks::new(gpu, "uniforms", program.draws.len()),
+            blocks: Blocks::new(gpu, "uniforms", count),
+            first,
             meshes: Blocks::new(gpu, "geometry", program.meshes()),
             custom_uniforms: uniform_buffer(gpu, "own uniforms", custom_uniforms.max(1) as u64 * CUSTOM_UNIFORM_BYTES),
             custom_uniform_slots: vec![[0; 4]; custom_uniforms],
         }
     }
 
-    /// The block of draw `index`.
-    pub fn set(&mut self, index: usize, block: &UniformBlock) {
-        self.blocks.set(index, bytemuck::bytes_of(block));
+    /// The blocks of draw `index`, one for each layer.
+    pub fn set(&mut self, index: usize, layers: u32, block: &UniformBlock) {
+        for face in 0..layers {
+            let block = UniformBlock { cube_face: [face as i32, 0], ..*block };
+            self.blocks.set(self.first[index] + face as usize, bytemuck::bytes_of(&block));
+        }
     }
 
     /// The block of a mesh, counted through all passes.
@@ -103,8 +115,8 @@ impl Uniforms {
         true
     }
 
-    pub fn block_binding(&self, index: usize) -> wgpu::BindingResource<'_> {
-        self.blocks.binding(index, size_of::<UniformBlock>())
+    pub fn block_binding(&self, index: usize, layer: u32) -> wgpu::BindingResource<'_> {
+        self.blocks.binding(self.first[index] + layer as usize, size_of::<UniformBlock>())
     }
 
     pub fn mesh_binding(&self, mesh: usize) -> wgpu::BindingResource<'_> {
@@ -117,7 +129,7 @@ impl Uniforms {
 
     /// The site's uniforms as draw `index` reads them.
     pub fn uniform_block(&self, index: usize) -> UniformBlock {
-        bytemuck::pod_read_unaligned(&self.blocks.block(index)[..size_of::<UniformBlock>()])
+        bytemuck::pod_read_unaligned(&self.blocks.block(self.first[index])[..size_of::<UniformBlock>()])
     }
 
     /// The matrices of a mesh, counted through all passes.
@@ -132,7 +144,7 @@ impl Uniforms {
 
     /// Adds what draw `index` reads of all this, and nothing else: equal bytes, equal values.
     pub fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
-        let block = self.blocks.block(index);
+        let block = self.blocks.block(self.first[index]);
         for range in places(draw.uniforms) {
             read.extend_from_slice(&block[range]);
         }
@@ -173,7 +185,7 @@ pub(super) fn block(
         }),
         time_offset: 0.0,
         sample_offset: 0,
-        pad: [0; 2],
+        cube_face: [0; 2],
         channel_loaded: std::array::from_fn(|i| i32::from(resolution(&channels[i])[0] > 0.0)),
     }
 }

@@ -11,6 +11,7 @@ use eddy_media::{
     mesh::{Mesh, MeshError},
 };
 use eddy_project::Geometry;
+use eddy_texture::Dimension;
 use std::sync::Arc;
 
 /// Pictures and meshes of this build and those before it.
@@ -34,7 +35,13 @@ impl Uploads {
         let shape = if mips { texels.shape.with_mips() } else { texels.shape };
         let texture = Texture::new(gpu, &TextureDescriptor { label: "picture", shape, is_target: false })?;
         texture.write(gpu, &texels.bytes);
-        if mips {
+        if mips && shape.dimension == Dimension::D3 {
+            let mut level = texels.clone();
+            for n in 1..shape.levels {
+                level = Arc::new(level.halved());
+                texture.write_level(gpu, n, &level.bytes);
+            }
+        } else if mips {
             let chain = self.mips.chain(gpu, &texture);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             self.mips.build(gpu, &mut encoder, &chain);

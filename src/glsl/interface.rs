@@ -105,8 +105,9 @@ pub struct UniformBlock {
     pub time_offset: f32,
     /// `int iSampleOffset` at 196 (sound), samples.
     pub sample_offset: i32,
-    /// So that what follows lies at a multiple of 16.
-    pub pad: [i32; 2],
+    /// The face that a cubemap pass draws, in the order of OpenGL ES 3.0, table 3.21, at 200; the second is a pad, so
+    /// that what follows lies at a multiple of 16.
+    pub cube_face: [i32; 2],
     /// `int loaded` of `iCh0` to `iCh3` at 208: 1 where the channel has a texture.
     pub channel_loaded: [i32; 4],
 }

@@ -28,11 +28,16 @@ impl FloatConverter {
     /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as
     /// 1.
     pub fn convert(&self, gpu: &Gpu, picture: &Texture) -> Result<Texture, GpuError> {
-        self.convert_level(gpu, picture, 0)
+        self.convert_level(gpu, picture, (0, 0))
     }
 
-    /// Does the same as [`FloatConverter::convert`] for any level of a texture.
-    pub fn convert_level(&self, gpu: &Gpu, picture: &Texture, level: u32) -> Result<Texture, GpuError> {
+    /// Does the same as [`FloatConverter::convert`] for any layer and level of a texture.
+    pub fn convert_level(
+        &self,
+        gpu: &Gpu,
+        picture: &Texture,
+        (layer, level): (u32, u32),
+    ) -> Result<Texture, GpuError> {
         let side = |texels: u32| (texels >> level).max(1);
         let (width, height) = (side(picture.width()), side(picture.height()));
         let descriptor =
@@ -40,8 +45,11 @@ impl FloatConverter {
         let floats = Texture::new(gpu, &descriptor)?;
         let view = picture.raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some("as floats"),
+            dimension: Some(wgpu::TextureViewDimension::D2),
             base_mip_level: level,
             mip_level_count: Some(1),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
             ..Default::default()
         });
         let read = self.shader.bind(gpu, &view);

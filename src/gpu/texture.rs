@@ -21,6 +21,8 @@ pub struct Texture {
     pub all_levels: wgpu::TextureView,
     /// Level 0 alone, of the first layer: what passes draw into.
     pub level_0: wgpu::TextureView,
+    /// The same of the other faces of a cube.
+    other_faces: Vec<wgpu::TextureView>,
 }
 
 /// Returns what wgpu calls a format.
@@ -61,10 +63,10 @@ impl Texture {
         gpu.check_size(label, shape.width, shape.height)?;
         let mut usage =
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST;
-        if is_target || shape.levels > 1 {
+        let is_volume = shape.dimension == Dimension::D3;
+        if is_target || shape.levels > 1 && !is_volume {
             usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
         }
-        let is_volume = shape.dimension == Dimension::D3;
         let raw = gpu.guarded(label, || {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -77,25 +79,46 @@ impl Texture {
                 view_formats: &[],
             })
         })?;
-        let level_0 = raw.create_view(&wgpu::TextureViewDescriptor {
-            label: Some(label),
-            dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
-            mip_level_count: Some(1),
-            array_layer_count: Some(1),
-            ..Default::default()
-        });
+        let level_0 = |layer| {
+            raw.create_view(&wgpu::TextureViewDescriptor {
+                label: Some(label),
+                dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
+                mip_level_count: Some(1),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
         let all_levels = raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some(label),
             dimension: Some(view_dimension(shape.dimension)),
             ..Default::default()
         });
-        Ok(Texture { raw, shape, all_levels, level_0 })
+        let other_faces = (1..shape.layers()).map(level_0).collect();
+        Ok(Texture { level_0: level_0(0), other_faces, all_levels, shape, raw })
+    }
+
+    /// Level 0 of a layer.
+    pub fn layer(&self, layer: u32) -> &wgpu::TextureView {
+        match layer {
+            0 => &self.level_0,
+            face => &self.other_faces[face as usize - 1],
+        }
     }
 
     /// Returns level 0 as a pass draws into it and keeps it.
     pub fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+        self.layer_attachment(0, load)
+    }
+
+    /// Returns the same of a layer.
+    pub fn layer_attachment(
+        &self,
+        layer: u32,
+        load: wgpu::LoadOp<wgpu::Color>,
+    ) -> wgpu::RenderPassColorAttachment<'_> {
         wgpu::RenderPassColorAttachment {
-            view: &self.level_0,
+            view: self.layer(layer),
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
@@ -112,13 +135,20 @@ impl Texture {
 
     /// Writes level 0. `bytes` holds the rows of each layer or slice without padding, row 0 first.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
-        let TextureShape { width, height, format, .. } = self.shape;
+        self.write_level(gpu, 0, bytes);
+    }
+
+    /// Writes a level in the same way.
+    pub fn write_level(&self, gpu: &Gpu, level: u32, bytes: &[u8]) {
+        let [width, height, depth] = self.shape.level(level);
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(width * format.bytes() as u32),
+            bytes_per_row: Some(width * self.shape.format.bytes() as u32),
             rows_per_image: Some(height),
         };
-        gpu.queue.write_texture(self.raw.as_image_copy(), bytes, layout, extent(self.shape));
+        let to = wgpu::TexelCopyTextureInfo { mip_level: level, ..self.raw.as_image_copy() };
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: depth * self.shape.layers() };
+        gpu.queue.write_texture(to, bytes, layout, size);
     }
 
     /// Writes one texel of level 0. `bytes`: as many as a texel of the format has.
@@ -141,16 +171,18 @@ impl Texture {
         encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
     }
 
-    /// Sets all texels of level 0. The texture must be a target.
+    /// Sets all texels of level 0 of every layer. The texture must be a target.
     pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, color: wgpu::Color) {
-        gpu.pass(
-            encoder,
-            wgpu::RenderPassDescriptor {
-                label: Some("clear"),
-                color_attachments: &[Some(self.attachment(wgpu::LoadOp::Clear(color)))],
-                ..Default::default()
-            },
-            |_| (),
-        );
+        for layer in 0..self.shape.layers() {
+            gpu.pass(
+                encoder,
+                wgpu::RenderPassDescriptor {
+                    label: Some("clear"),
+                    color_attachments: &[Some(self.layer_attachment(layer, wgpu::LoadOp::Clear(color)))],
+                    ..Default::default()
+                },
+                |_| (),
+            );
+        }
     }
 }

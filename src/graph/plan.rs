@@ -199,15 +199,14 @@ impl FramePlan {
     /// Indices of the targets of `id`, made if there are none.
     fn targets(&mut self, project: &Project, id: &PassId) -> Range<usize> {
         let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-        let formats = settings.formats();
+        let formats = id.formats(&settings);
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
-            let row = id.row();
-            let size = if settings.size == PassSize::Canvas { row.size } else { settings.size };
+            let size = id.size(&settings);
             let first = self.targets.len();
             self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
                 index,
-                dimension: row.target.unwrap_or_default(),
+                dimension: id.row().target.unwrap_or_default(),
                 size,
                 format,
                 doubled: false,
@@ -235,9 +234,16 @@ impl FramePlan {
         }
     }
 
-    /// Returns the number of draws of a frame in which everything has changed, each step counted.
+    /// Returns the number of draws of a frame in which everything has changed, each step and each face of a cube
+    /// counted.
     pub fn draws_a_frame(&self) -> u64 {
-        self.runs.iter().map(|r| r.draws.len() as u64 * u64::from(r.steps)).sum()
+        let draws = |run: &Run| run.draws.clone().map(|draw| u64::from(self.layers(draw))).sum::<u64>();
+        self.runs.iter().map(|run| draws(run) * u64::from(run.steps)).sum()
+    }
+
+    /// Returns how many times the pass of a draw is drawn for one picture: once, and for each face of a cube.
+    pub fn layers(&self, draw: usize) -> u32 {
+        self.targets[self.draws[draw].targets.start].dimension.layers()
     }
 
     fn read(&mut self, project: &Project, drawn: &[usize], place: usize, channel: usize) -> Option<Read> {
@@ -253,6 +259,10 @@ impl FramePlan {
     }
 
     fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: &PassId, index: usize) -> Source {
+        // A buffer without a pass holds zeros. A cube of them would take 48 MiB to say less than an empty channel.
+        if *id == PassId::Cubemap && project.pass(id).is_none() {
+            return Source::Nothing;
+        }
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
         let Some(index) = self.targets(project, id).nth(index) else { return Source::Nothing };
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }

@@ -2,6 +2,7 @@
 
 use super::{builtin, played::Played};
 use eddy_project::{FileError, limits, listed};
+use eddy_texture::Dimension;
 use image::ImageError;
 use std::{io, path::PathBuf};
 
@@ -20,6 +21,10 @@ pub enum MediaError {
     Radiance { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
     Npy { path: PathBuf, reason: String },
+    #[error("{}: {reason}", path.display())]
+    Cubemap { path: PathBuf, reason: String },
+    #[error("{}: {reason}", path.display())]
+    Volume { path: PathBuf, reason: String },
     #[error("{}: the image has no texels", path.display())]
     Empty { path: PathBuf },
     #[error("{}: the image has {width}x{height} texels, {excess}", path.display())]
@@ -30,7 +35,7 @@ pub enum MediaError {
         "there is no built-in texture {name}{}",
         near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
     )]
-    UnknownBuiltin { name: String, near: Option<String> },
+    UnknownBuiltin { name: String, near: Option<String>, dimension: Dimension },
     #[error("Shadertoy's {path} has no built-in replacement")]
     NoStandIn { path: String },
 }
@@ -79,8 +84,21 @@ impl MediaError {
                 "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
                     .into()
             }
+            MediaError::Cubemap { .. } => {
+                "give six square images of one size (sky.png and sky_1.png to sky_5.png for +X, -X, +Y, -Y, +Z, -Z), a \
+                 cross of 4:3 or 3:4, a strip of 6:1 or 1:6, or a panorama of 2:1"
+                    .into()
+            }
+            MediaError::Volume { .. } => {
+                "give the first of a stack of images of one size (brain_000.png, brain_001.png, ...), or a file of the site's \
+                 kind: 20 bytes before the texels (BIN, a zero, three sides (u32), the number of channels (1 or 4), a \
+                 zero, the format (u16: 0 for bytes, 10 for floats))"
+                    .into()
+            }
             MediaError::NoFolder { .. } => "save the project first, and put the image into its folder".into(),
-            MediaError::UnknownBuiltin { .. } => format!("available: {}", listed(&builtin::names())),
+            MediaError::UnknownBuiltin { dimension, .. } => {
+                format!("available: {}", listed(&builtin::names(*dimension).collect::<Vec<_>>()))
+            }
             MediaError::NoStandIn { .. } => {
                 "put a file of that name into a folder and pass that folder as --media".into()
             }

@@ -2,7 +2,7 @@
 
 use super::{MediaKey, MediaSet, MeshKey, load::load_within};
 use eddy_diag::Diagnostic;
-use eddy_project::{FillValue, Input, Media, Pass, Project, limits};
+use eddy_project::{Channel, FillValue, Input, Media, Pass, Project, limits};
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
@@ -31,18 +31,17 @@ fn pictures(
     let mut failed: HashMap<MediaKey, (String, String)> = HashMap::new();
     let mut warnings = Vec::new();
     let base = project.origin.base_dir();
-    for (pass, n, input, vflip) in inputs(project).filter(|(_, _, input, _)| is_wanted(input)) {
+    for (pass, n, channel) in channels(project).filter(|(.., channel)| is_wanted(&channel.input)) {
         let mut warn = |message: String, hint: String| {
             warnings
                 .push(Diagnostic::warning(None, format!("iChannel{n} of {}: {message}", pass.id.title())).hint(hint));
         };
-        if let Some(undrawn) = input.row().undrawn {
+        if let Some(undrawn) = channel.input.row().undrawn {
             let hint = "read an image file, a buffer or the keyboard instead".into();
             warn(format!("{undrawn}; the channel is black and of size 0"), hint);
             continue;
         }
-        let Some(media) = input.media() else { continue };
-        let key = MediaKey { media: media.clone(), vflip };
+        let Some(key) = MediaKey::of_channel(channel) else { continue };
         if let Some((message, hint)) = failed.get(&key) {
             warn(message.clone(), hint.clone());
             continue;
@@ -50,7 +49,7 @@ fn pictures(
         if set.get(&key).is_some() {
             continue;
         }
-        match load_within(media, vflip, base, media_dir, set.room()) {
+        match load_within(&key, base, media_dir, set.room()) {
             Ok(texels) => {
                 set.insert(key, Arc::new(texels));
             }
@@ -71,7 +70,7 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
         let Some(path) = fill.value.path().filter(|path| set.fill(path).is_none()) else { continue };
         let texels = match &fill.value {
             FillValue::Held { npy, .. } => super::npy::read(npy, path, set.room()),
-            _ => load_within(&Media::File(path.to_owned()), true, base, None, set.room()),
+            _ => load_within(&MediaKey::of_fill(path), base, None, set.room()),
         };
         match texels {
             Ok(texels) => set.insert_fill(path, Arc::new(texels)),
@@ -102,21 +101,21 @@ impl MediaSet {
     }
 }
 
-fn inputs(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Input, bool)> {
+fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)> {
     project.passes.iter().filter(|p| p.id.is_picture()).flat_map(|pass| {
         pass.channels
             .iter()
             .enumerate()
             // What a pass is not drawn for is told of the pass.
-            .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, &c.input, c.sampler.vflip)))
-            .filter(|(_, _, input, _)| input.target().is_none())
+            .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, c)))
+            .filter(|(.., channel)| channel.input.target().is_none())
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{Channel, InputKind, Origin, PassId, Source};
+    use eddy_project::{InputKind, Origin, PassId, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(Channel::new));

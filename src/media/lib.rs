@@ -1,11 +1,13 @@
-//! Media feed a channel besides buffers: pictures, the keyboard, Eddy's own textures.
+//! Media feed a channel besides buffers: pictures, cubemaps, volumes, the keyboard, Eddy's own textures.
 //!
 //! Owns decoded texels and where they come from. Touches no GPU. Row 0 is the bottom: `vflip` has been applied to
 //! whatever leaves this module.
 
 pub mod builtin;
 mod error;
+mod flatten;
 mod gather;
+mod halve;
 pub mod keyboard;
 mod load;
 pub mod mesh;
@@ -20,8 +22,8 @@ pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use eddy_diag::Diagnostic;
-use eddy_project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
-use eddy_texture::{TexelFormat, TextureShape};
+use eddy_project::{Channel, Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
+use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
     collections::{HashMap, HashSet},
@@ -178,12 +180,21 @@ impl MeshKey {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MediaKey {
     pub media: eddy_project::Media,
+    /// One file may be read as a picture and as a cubemap.
+    pub dimension: Dimension,
     pub vflip: bool,
 }
 
 impl MediaKey {
+    /// What a channel reads; `None` where it reads nothing that is loaded.
+    pub fn of_channel(channel: &Channel) -> Option<MediaKey> {
+        let Channel { input, sampler } = channel;
+        let vflip = sampler.vflip && input.row().has_vflip;
+        Some(MediaKey { media: input.media()?.clone(), dimension: input.row().dimension, vflip })
+    }
+
     /// A fill's picture stands upright.
     pub fn of_fill(path: &Path) -> MediaKey {
-        MediaKey { media: Media::File(path.to_owned()), vflip: true }
+        MediaKey { media: Media::File(path.to_owned()), dimension: Dimension::D2, vflip: true }
     }
 }

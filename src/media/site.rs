@@ -1,11 +1,11 @@
-//! The site's own textures, by id, each with the built-in texture that Eddy falls back to.
+//! The site's own textures, cubemaps and volumes, by id, each with the built-in texture that Eddy falls back to.
 //!
 //! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A fallback has the same
 //! size and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
 
-/// A texture of the site.
+/// A file of the site.
 #[derive(Clone, Copy, Debug)]
-pub struct SiteTexture {
+pub struct SiteFile {
     pub id: &'static str,
     /// First characters of the file's name, which is a hash; for JSON without ids.
     pub hash: &'static str,
@@ -15,16 +15,16 @@ pub struct SiteTexture {
     pub is_grey: bool,
 }
 
-const fn rgba(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteTexture {
-    SiteTexture { id, hash, fallback, is_grey: false }
+const fn rgba(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteFile {
+    SiteFile { id, hash, fallback, is_grey: false }
 }
 
-const fn grey(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteTexture {
-    SiteTexture { id, hash, fallback, is_grey: true }
+const fn grey(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteFile {
+    SiteFile { id, hash, fallback, is_grey: true }
 }
 
-/// The 22 textures, those read most first.
-pub const SITE_TEXTURES: [SiteTexture; 22] = [
+/// Its 22 textures, six cubemaps and two volumes, each kind by how often it is read.
+pub const SITE_FILES: [SiteFile; 30] = [
     rgba("4dXGzr", "08b42b43ae9d", "font"),
     rgba("4dfGRn", "8de3a3924cb9", "street"),
     rgba("Xsf3zn", "f735bee5b64e", "noise-rgba-256"),
@@ -47,12 +47,20 @@ pub const SITE_TEXTURES: [SiteTexture; 22] = [
     rgba("Xsf3Rn", "cbcbb5a6cfb5", "sprites"),
     rgba("XsXGRn", "cd4c518bc6ef", "coral"),
     rgba("XdXGzr", "8979352a182b", "dunes"),
+    rgba("XsfGzn", "585f9546c092", "gallery"),
+    rgba("XdX3zn", "488bd40303a2", "hall"),
+    rgba("XsX3zn", "94284d43be78", "forest"),
+    rgba("4sX3zn", "0681c014f6c8", "forest-blurred"),
+    rgba("4sfGzn", "793a105653fb", "gallery-blurred"),
+    rgba("4dX3zn", "550a8cce1bf4", "hall-blurred"),
+    grey("4sfGRr", "27012b4eadd0", "noise-grey-3d"),
+    rgba("XdX3Rr", "aea6b99da1d5", "noise-rgba-3d"),
 ];
 
-/// Returns the texture of an id, or of a path that ends in its name.
-pub fn site_texture(id: &str, path: &str) -> Option<&'static SiteTexture> {
+/// Returns the file of an id, or of a path that ends in its name.
+pub fn site_file(id: &str, path: &str) -> Option<&'static SiteFile> {
     let name = path.rsplit('/').next().unwrap_or_default();
-    SITE_TEXTURES.iter().find(|s| s.id == id).or_else(|| SITE_TEXTURES.iter().find(|s| name.starts_with(s.hash)))
+    SITE_FILES.iter().find(|s| s.id == id).or_else(|| SITE_FILES.iter().find(|s| name.starts_with(s.hash)))
 }
 
 #[cfg(test)]
@@ -61,8 +69,8 @@ mod tests {
 
     #[test]
     fn a_picture_is_known_by_id_or_by_path() {
-        assert_eq!(site_texture("XsfGRn", "").unwrap().fallback, "wood");
-        assert_eq!(site_texture("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().fallback, "wood");
-        assert!(site_texture("", "/media/a/").is_none() && site_texture("", "").is_none());
+        assert_eq!(site_file("XsfGRn", "").unwrap().fallback, "wood");
+        assert_eq!(site_file("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().fallback, "wood");
+        assert!(site_file("", "/media/a/").is_none() && site_file("", "").is_none());
     }
 }

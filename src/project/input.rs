@@ -115,7 +115,6 @@ static ROWS: [InputRow; 10] = [
         json_id: Some(("4dX3Rr", "/media/previz/cubemap00.png")),
         directive: Some("cube_a"),
         dimension: Dimension::Cube,
-        undrawn: pass_kind::CUBEMAP.undrawn,
         ..PASS
     },
     InputRow {
@@ -139,8 +138,8 @@ static ROWS: [InputRow; 10] = [
         key: "cubemap",
         json_type: "cubemap",
         dimension: Dimension::Cube,
+        sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Clamp, vflip: false },
         files: 6,
-        undrawn: Some("a cubemap image cannot be read yet"),
         ..PICTURE
     },
     InputRow {
@@ -150,8 +149,8 @@ static ROWS: [InputRow; 10] = [
         key: "volume",
         json_type: "volume",
         dimension: Dimension::D3,
+        sampler: Sampler::TEXTURE,
         has_vflip: false,
-        undrawn: Some("a volume cannot be read yet"),
         ..PICTURE
     },
     InputRow {

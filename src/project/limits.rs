@@ -49,6 +49,8 @@ pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its fi
 pub const PICTURE_SIDE: u32 = 32_768;
 /// A decoded picture: 4 bytes a texel, 16 where it holds floats. 8192x16384 texels, or 8192x4096 of floats.
 pub const PICTURE_BYTES: u64 = 512 << 20;
+/// Texels along each side of a volume, and slices of one: what the devices of today take.
+pub const VOLUME_SIDE: u32 = 2048;
 /// All pictures and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 

@@ -1,7 +1,7 @@
 //! Owns the table of the kinds of passes: what is known of each.
 
-use super::{InputKind, PassId, PassSize};
-use eddy_texture::Dimension;
+use super::{InputKind, PassId, PassSettings, PassSize};
+use eddy_texture::{Dimension, TexelFormat};
 
 /// A kind of pass. What is known of each stands in its [`PassRow`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +34,8 @@ pub struct PassRow {
     pub target: Option<Dimension>,
     /// The size of its target, where it is given no other.
     pub size: PassSize,
+    /// The format of its target; `None`: its settings say.
+    pub format: Option<TexelFormat>,
     /// The function that it begins with.
     pub entry: &'static str,
     /// Keys of `eddy.toml` that it has not, and why.
@@ -46,9 +48,9 @@ pub struct PassRow {
 
 const NO_MESHES: (&[&str], &str) =
     (&["draw"], "draw the meshes in a buffer, and read it here: channels.0 = { buffer = \"scene\" }");
-const UNDRAWN: &[(&[&str], &str)] = &[
+const NO_PICTURE: &[(&[&str], &str)] = &[
     (&["size", "format", "region"], "only buffers have it"),
-    (&["initial", "boundary"], "only buffers and Image are drawn"),
+    (&["initial", "boundary"], "a sound has no texels"),
     NO_MESHES,
 ];
 
@@ -63,6 +65,7 @@ const BUFFER: PassRow = PassRow {
     input: Some(InputKind::Buffer),
     target: Some(Dimension::D2),
     size: PassSize::Canvas,
+    format: None,
     entry: "mainImage",
     refused: &[],
     note: "",
@@ -81,8 +84,14 @@ pub(super) const CUBEMAP: PassRow = PassRow {
     target: Some(Dimension::Cube),
     size: PassSize::Fixed(1024, 1024),
     entry: "mainCubemap",
-    refused: UNDRAWN,
-    undrawn: Some("Cubemap passes are saved, but Eddy does not draw them yet."),
+    format: Some(TexelFormat::Rgba16f),
+    refused: &[
+        (&["size", "format"], "a cubemap has six faces of 1024x1024 texels of 16-bit floats"),
+        (&["region"], "a part of the picture is no part of a cube: all six faces are drawn"),
+        (&["initial", "boundary"], "only buffers have it: a cubemap begins as zeros, and its faces have no boundary"),
+        NO_MESHES,
+    ],
+    note: "A cubemap has six faces of 1024x1024 texels of 16-bit floats.",
     ..BUFFER
 };
 
@@ -97,7 +106,7 @@ const SOUND: PassRow = PassRow {
     input: None,
     target: None,
     entry: "mainSound",
-    refused: UNDRAWN,
+    refused: NO_PICTURE,
     undrawn: Some("Sound passes are saved, but Eddy does not play them yet."),
     ..BUFFER
 };
@@ -171,6 +180,16 @@ impl PassId {
     /// Returns what is known of its kind.
     pub fn row(&self) -> &'static PassRow {
         self.kind().row()
+    }
+
+    /// Returns the format of each of its targets.
+    pub fn formats(&self, settings: &PassSettings) -> Vec<TexelFormat> {
+        self.row().format.map_or_else(|| settings.formats(), |format| vec![format])
+    }
+
+    /// Returns the size of its targets.
+    pub fn size(&self, settings: &PassSettings) -> PassSize {
+        if settings.size == PassSize::Canvas { self.row().size } else { settings.size }
     }
 
     /// Returns whether Eddy draws it, where somebody reads or shows it.

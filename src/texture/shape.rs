@@ -14,6 +14,16 @@ pub enum Dimension {
     Cube,
 }
 
+impl Dimension {
+    /// Pictures side by side: the faces of a cube.
+    pub const fn layers(self) -> u32 {
+        match self {
+            Dimension::D2 | Dimension::D3 => 1,
+            Dimension::Cube => 6,
+        }
+    }
+}
+
 /// Everything about a texture but its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextureShape {
@@ -56,12 +66,9 @@ impl TextureShape {
         Self { levels: 1, ..self }
     }
 
-    /// Pictures side by side that each level has: the faces of a cube.
+    /// Pictures side by side that each level has.
     pub const fn layers(self) -> u32 {
-        match self.dimension {
-            Dimension::D2 | Dimension::D3 => 1,
-            Dimension::Cube => 6,
-        }
+        self.dimension.layers()
     }
 
     /// Width, height and depth of a level in texels.

@@ -2,8 +2,12 @@
 //! outside the destination is written, and what asks for too much is refused by a limit that the message names.
 
 use crate::support::{self, program::Bench};
-use eddy::project::{
-    self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Source, Stage, limits,
+use eddy::{
+    media::MediaKey,
+    project::{
+        self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Source, Stage, limits,
+    },
+    texture::Dimension,
 };
 use serde_json::json;
 use std::{
@@ -127,7 +131,8 @@ fn pictures_are_read_from_the_projects_folder_alone() {
     image::RgbaImage::new(1, 1).save(home.join("in.png")).unwrap();
     std::os::unix::fs::symlink("../out.png", home.join("link.png")).unwrap();
     assert!(std::process::Command::new("mkfifo").arg(home.join("pipe.png")).status().unwrap().success());
-    let read = |name: &str| eddy::media::load(&Media::File(name.into()), true, Some(&home), None);
+    let key = |media| MediaKey { media, dimension: Dimension::D2, vflip: true };
+    let read = |name: &str| eddy::media::load(&key(Media::File(name.into())), Some(&home), None);
     assert!(read("in.png").is_ok());
     let absolute = dir.path().join("out.png");
     for (name, says) in [
@@ -142,7 +147,7 @@ fn pictures_are_read_from_the_projects_folder_alone() {
         assert!(!error.hint().is_empty());
     }
     // What the person picked may lie anywhere.
-    assert!(eddy::media::load(&Media::Picked(absolute), true, Some(&home), None).is_ok());
+    assert!(eddy::media::load(&key(Media::Picked(absolute)), Some(&home), None).is_ok());
 }
 
 #[test]

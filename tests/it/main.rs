@@ -18,6 +18,7 @@ mod cli;
 mod cli_measure;
 mod cli_render;
 mod compile_budget;
+mod cubemaps;
 mod directives;
 mod engine;
 mod exports;

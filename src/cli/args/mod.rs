@@ -23,7 +23,7 @@ use crate::{
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
 use std::{path::PathBuf, time::Duration};
-use values::{PROJECT, format, picture, seconds, size};
+use values::{PROJECT, face, format, picture, seconds, size};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -109,6 +109,9 @@ pub struct RenderArgs {
     /// The pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
+    /// The face of a cubemap to write, with --pass cube_a: +x, -x, +y, -y, +z or -z [default: +x]
+    #[arg(long, value_name = "FACE", value_parser = face, allow_hyphen_values = true)]
+    pub face: Option<usize>,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
     /// [default: what --out ends in, else png]
     #[arg(long, value_name = "png|npy", value_parser = format)]

@@ -3,6 +3,7 @@
 use crate::{
     playback::{capture::Format, recording::Recording},
     project::PassId,
+    texture::Face,
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 
@@ -46,6 +47,12 @@ pub fn picture(text: &str) -> Result<Picture, String> {
         None => (text, 0),
     };
     Ok(Picture { pass: pass(name)?, target })
+}
+
+/// The number of a cubemap's face.
+pub fn face(text: &str) -> Result<usize, String> {
+    let face = Face::ALL.iter().position(|face| face.name().eq_ignore_ascii_case(text));
+    face.ok_or_else(|| format!("a face is one of {}", Face::ALL.map(Face::name).join(", ")))
 }
 
 pub fn pass(text: &str) -> Result<PassId, String> {

@@ -1,10 +1,13 @@
 //! Reads back what a draw is about to read.
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
-use crate::{EngineError, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared};
+use crate::{EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared};
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{Source, When};
+use eddy_media::Texels;
 use eddy_project::{Filter, PassId, Wrap};
+use eddy_texture::{Dimension, TextureShape};
+use std::sync::Arc;
 
 /// Takes the inputs of one pass while a frame is drawn; of a pass of several steps, those of its last.
 pub(crate) struct Capture<'a> {
@@ -75,8 +78,17 @@ impl<'a> Capture<'a> {
         };
         let Some(texture) = texture else { return Ok(TextureCopy::black()) };
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
-        let levels = (0..texture.shape.levels).map(|level| self.level(&shared.gpu, texture, level));
-        Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap, level_by: LevelBy::Pixel })
+        let dimension = texture.shape.dimension;
+        let levels = match dimension {
+            Dimension::D3 => {
+                let external = bound.external.as_ref().map(|external| &running.program.externals[external.index]);
+                external.and_then(External::texels).map_or_else(Vec::new, |texels| volume_levels(texels, texture.shape))
+            }
+            Dimension::D2 | Dimension::Cube => (0..texture.shape.levels)
+                .map(|level| self.level(&shared.gpu, texture, level))
+                .collect::<Result<_, _>>()?,
+        };
+        Ok(TextureCopy { dimension, levels, filter, wrap, level_by: LevelBy::Pixel })
     }
 
     /// Returns what a target held when draw `reader` read it, which is done before the target is drawn.
@@ -98,8 +110,22 @@ impl<'a> Capture<'a> {
     }
 
     fn level(&self, gpu: &Gpu, texture: &Texture, level: u32) -> Result<Level, EngineError> {
-        let floats = self.converter.convert_level(gpu, texture, level)?;
-        let texels = Readback::default().rgba32float(gpu, &floats)?;
-        Ok(Level { width: floats.width(), height: floats.height(), texels })
+        let mut texels = Vec::new();
+        for layer in 0..texture.shape.layers() {
+            let floats = self.converter.convert_level(gpu, texture, (layer, level))?;
+            texels.extend(Readback::default().rgba32float(gpu, &floats)?);
+        }
+        let [width, height, _] = texture.shape.level(level);
+        Ok(Level { width, height, depth: texture.shape.layers(), texels })
     }
+}
+
+/// The levels of a volume, as they were written to the device.
+fn volume_levels(texels: &Arc<Texels>, shape: TextureShape) -> Vec<Level> {
+    let levels = std::iter::successors(Some(Texels::clone(texels)), |finer| Some(finer.halved()));
+    let level = |texels: Texels| {
+        let [width, height, depth] = texels.shape.level(0);
+        Level { width, height, depth, texels: texels.floats() }
+    };
+    levels.take(shape.levels as usize).map(level).collect()
 }

@@ -72,7 +72,7 @@ impl World for DrawInputs<'_> {
     fn size(&self, channel: u8, level: i32) -> [i32; 3] {
         let levels = &self.pass.channels[usize::from(channel)].levels;
         let level = usize::try_from(level).ok().and_then(|level| levels.get(level));
-        level.map_or([0; 3], |level| [level.width as i32, level.height as i32, 1])
+        level.map_or([0; 3], |level| [level.width as i32, level.height as i32, level.depth as i32])
     }
 
     fn levels(&self, channel: u8) -> u32 {
@@ -80,7 +80,7 @@ impl World for DrawInputs<'_> {
     }
 
     fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4] {
-        self.pass.channels[usize::from(channel)].fetch([at[0], at[1]], level)
+        self.pass.channels[usize::from(channel)].fetch(at, level)
     }
 
     fn has_one_level_a_quad(&self, channel: u8) -> bool {
@@ -88,6 +88,6 @@ impl World for DrawInputs<'_> {
     }
 
     fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4] {
-        self.pass.channels[usize::from(channel)].sample([at[0], at[1]], lod, [offset[0], offset[1]])
+        self.pass.channels[usize::from(channel)].sample(at, lod, offset)
     }
 }

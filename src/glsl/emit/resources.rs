@@ -52,7 +52,7 @@ const MEMBERS: [(&str, u32, Member); 14] = members! {
     "iChannelResolution" channel_resolution Vec3s;
     "iTimeOffset" time_offset Float;
     "iSampleOffset" sample_offset Int;
-    "cube_face" pad Int2;
+    "cube_face" cube_face Int2;
     "iChannelLoaded" channel_loaded Int4;
 };
 

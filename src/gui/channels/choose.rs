@@ -65,26 +65,35 @@ pub fn choose(
         sampler(ui, channel, out, set);
     }
     ui.separator();
-    ui.colored_label(theme::of(ui).weak, "Textures that come with Eddy");
-    ScrollArea::vertical().max_height(210.0).auto_shrink([false, true]).show(ui, |ui| {
+    ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
-        ui.horizontal_wrapped(|ui| {
-            for name in media::builtin::names() {
-                let input = Input::texture(Media::Builtin(name.to_owned()));
-                let (rect, response) = ui.allocate_exact_size(vec2(84.0, 82.0), Sense::click());
-                let chosen = now == Some(&input);
-                accessible::choice(&response, egui::Role::Button, chosen, name);
-                if ui.is_rect_visible(rect) {
-                    texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
+        for (kind, title) in BUILT_IN {
+            ui.colored_label(theme::of(ui).weak, title);
+            ui.horizontal_wrapped(|ui| {
+                for name in media::builtin::names(kind.row().dimension) {
+                    let input = Input::Media { kind, media: Media::Builtin(name.to_owned()) };
+                    let (rect, response) = ui.allocate_exact_size(vec2(84.0, 82.0), Sense::click());
+                    let chosen = now == Some(&input);
+                    accessible::choice(&response, egui::Role::Button, chosen, name);
+                    if ui.is_rect_visible(rect) {
+                        texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
+                    }
+                    if out.clicked(&format!("choose:{}:{name}", kind.row().key), &response) && !chosen {
+                        set(out, Some(Channel::new(input)));
+                    }
+                    response.on_hover_text(name);
                 }
-                if out.clicked(&format!("choose:texture:{name}"), &response) && !chosen {
-                    set(out, Some(Channel::new(input)));
-                }
-                response.on_hover_text(name);
-            }
-        });
+            });
+        }
     });
 }
+
+/// The kinds of which some come with Eddy.
+const BUILT_IN: [(InputKind, &str); 3] = [
+    (InputKind::Texture, "Textures that come with Eddy"),
+    (InputKind::Cubemap, "Cubemaps"),
+    (InputKind::Volume, "Volumes"),
+];
 
 fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatches: &mut Swatches<'_>) {
     ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).chosen } else { theme::of(ui).background });

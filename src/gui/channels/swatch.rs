@@ -6,8 +6,10 @@ use crate::{
         theme,
         thumbnails::{Subject, Thumbnail, Thumbnails},
     },
-    project::{Input, InputKind, Origin, PassId},
+    media::MediaKey,
+    project::{Input, Origin, PassId},
     session::Session,
+    texture::Dimension,
 };
 use egui::{FontId, Rect, Ui, vec2};
 use std::path::PathBuf;
@@ -46,8 +48,10 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
     let painter = ui.painter();
     painter.rect_filled(place, 3.0, theme::of(ui).surround);
     let letter = match input {
-        Input::Media { kind: InputKind::Texture, media } => {
-            match thumbnails.get(Subject::Texture(media.clone(), folder(session))) {
+        Input::Media { media, .. } if input.row().undrawn.is_none() => {
+            let dimension = input.row().dimension;
+            let key = MediaKey { media: media.clone(), dimension, vflip: dimension == Dimension::D2 };
+            match thumbnails.get(Subject::Texture(key, folder(session))) {
                 Thumbnail::Ready(texture) => {
                     let size = texture.size_vec2();
                     let shown = fitting(place, size.x / size.y.max(1.0));

@@ -5,8 +5,8 @@ mod live;
 
 use crate::{
     gpu::Gpu,
-    media::{self, Texels},
-    project::{Media, TexelFormat, presets},
+    media::{self, MediaKey, Texels},
+    project::{TexelFormat, presets},
 };
 use egui::{ColorImage, TextureHandle, TextureOptions};
 use live::Live;
@@ -35,7 +35,7 @@ pub enum Subject {
     /// The file of a recent project's picture, and which of those that were written there it is.
     Recent(PathBuf, u64),
     /// A picture a channel can read; files lie relative to the folder.
-    Texture(Media, Option<PathBuf>),
+    Texture(MediaKey, Option<PathBuf>),
 }
 
 /// The state of a small picture.
@@ -122,9 +122,9 @@ fn make(subject: &Subject) -> Result<ColorImage, String> {
     match subject {
         Subject::Preset(name) => preset(name),
         Subject::Recent(file, _) => recent(file),
-        Subject::Texture(media, folder) => {
-            let texels = media::load(media, true, folder.as_deref(), None).map_err(|e| e.to_string())?;
-            Ok(swatch(&texels))
+        Subject::Texture(key, folder) => {
+            let texels = media::load(key, folder.as_deref(), None).map_err(|e| e.to_string())?;
+            Ok(swatch(&texels.flattened()))
         }
     }
 }

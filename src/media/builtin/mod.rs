@@ -5,6 +5,7 @@
 //! Every texture but `gradient`, `font`, `street` and `sprites` is seamless. Sizes and channels are those of the site's
 //! textures that they stand in for.
 
+mod cubes;
 mod field;
 mod font;
 mod grown;
@@ -12,13 +13,16 @@ mod noise;
 mod picture;
 mod stone;
 
-use super::Texels;
-use eddy_texture::TexelFormat;
+use super::{
+    Texels,
+    load::{cube, flipped},
+};
+use eddy_texture::{Dimension, TexelFormat};
 
 /// Makes one texture, top row first.
 type Maker = fn() -> Texels;
 
-const ALL: [(&str, Maker); 25] = [
+const ALL: [(&str, Maker); 33] = [
     ("noise-rgba-64", || noise::white(64, TexelFormat::Rgba8, 1)),
     ("noise-rgba-256", || noise::white(256, TexelFormat::Rgba8, 2)),
     ("noise-grey-64", || noise::white(64, TexelFormat::R8, 3)),
@@ -44,20 +48,39 @@ const ALL: [(&str, Maker); 25] = [
     ("stars", stone::stars),
     ("street", picture::street),
     ("sprites", picture::sprites),
+    ("gallery", cubes::gallery),
+    ("gallery-blurred", cubes::gallery_blurred),
+    ("hall", cubes::hall),
+    ("hall-blurred", cubes::hall_blurred),
+    ("forest", cubes::forest),
+    ("forest-blurred", cubes::forest_blurred),
+    ("noise-grey-3d", || noise::white_volume(32, TexelFormat::R8, 5)),
+    ("noise-rgba-3d", || noise::white_volume(32, TexelFormat::Rgba8, 6)),
 ];
 
-/// Names of all built-in textures, in the order a list shows them.
-pub fn names() -> [&'static str; ALL.len()] {
-    ALL.map(|(name, _)| name)
+/// Says how each is read.
+fn dimension(name: &str) -> Dimension {
+    match name {
+        _ if name.ends_with("-3d") => Dimension::D3,
+        _ if ["gallery", "hall", "forest"].iter().any(|place| name.starts_with(place)) => Dimension::Cube,
+        _ => Dimension::D2,
+    }
 }
 
-/// Makes a texture by name. The picture's top row lies at v = 1.
-pub fn make(name: &str) -> Option<Texels> {
-    let (_, maker) = ALL.iter().find(|(n, _)| *n == name)?;
-    let mut texels = maker();
-    let row = texels.row_bytes();
-    texels.bytes = texels.bytes.chunks_exact(row).rev().flatten().copied().collect();
-    Some(texels)
+/// Names of the built-in textures of a dimension, in the order a list shows them.
+pub fn names(wanted: Dimension) -> impl Iterator<Item = &'static str> {
+    ALL.into_iter().map(|(name, _)| name).filter(move |name| dimension(name) == wanted)
+}
+
+/// Makes a texture by name. With `vflip` a picture's top row lies at v = 1; a cubemap is turned as the site turns its own.
+pub fn make(name: &str, wanted: Dimension, vflip: bool) -> Option<Texels> {
+    let (_, maker) = ALL.iter().find(|(n, _)| *n == name && dimension(n) == wanted)?;
+    let texels = maker();
+    Some(match wanted {
+        Dimension::D2 if vflip => flipped(texels),
+        Dimension::Cube if vflip => cube::turned(texels),
+        _ => texels,
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Noises and ordered patterns: values without a picture in them.
 
 use crate::Texels;
-use eddy_texture::TexelFormat;
+use eddy_texture::{TexelFormat, TextureShape};
 
 /// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT
 /// 2020).
@@ -21,6 +21,13 @@ pub fn white(size: u32, format: TexelFormat, seed: u32) -> Texels {
     let count = size * size * format.bytes() as u32;
     let bytes = (0..count).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
     Texels::flat(size, size, format, bytes)
+}
+
+/// The same in 3D.
+pub fn white_volume(side: u32, format: TexelFormat, seed: u32) -> Texels {
+    let shape = TextureShape::volume(side, side, side, format);
+    let bytes = (0..shape.bytes() as u32).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
+    Texels { shape, bytes }
 }
 
 /// Bayer's 8x8 matrix of thresholds (1973): the bits of column and row interleaved, the lowest bit counting most.

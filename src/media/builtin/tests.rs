@@ -1,12 +1,15 @@
 //! Tests of the built-in pictures: sizes, ranges, spectra, and the same bytes each time.
 
 use super::*;
-use crate::site::SITE_TEXTURES;
+use crate::site::SITE_FILES;
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// Every texture, made once for all these tests.
 static MADE: LazyLock<BTreeMap<&str, Texels>> =
-    LazyLock::new(|| names().iter().map(|&n| (n, make(n).unwrap())).collect());
+    LazyLock::new(|| {
+        let all = [Dimension::D2, Dimension::Cube, Dimension::D3].into_iter().flat_map(|d| names(d).map(move |n| (n, d)));
+        all.map(|(n, d)| (n, make(n, d, true).unwrap())).collect()
+    });
 
 /// FNV-1a: enough to see that bytes changed.
 fn checksum(bytes: &[u8]) -> u64 {
@@ -41,6 +44,14 @@ fn every_texture_has_the_same_bytes_on_every_machine() {
         ("stars", 0xb3c2_36ad_0e75_3c29),
         ("street", 0xa500_6da0_2098_84ad),
         ("sprites", 0x038d_1831_b0ed_da99),
+        ("gallery", 0),
+        ("gallery-blurred", 0),
+        ("hall", 0),
+        ("hall-blurred", 0),
+        ("forest", 0),
+        ("forest-blurred", 0),
+        ("noise-grey-3d", 0),
+        ("noise-rgba-3d", 0),
     ];
     for (name, sum) in expected {
         let texels = &MADE[name];
@@ -52,7 +63,7 @@ fn every_texture_has_the_same_bytes_on_every_machine() {
 #[test]
 fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
     let size = |id: &str| {
-        let texture = SITE_TEXTURES.iter().find(|s| s.id == id).unwrap();
+        let texture = SITE_FILES.iter().find(|s| s.id == id).unwrap();
         let texels = &MADE[texture.fallback];
         let format = if texture.is_grey { TexelFormat::R8 } else { TexelFormat::Rgba8 };
         assert_eq!(texels.shape.format, format, "{}", texture.fallback);
@@ -83,7 +94,7 @@ fn steps(texels: &Texels) -> (f64, f64) {
 
 #[test]
 fn textures_that_say_so_are_seamless() {
-    for (name, texels) in MADE.iter() {
+    for (name, texels) in MADE.iter().filter(|(_, texels)| texels.shape.dimension == Dimension::D2) {
         let (inside, edge) = steps(texels);
         match *name {
             "gradient" => assert!(edge > 1.5 * inside, "the measure sees a seam where there is one"),
@@ -149,5 +160,6 @@ fn the_font_has_its_letters_where_shaders_look_for_them() {
 
 #[test]
 fn an_unknown_name_makes_nothing() {
-    assert!(make("no such texture").is_none());
+    assert!(make("no such texture", Dimension::D2, true).is_none());
+    assert!(make("wood", Dimension::Cube, true).is_none() && make("hall", Dimension::D2, true).is_none());
 }

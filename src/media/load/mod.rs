@@ -1,66 +1,157 @@
-//! One picture, from its file or its generator to texels.
+//! One picture, cubemap or volume, from its files or its generator to texels.
 
 mod apng;
+pub(crate) mod cube;
 mod kinds;
 mod radiance;
+mod volume;
 #[cfg(test)]
 mod tests;
 
-use super::{MediaError, Texels, builtin, error::Excess, npy, played::Played, site};
-use eddy_project::{Media, confine, limits, nearest};
+use super::{MediaError, MediaKey, Texels, builtin, error::Excess, npy, played::Played, site};
+use eddy_project::{FileError, Media, confine, limits, nearest};
+use eddy_texture::Dimension;
 use eddy_texture::TexelFormat;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
-use std::{io::Cursor, path::Path};
+use std::{
+    ffi::OsString,
+    io::Cursor,
+    path::{Path, PathBuf},
+};
 
-/// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A file lies in the project's folder `base`, see
-/// [`confine`]. For a texture of the site, a file of the same name in `media_dir` wins over the built-in fallback.
-pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
-    load_within(media, vflip, base, media_dir, limits::MEDIA_BYTES)
+/// Loads what a key names. A file lies in the project's folder `base`, see [`confine`]. For a file of the site, one of the
+/// same name in `media_dir` wins over the built-in fallback.
+pub fn load(key: &MediaKey, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
+    load_within(key, base, media_dir, limits::MEDIA_BYTES)
 }
 
-/// The same where pictures and models may take `room` bytes more.
+/// The same, where pictures and models may take `room` bytes more.
 pub(super) fn load_within(
-    media: &Media,
-    vflip: bool,
+    key: &MediaKey,
     base: Option<&Path>,
     media_dir: Option<&Path>,
     room: u64,
 ) -> Result<Texels, MediaError> {
+    let MediaKey { media, dimension, vflip } = key;
+    let (dimension, vflip) = (*dimension, *vflip);
     match media {
-        Media::Builtin(name) => {
-            let texels = builtin::make(name).ok_or_else(|| MediaError::UnknownBuiltin {
-                name: name.clone(),
-                near: nearest(name, builtin::names()).map(str::to_owned),
-            })?;
-            Ok(upright(texels, vflip))
-        }
+        Media::Builtin(name) => builtin::make(name, dimension, vflip).ok_or_else(|| MediaError::UnknownBuiltin {
+            name: name.clone(),
+            near: nearest(name, builtin::names(dimension)).map(str::to_owned),
+            dimension,
+        }),
         Media::File(path) => {
             let Some(base) = base else { return Err(MediaError::NoFolder { path: path.clone() }) };
-            let bytes = confine::read(base, path, limits::MEDIA_FILE)?;
-            decoded(bytes, &base.join(path), vflip, room)
+            let read = |path: &Path| confine::read(base, path, limits::MEDIA_FILE);
+            Source { path, shown: &base.join(path), read: &read, room }.load(dimension, vflip)
         }
-        Media::Picked(path) => decoded(confine::read_own(path, limits::MEDIA_FILE)?, path, vflip, room),
+        Media::Picked(path) => Source { path, shown: path, read: &read_own, room }.load(dimension, vflip),
         Media::Site { id, path } => {
-            let texture = site::site_texture(id, path);
+            let file = site::site_file(id, path);
             let name = path.rsplit('/').next().unwrap_or_default();
             if let Some(found) = media_dir.map(|d| d.join(name)).filter(|p| !name.is_empty() && p.is_file()) {
-                let texels = decoded(confine::read_own(&found, limits::MEDIA_FILE)?, &found, vflip, room)?;
-                return Ok(if texture.is_some_and(|t| t.is_grey) { red_only(texels) } else { texels });
+                let texels =
+                    Source { path: &found, shown: &found, read: &read_own, room }.load(dimension, vflip)?;
+                return Ok(if file.is_some_and(|t| t.is_grey) { red_only(texels) } else { texels });
             }
-            let texels = texture
-                .and_then(|t| builtin::make(t.fallback))
-                .ok_or_else(|| MediaError::NoStandIn { path: path.clone() })?;
-            Ok(upright(texels, vflip))
+            file.and_then(|t| builtin::make(t.fallback, dimension, vflip))
+                .ok_or_else(|| MediaError::NoStandIn { path: path.clone() })
         }
     }
 }
 
-/// Built-in textures come with their top row at v = 1.
-fn upright(texels: Texels, vflip: bool) -> Texels {
-    if vflip { texels } else { flipped(texels) }
+fn read_own(path: &Path) -> Result<Vec<u8>, FileError> {
+    confine::read_own(path, limits::MEDIA_FILE)
 }
 
-fn flipped(mut texels: Texels) -> Texels {
+/// A file that is to be loaded, and the way to it and to those beside it.
+struct Source<'a> {
+    path: &'a Path,
+    /// The path that messages show.
+    shown: &'a Path,
+    read: &'a dyn Fn(&Path) -> Result<Vec<u8>, FileError>,
+    room: u64,
+}
+
+impl Source<'_> {
+    fn load(&self, dimension: Dimension, vflip: bool) -> Result<Texels, MediaError> {
+        let bytes = (self.read)(self.path)?;
+        match dimension {
+            Dimension::D2 => decoded(bytes, self.shown, vflip, self.room),
+            Dimension::Cube => self.cube(bytes, vflip),
+            Dimension::D3 => self.volume(bytes),
+        }
+    }
+
+    /// A file of the site's kind, or the first of a stack of pictures whose names count up.
+    fn volume(&self, first: Vec<u8>) -> Result<Texels, MediaError> {
+        let failed = |reason| MediaError::Volume { path: self.shown.to_owned(), reason };
+        if image::guess_format(&first).is_err() {
+            return volume::read(&first, self.room).map_err(failed);
+        }
+        let (mut slices, mut path, mut room) = (Vec::new(), self.path.to_owned(), self.room / 2);
+        let mut bytes = first;
+        loop {
+            let shown = self.shown.with_file_name(path.file_name().unwrap_or_default());
+            let slice = decoded(bytes, &shown, true, room)?;
+            room -= (slice.bytes.len() as u64).min(room);
+            slices.push(slice);
+            let Some(next) = next_slice(&path).filter(|_| slices.len() < limits::VOLUME_SIDE as usize) else { break };
+            match (self.read)(&next) {
+                Ok(read) => (bytes, path) = (read, next),
+                Err(_) => break,
+            }
+        }
+        volume::of_slices(slices, self.room / 2).map_err(failed)
+    }
+
+    /// Six files where there is one beside this with `_1` before its ending, as the site names them; else the layout
+    /// of this one.
+    fn cube(&self, first: Vec<u8>, vflip: bool) -> Result<Texels, MediaError> {
+        let failed = |reason| MediaError::Cubemap { path: self.shown.to_owned(), reason };
+        let picture = |bytes, shown: &Path| decoded(bytes, shown, false, self.room / 2);
+        let second = match (self.read)(&face_path(self.path, 1)) {
+            Ok(bytes) => bytes,
+            Err(_) => return cube::of_picture(picture(first, self.shown)?, vflip).map_err(failed),
+        };
+        let mut faces = vec![picture(first, self.shown)?, picture(second, &face_path(self.shown, 1))?];
+        for n in 2..6 {
+            let bytes = (self.read)(&face_path(self.path, n))?;
+            faces.push(picture(bytes, &face_path(self.shown, n))?);
+        }
+        let faces: [Texels; 6] = faces.try_into().expect("two and four are six");
+        cube::of_faces(faces, vflip).map_err(failed)
+    }
+}
+
+/// The name that comes after one which ends in digits: `brain_009.png` and then `brain_010.png`.
+fn next_slice(path: &Path) -> Option<PathBuf> {
+    let stem = path.file_stem()?.to_str()?;
+    let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let (begin, number) = stem.split_at(stem.len() - digits);
+    let next = number.parse::<u32>().ok()?.checked_add(1)?;
+    let mut name = OsString::from(format!("{begin}{next:0digits$}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    Some(path.with_file_name(name))
+}
+
+/// The file of face `n` of a cubemap of six files: the base name for +X, then `_1` to `_5` before the ending for -X,
+/// +Y, -Y, +Z and -Z.
+fn face_path(path: &Path, n: usize) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("_{n}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+/// The same with the rows of each layer in the other order.
+pub(crate) fn flipped(mut texels: Texels) -> Texels {
     let row = texels.row_bytes();
     let rows = texels.shape.height as usize;
     for y in 0..rows / 2 {

@@ -1,8 +1,17 @@
 use super::*;
 use image::{ImageBuffer, Luma, Rgb, Rgba};
 
+fn picture(
+    media: &Media,
+    vflip: bool,
+    base: Option<&Path>,
+    media_dir: Option<&Path>,
+) -> Result<Texels, MediaError> {
+    load(&MediaKey { media: media.clone(), dimension: Dimension::D2, vflip }, base, media_dir)
+}
+
 fn load_file(path: &Path, vflip: bool) -> Result<Texels, MediaError> {
-    load(&Media::File(path.file_name().unwrap().into()), vflip, path.parent(), None)
+    picture(&Media::File(path.file_name().unwrap().into()), vflip, path.parent(), None)
 }
 
 #[test]
@@ -89,23 +98,23 @@ fn crc32(bytes: &[u8]) -> u32 {
 fn a_file_of_the_sites_name_wins_over_the_fallback_and_grey_ids_are_one_channel() {
     let dir = tempfile::tempdir().unwrap();
     let grey = Media::Site { id: "4sf3Rn".into(), path: "/media/a/0a40.png".into() };
-    let fallback = load(&grey, true, None, None).unwrap();
+    let fallback = picture(&grey, true, None, None).unwrap();
     assert_eq!((fallback.shape.width, fallback.shape.height, fallback.shape.format), (64, 64, TexelFormat::R8));
     ImageBuffer::<Rgba<u8>, _>::from_pixel(3, 1, Rgba([7u8, 2, 3, 4])).save(dir.path().join("0a40.png")).unwrap();
-    let own = load(&grey, true, None, Some(dir.path())).unwrap();
+    let own = picture(&grey, true, None, Some(dir.path())).unwrap();
     assert_eq!(
         (own.shape.width, own.shape.height, own.shape.format, own.bytes),
         (3, 1, TexelFormat::R8, vec![7, 7, 7])
     );
     let unknown = Media::Site { id: "zzz".into(), path: "/media/a/unknown.jpg".into() };
-    assert!(matches!(load(&unknown, true, None, Some(dir.path())), Err(MediaError::NoStandIn { .. })));
+    assert!(matches!(picture(&unknown, true, None, Some(dir.path())), Err(MediaError::NoStandIn { .. })));
 }
 
 #[test]
 fn an_unknown_built_in_names_the_nearest() {
-    let error = load(&Media::Builtin("noise-rgb-256".into()), true, None, None).unwrap_err();
+    let error = picture(&Media::Builtin("noise-rgb-256".into()), true, None, None).unwrap_err();
     assert!(error.to_string().contains("noise-rgba-256"), "{error}");
-    assert!(matches!(load(&Media::File("a.png".into()), true, None, None), Err(MediaError::NoFolder { .. })));
+    assert!(matches!(picture(&Media::File("a.png".into()), true, None, None), Err(MediaError::NoFolder { .. })));
 }
 
 /// Red, green, blue and white at the corners, in reading order.
@@ -306,4 +315,62 @@ fn of_an_animated_picture_the_first_frame_is_read() {
     drop(encoder);
     std::fs::write(&path, gif).unwrap();
     assert_eq!(corners(&load_file(&path, false).unwrap()), "rgbw");
+}
+
+#[test]
+fn a_cubemap_is_six_files_or_one() {
+    let dir = tempfile::tempdir().unwrap();
+    let cube = |name: &str, vflip| {
+        let key = MediaKey { media: Media::File(name.into()), dimension: Dimension::Cube, vflip };
+        load(&key, Some(dir.path()), None)
+    };
+    let save = |name: &str, width, height, value: u8| {
+        let image = ImageBuffer::from_pixel(width, height, Rgba([value, 0, 0, 255]));
+        image.save(dir.path().join(name)).unwrap();
+    };
+    save("sky.png", 4, 4, 10);
+    for n in 1..6u8 {
+        let error = cube("sky.png", false).unwrap_err().to_string();
+        assert!(n == 1 || error.contains(&format!("sky_{n}.png")), "{error}");
+        save(&format!("sky_{n}.png"), 4, 4, 10 + n);
+    }
+    let faces = |cube: Texels| cube.bytes.chunks_exact(64).map(|face| face[0]).collect::<Vec<_>>();
+    assert_eq!(faces(cube("sky.png", false).unwrap()), [10, 11, 12, 13, 14, 15]);
+    assert_eq!(faces(cube("sky.png", true).unwrap()), [10, 11, 13, 12, 14, 15]);
+    save("sky_3.png", 8, 8, 0);
+    assert!(cube("sky.png", false).unwrap_err().to_string().contains("face -y has 8x8"));
+    save("cross.png", 16, 12, 7);
+    let cross = cube("cross.png", false).unwrap();
+    assert_eq!((cross.shape.dimension, cross.shape.width), (Dimension::Cube, 4));
+    save("wide.png", 15, 4, 7);
+    assert!(cube("wide.png", false).unwrap_err().hint().contains("cross"));
+}
+
+#[test]
+fn a_volume_is_a_file_of_the_site() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut file = b"BIN\0\x02\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\0\0".to_vec();
+    file.extend([5, 6]);
+    std::fs::write(dir.path().join("v.bin"), file).unwrap();
+    let volume = |name: &str| {
+        let key = MediaKey { media: Media::File(name.into()), dimension: Dimension::D3, vflip: false };
+        load(&key, Some(dir.path()), None)
+    };
+    assert_eq!(volume("v.bin").unwrap().bytes, [5, 6]);
+    std::fs::write(dir.path().join("w.bin"), b"BIN").unwrap();
+    let error = volume("w.bin").unwrap_err();
+    assert!(error.to_string().contains("within its header") && error.hint().contains("20 bytes"), "{error}");
+}
+
+#[test]
+fn a_stack_of_pictures_is_a_volume() {
+    let dir = tempfile::tempdir().unwrap();
+    for n in 8..12u8 {
+        let image = ImageBuffer::from_pixel(2, 1, Rgba([n, 0, 0, 255]));
+        image.save(dir.path().join(format!("brain_{n:03}.png"))).unwrap();
+    }
+    let key = MediaKey { media: Media::File("brain_009.png".into()), dimension: Dimension::D3, vflip: false };
+    let volume = load(&key, Some(dir.path()), None).unwrap();
+    assert_eq!(volume.shape.level(0), [2, 1, 3]);
+    assert_eq!(volume.bytes.chunks_exact(8).map(|slice| slice[0]).collect::<Vec<_>>(), [9, 10, 11]);
 }

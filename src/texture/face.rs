@@ -1,0 +1,82 @@
+//! The faces of a cube, and which of them a direction meets: OpenGL ES 3.0, table 3.21.
+
+/// A face of a cube. Its first row is at t = -1; seen from inside the cube the sides stand upright.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Face {
+    PlusX,
+    MinusX,
+    PlusY,
+    MinusY,
+    PlusZ,
+    MinusZ,
+}
+
+impl Face {
+    /// In the order in which a texture has them.
+    pub const ALL: [Face; 6] = [Face::PlusX, Face::MinusX, Face::PlusY, Face::MinusY, Face::PlusZ, Face::MinusZ];
+
+    /// The name on the command line and in the window.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Face::PlusX => "+x",
+            Face::MinusX => "-x",
+            Face::PlusY => "+y",
+            Face::MinusY => "-y",
+            Face::PlusZ => "+z",
+            Face::MinusZ => "-z",
+        }
+    }
+
+    /// The direction through the face at `s` and `t`, each in -1 to 1, not normalised.
+    pub const fn direction(self, s: f64, t: f64) -> [f64; 3] {
+        match self {
+            Face::PlusX => [1.0, -t, -s],
+            Face::MinusX => [-1.0, -t, s],
+            Face::PlusY => [s, 1.0, t],
+            Face::MinusY => [s, -1.0, -t],
+            Face::PlusZ => [s, -t, 1.0],
+            Face::MinusZ => [-s, -t, -1.0],
+        }
+    }
+
+    /// The face that a direction meets: that of the axis along which it is longest, of equal ones the first.
+    pub fn of(direction: [f64; 3]) -> Face {
+        let [x, y, z] = direction.map(f64::abs);
+        let (axis, positive, negative) = if x >= y && x >= z {
+            (direction[0], Face::PlusX, Face::MinusX)
+        } else if y >= z {
+            (direction[1], Face::PlusY, Face::MinusY)
+        } else {
+            (direction[2], Face::PlusZ, Face::MinusZ)
+        };
+        if axis >= 0.0 { positive } else { negative }
+    }
+
+    /// The components of a vector along s, along t and along the axis of the face.
+    pub const fn components(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        match self {
+            Face::PlusX => [-z, -y, x],
+            Face::MinusX => [z, -y, -x],
+            Face::PlusY => [x, z, y],
+            Face::MinusY => [x, -z, -y],
+            Face::PlusZ => [x, -y, z],
+            Face::MinusZ => [-x, -y, -z],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_meets_the_face_that_it_was_made_for() {
+        for face in Face::ALL {
+            for (s, t) in [(0.0, 0.0), (0.9, -0.8), (-0.7, 0.95)] {
+                let direction = face.direction(s, t);
+                assert_eq!(Face::of(direction), face);
+                assert_eq!(face.components(direction), [s, t, 1.0], "{face:?}");
+            }
+        }
+    }
+}

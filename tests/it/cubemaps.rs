@@ -1,0 +1,164 @@
+//! Cubemaps and volumes: files and Eddy's own, the cubemap pass, and what a channel says of them.
+
+use crate::support::{gpu, program::Bench, *};
+use eddy::{
+    engine::{BuildOptions, Engine},
+    media::{self, MediaKey},
+    project::{Channel, Filter, Input, InputKind, Media, Pass, PassId, Project, Sampler, Wrap},
+    texture::Dimension,
+};
+
+const CUBE: &str = "void mainCubemap(out vec4 o, in vec2 p, in vec3 rayOri, in vec3 rayDir)";
+
+fn channel(input: Input, filter: Filter) -> Option<Channel> {
+    Some(Channel { input, sampler: Sampler { filter, wrap: Wrap::Clamp, vflip: false } })
+}
+
+fn cube_pass(body: &str, channels: [Option<Channel>; 4]) -> Pass {
+    pass(PassId::Cubemap, &format!("{CUBE} {{ {body} }}"), channels)
+}
+
+/// Image by the direction of a panorama.
+fn panorama(body: &str, input: Input, filter: Filter) -> Pass {
+    let code = format!(
+        "void mainImage(out vec4 o, in vec2 p) {{ vec2 a = (p / iResolution.xy - .5) * vec2(6.2831853, 3.1415927); \
+         vec3 d = vec3(cos(a.y) * cos(a.x), sin(a.y), cos(a.y) * sin(a.x)); {body} }}"
+    );
+    image(&code, [channel(input, filter), None, None, None])
+}
+
+fn drawn(gpu: &eddy::gpu::Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
+    let (media, warnings) = media::gather(project, None);
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let mut engine = engine_with(gpu, project, &media, &BuildOptions::default(), size);
+    run(&mut engine, 0, frames);
+    engine
+}
+
+/// The direction that each texel is drawn for comes back by it, over faces, edges and corners alike.
+#[test]
+fn a_cubemap_pass_is_read_by_the_direction_that_it_was_drawn_for() {
+    let Some(gpu) = gpu() else { return };
+    let cube = cube_pass("o = vec4(rayDir, length(rayOri));", Default::default());
+    let look = panorama(
+        "o = vec4(texture(iChannel0, d).xyz - d, texture(iChannel0, d).w);",
+        Input::pass(PassId::Cubemap),
+        Filter::Linear,
+    );
+    let mut engine = drawn(&gpu, &project(vec![cube, look]), (128, 64), 1);
+    let pixels = engine.read(&PassId::Image).unwrap();
+    // Half floats next to 1 lie 2^-11 apart; a texel of 1,024 turns by at most 2^-9 of which half is mixed away.
+    let worst = pixels.texels.iter().flat_map(|t| t[..3].iter()).fold(0f32, |a, b| a.max(b.abs()));
+    assert!(worst < 1.5e-3, "{worst}");
+    // Image's alpha is 1 whatever is written.
+    assert!(pixels.texels.iter().all(|t| t[3] == 1.0));
+}
+
+#[test]
+fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too() {
+    let Some(gpu) = gpu() else { return };
+    let own = Input::pass(PassId::Cubemap);
+    let cube = cube_pass("o = texture(iChannel0, rayDir) + vec4(1., 0., 0., 0.);", [
+        channel(own.clone(), Filter::Nearest),
+        None,
+        None,
+        None,
+    ]);
+    let reads = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec3(0., 0., 1.), 0.); }";
+    let behind = pass(buffer("A"), reads, [channel(own.clone(), Filter::Nearest), None, None, None]);
+    let code = "void mainImage(out vec4 o, in vec2 p) { vec3 d[6] = vec3[](vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), \
+                vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)); o = vec4(texture(iChannel0, d[int(p.x)]).x, \
+                texelFetch(iChannel1, ivec2(0), 0).x, iChannelResolution[0].xz); }";
+    let look = image(code, [channel(own, Filter::Nearest), nearest("A"), None, None]);
+    let mut engine = drawn(&gpu, &project(vec![behind, cube, look]), (6, 2), 3);
+    let pixels = engine.read(&PassId::Image).unwrap();
+    for x in 0..6 {
+        assert_eq!(texel(&pixels, x, 0)[..3], [3.0, 2.0, 1024.0], "face {x}");
+    }
+    // Back and on again: the state is kept with all faces.
+    let kept = engine.checkpoint().unwrap();
+    run(&mut engine, 3, 5);
+    assert!(engine.restore(&kept));
+    run(&mut engine, 3, 4);
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 5, 0)[0], 4.0);
+    engine.reset();
+    run(&mut engine, 0, 1);
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 5, 0)[0], 1.0);
+}
+
+/// Texels of a file come back at their own directions, byte for byte, flipped as the site flips.
+#[test]
+fn texels_of_a_cubemap_lie_where_its_faces_have_them() {
+    let Some(gpu) = gpu() else { return };
+    for vflip in [false, true] {
+        let media = Media::Builtin("hall".into());
+        let key = MediaKey { media: media.clone(), dimension: Dimension::Cube, vflip };
+        let texels = media::load(&key, None, None).unwrap();
+        // A column of texels of every face: x is the face, y the row, always texel 37 of the row.
+        let code = "void mainImage(out vec4 o, in vec2 p) { float s = 2. * 37.5 / 256. - 1., t = 2. * p.y / 256. - 1.; \
+                    vec3 d[6] = vec3[](vec3(1, -t, -s), vec3(-1, -t, s), vec3(s, 1, t), vec3(s, -1, -t), \
+                    vec3(s, -t, 1), vec3(-s, -t, -1)); o = texture(iChannel0, d[int(p.x)]) * 255.; \
+                    if (iChannelResolution[0] != vec3(0.)) o = vec4(-1.); }";
+        let input = Input::Media { kind: InputKind::Cubemap, media };
+        let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip };
+        let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
+        let mut engine = drawn(&gpu, &project(vec![look]), (6, 256), 1);
+        let pixels = engine.read(&PassId::Image).unwrap();
+        for face in 0..6 {
+            for row in 0..256 {
+                let at = ((face as usize * 256 + row as usize) * 256 + 37) * 4;
+                let expected = [0, 1, 2].map(|c| f32::from(texels.bytes[at + c]));
+                assert_eq!(texel(&pixels, face, row)[..3], expected, "face {face}, row {row}, {vflip}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_volume_is_read_trilinearly_and_its_mips_are_means() {
+    let Some(gpu) = gpu() else { return };
+    let media = Media::Builtin("noise-rgba-3d".into());
+    let key = MediaKey { media: media.clone(), dimension: Dimension::D3, vflip: false };
+    let texels = media::load(&key, None, None).unwrap();
+    let at = |x: usize, y: usize, z: usize| f32::from(texels.bytes[((z * 32 + y) * 32 + x) * 4]);
+    let code = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p); vec3 at = vec3(i.x, i.y, 5.); \
+                o = vec4(textureLod(iChannel0, (at + .5) / 32., 0.).x, textureLod(iChannel0, (at + vec3(1., .5, .5)) / 32., \
+                0.).x, textureLod(iChannel0, (floor(at / 2.) + .5) / 16., 1.).x, 0.) * 255.; \
+                if (iChannelResolution[0] != vec3(32.) || textureSize(iChannel0, 0) != ivec3(32)) o = vec4(-1.); }";
+    let input = Input::Media { kind: InputKind::Volume, media };
+    let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
+    let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
+    let mut engine = drawn(&gpu, &project(vec![look]), (32, 32), 1);
+    let pixels = engine.read(&PassId::Image).unwrap();
+    for y in 0..32usize {
+        for x in 0..32usize {
+            let [own, between, coarse, _] = texel(&pixels, x as u32, y as u32);
+            let (a, b, c) = (x / 2 * 2, y / 2 * 2, 4);
+            let mean = (0..8).map(|i| at(a + i % 2, b + i / 2 % 2, c + i / 4)).sum::<f32>() / 8.0;
+            assert!((own - at(x, y, 5)).abs() < 0.01, "{x},{y}: {own}");
+            assert!((between - 0.5 * (at(x, y, 5) + at((x + 1) % 32, y, 5))).abs() < 0.6, "{x},{y}: {between}");
+            assert!((coarse - mean).abs() < 0.51, "{x},{y}: {coarse}, not {mean}");
+        }
+    }
+}
+
+/// The command line draws a face, and says what it cannot.
+#[test]
+fn a_face_is_rendered_by_name() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/cube_a.glsl", format!("{CUBE} {{ o = vec4(.5 + .5 * rayDir, 1.); }}\n"));
+    b.write("p/eddy.toml", "[passes.cube_a]\n[passes.image]\nchannels.0 = { cube_a = true }\n");
+    b.image("p/image.glsl", "fragColor = texture(iChannel0, vec3(1., 2., 3.));");
+    for (face, expected) in [("+x", [255, 128, 128]), ("-y", [128, 0, 128]), ("-z", [128, 128, 0])] {
+        b.line(&format!("render p --size 16x16 --pass cube_a --face {face} --out f.png")).expect(0);
+        let picture = b.png("f.png");
+        assert_eq!(picture.dimensions(), (1024, 1024));
+        let middle = picture.get_pixel(512, 512).0;
+        assert!((0..3).all(|c| middle[c].abs_diff(expected[c]) <= 1), "{face}: {middle:?}");
+    }
+    let refused = b.line("render p --size 16x16 --face +x --out f.png").expect(2);
+    assert!(refused.err.contains("--pass cube_a"), "{}", refused.err);
+    let unknown = b.line("render p --size 16x16 --pass cube_a --face up --out f.png").expect(2);
+    assert!(unknown.err.contains("+x"), "{}", unknown.err);
+}
