@@ -4,8 +4,8 @@ use super::{
     args::PrecisionArgs,
     machine::{Machine, Trouble, open},
     report::Report,
+    source_excerpt::SourceExcerpt,
     targets,
-    written::Written,
 };
 use crate::{
     debugger::{
@@ -77,7 +77,7 @@ struct Found {
     kind: &'static str,
     message: &'static str,
     #[serde(flatten)]
-    written: Written,
+    written: SourceExcerpt,
     numbers: String,
     /// It is an operation on constants: every pixel that comes there has it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -115,10 +115,10 @@ pub fn run(
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    told(args, &project, (&audit, &pixels), &device)
+    summary(args, &project, (&audit, &pixels), &device)
 }
 
-fn told(
+fn summary(
     args: &PrecisionArgs,
     project: &Project,
     (audit, grid): (&Audit, &[(u32, u32)]),
@@ -205,7 +205,7 @@ fn found(project: &Project, finding: &Finding) -> Found {
     Found {
         kind: finding.kind.name(),
         message: finding.kind.message(),
-        written: Written::at(project, finding.span),
+        written: SourceExcerpt::at(project, finding.span),
         numbers: finding.numbers.clone(),
         constant: finding.is_constant(),
         pixels: finding.pixels,

@@ -70,7 +70,7 @@ struct PassCost {
 
 /// The report of `render`, and the costs.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(flatten)]
@@ -86,7 +86,7 @@ pub fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> 
         let costs =
             machine.attempt(&mut report, |machine, report| measure(machine, report, args, spec, inputs.clone()));
         let words = costs.as_ref().map_or(String::new(), |c| words(&report, c));
-        printer.print_as(&Line { report: &report, costs: costs.as_ref() }, &report, words.trim_end())?;
+        printer.print_as(&JsonLine { report: &report, costs: costs.as_ref() }, &report, words.trim_end())?;
     }
     Ok(printer.exit_code())
 }

@@ -30,7 +30,7 @@ const TURN: u32 = 4;
 
 /// The report of `render`, and the comparison.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     reference: &'a str,
@@ -84,7 +84,7 @@ pub fn run(args: &CompareArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     };
     let compared = machine.attempt(&mut report, |machine, report| compare(machine, report, args, inputs));
     let words = compared.as_ref().map_or(String::new(), |compared| words(&args.project, &reference, compared));
-    let line = Line { report: &report, reference: &reference, compared: compared.as_ref() };
+    let line = JsonLine { report: &report, reference: &reference, compared: compared.as_ref() };
     printer.print_as(&line, &report, words.trim_end())?;
     Ok(printer.exit_code())
 }

@@ -1,6 +1,6 @@
 //! The first assignment of a traced pixel that the device makes otherwise than the walker.
 
-use super::{args::TraceArgs, machine::Trouble, written::Written};
+use super::{args::TraceArgs, machine::Trouble, source_excerpt::SourceExcerpt};
 use crate::{
     debugger::{
         divergence::{self, Probes, STEPS_KEPT, assignments},
@@ -28,7 +28,7 @@ pub struct DivergenceReport {
 #[derive(Debug, Serialize)]
 struct First {
     #[serde(flatten)]
-    written: Written,
+    written: SourceExcerpt,
     name: String,
     /// Says how often the expression had been evaluated before.
     visit: u32,
@@ -74,7 +74,7 @@ pub fn find(
     let found = divergence::search(assignments, args.probes, |assignment| probes.value(assignment, pixel));
     let found = found.map_err(anyhow::Error::from)?;
     let first = found.first.map(|first| First {
-        written: Written::at(project, Some(first.assignment.span)),
+        written: SourceExcerpt::at(project, Some(first.assignment.span)),
         name: first.assignment.name,
         visit: first.assignment.probe.visit,
         walker: first.assignment.walker,

@@ -13,7 +13,7 @@ pub fn trouble(what: impl std::fmt::Display) -> u8 {
 }
 
 /// An error with its causes, each said once: many an error's own text already ends in what caused it.
-pub fn told(error: &anyhow::Error) -> String {
+pub fn error_chain(error: &anyhow::Error) -> String {
     let mut text = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
         if !text.contains(&cause) {

@@ -3,7 +3,7 @@
 
 use super::{
     args::RunArgs,
-    failure::told,
+    failure::error_chain,
     report::{Report, Status},
 };
 use crate::{
@@ -124,7 +124,7 @@ impl Machine {
                     // It is still at that frame.
                     self.gpu = None;
                 }
-                report.fail(Status::Error, told(&error));
+                report.fail(Status::Error, error_chain(&error));
             }
             Err(panic) => {
                 self.gpu = None;
@@ -147,7 +147,7 @@ impl Machine {
 /// says what is wrong.
 pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
-    let gpu = Machine::default().gpu().map_err(|error| told(&error))?;
+    let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
 }
 

@@ -21,19 +21,19 @@ mod probe;
 mod quiet;
 mod render;
 mod report;
+mod source_excerpt;
 mod stability;
 mod sweep;
 mod targets;
 mod text_place;
 mod trace;
-mod written;
 
 use crate::playback::trial;
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
 use failure::TROUBLE;
-pub use failure::{told, trouble};
+pub use failure::{error_chain, trouble};
 use std::{io, process::ExitCode};
 
 /// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
@@ -82,7 +82,7 @@ fn run(command: &Command) -> u8 {
                 Err(usage) => return trouble(usage),
             };
             if let Err(error) = targets.prepare() {
-                return trouble(told(&error));
+                return trouble(error_chain(&error));
             }
             render::run(args, &targets, &inputs)
         }

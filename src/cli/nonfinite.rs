@@ -4,7 +4,7 @@ use super::{
     args::TraceArgs,
     machine::{Machine, Trouble, open_measured},
     report::Report,
-    written::Written,
+    source_excerpt::SourceExcerpt,
 };
 use crate::{
     debugger::{
@@ -36,7 +36,7 @@ pub struct Begin {
 struct Born {
     message: &'static str,
     #[serde(flatten)]
-    written: Written,
+    written: SourceExcerpt,
     numbers: String,
 }
 
@@ -106,7 +106,7 @@ fn born(
     };
     Ok(born.map(|finding| Born {
         message: finding.kind.message(),
-        written: Written::at(&project, finding.span),
+        written: SourceExcerpt::at(&project, finding.span),
         numbers: finding.numbers.clone(),
     }))
 }

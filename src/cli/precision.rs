@@ -33,7 +33,7 @@ struct Compared {
 
 /// The report of `render`, and the comparison.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(flatten)]
@@ -63,7 +63,7 @@ pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
             words.push_str(&if words.is_empty() { format!("{spec}\n") } else { String::new() });
             words.push_str(&audited::words(double));
         }
-        let line = Line { report: &report, compared: compared.as_ref(), double: double.as_ref() };
+        let line = JsonLine { report: &report, compared: compared.as_ref(), double: double.as_ref() };
         printer.print_as(&line, &report, words.trim_end())?;
     }
     Ok(printer.exit_code())

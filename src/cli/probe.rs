@@ -18,7 +18,7 @@ use std::{fmt::Write, io, path::PathBuf};
 
 /// The report of `render`, and the value.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(flatten)]
@@ -55,7 +55,7 @@ pub fn run(args: &ProbeArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut report = Report::new(&args.project);
     let probed = machine.attempt(&mut report, |machine, report| probed(machine, report, args, inputs.clone()));
     let words = probed.as_ref().map_or(String::new(), |probed| words(&args.project, probed));
-    printer.print_as(&Line { report: &report, probed: probed.as_ref() }, &report, words.trim_end())?;
+    printer.print_as(&JsonLine { report: &report, probed: probed.as_ref() }, &report, words.trim_end())?;
     Ok(printer.exit_code())
 }
 

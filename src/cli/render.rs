@@ -13,7 +13,7 @@ use std::{io, path::PathBuf};
 
 /// The report, and what was measured.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
@@ -34,7 +34,7 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
             let words = format!("{}: {frames}, {millis:.2} ms each: {}", report.title(), paths.join(" "));
             (words.trim_end_matches([':', ' ']).to_owned() + &measures.words(), measures.taken)
         });
-        printer.print_as(&Line { report: &report, measured: &measured }, &report, &words)?;
+        printer.print_as(&JsonLine { report: &report, measured: &measured }, &report, &words)?;
     }
     Ok(printer.exit_code())
 }

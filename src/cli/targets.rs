@@ -31,11 +31,11 @@ pub struct Targets {
     pub frames: u32,
     /// The assignments of each drawing of a project.
     pub sweep: Vec<Vec<String>>,
-    place: Place,
+    place: Output,
 }
 
 #[derive(Debug, PartialEq, Eq)]
-enum Place {
+enum Output {
     Nowhere,
     /// One picture.
     File(PathBuf),
@@ -53,14 +53,14 @@ impl Targets {
         let sweep = sweep::combinations(&args.sweep)?;
         let Some(out) = &args.out else {
             let format = args.format.unwrap_or(Format::Png);
-            return Ok(Targets { format, at, frames, sweep, place: Place::Nowhere });
+            return Ok(Targets { format, at, frames, sweep, place: Output::Nowhere });
         };
         let shown = out.display();
         let named = out.extension().and_then(|e| format_of(&e.to_string_lossy()));
         let named =
             if out.is_dir() { None } else { named.transpose().map_err(|why| format!("--out {shown}: {why}"))? };
         let Some(named) = named else {
-            let place = Place::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?);
+            let place = Output::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?);
             return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, sweep, place });
         };
         if let Some(format) = args.format
@@ -72,19 +72,19 @@ impl Targets {
         if pictures != 1 {
             return Err(format!("--out {shown} is one file, but {pictures} pictures would be written: give a folder"));
         }
-        Ok(Targets { format: named, at, frames, sweep, place: Place::File(out.clone()) })
+        Ok(Targets { format: named, at, frames, sweep, place: Output::File(out.clone()) })
     }
 
     /// Makes the folder, so that a place nothing can be written to is known before hours of drawing.
     pub fn prepare(&self) -> anyhow::Result<()> {
         match &self.place {
-            Place::Nowhere => Ok(()),
-            Place::File(file) => {
+            Output::Nowhere => Ok(()),
+            Output::File(file) => {
                 let folder = folder_of(file);
                 let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
                 fs::read_dir(folder).map(drop).with_context(what)
             }
-            Place::Folder(folder, _) => {
+            Output::Folder(folder, _) => {
                 fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))
             }
         }
@@ -99,7 +99,7 @@ impl Targets {
     /// Writes a picture to where [`Targets::path`] says. In a folder, nothing is written through a link that leads out of
     /// it.
     pub fn write(&self, path: &Path, pixels: &Pixels) -> anyhow::Result<()> {
-        if let (Place::Folder(folder, _), Some(name)) = (&self.place, path.file_name()) {
+        if let (Output::Folder(folder, _), Some(name)) = (&self.place, path.file_name()) {
             let within = project::check_within(folder, &name.to_string_lossy());
             within.with_context(|| format!("cannot write {}", path.display()))?;
         }
@@ -109,9 +109,9 @@ impl Targets {
     /// The file for a frame of a project, counted as on the command line, where `swept` is set.
     pub fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
         match &self.place {
-            Place::Nowhere => None,
-            Place::File(file) => Some(file.clone()),
-            Place::Folder(folder, stems) => {
+            Output::Nowhere => None,
+            Output::File(file) => Some(file.clone()),
+            Output::Folder(folder, stems) => {
                 let (mut stem, extension) = (stems[project].clone(), self.format.extension());
                 swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
                 Some(folder.join(match self.at.len() {

@@ -7,7 +7,7 @@ use super::{
     nonfinite::{self, Begin},
     printed::{self, Printed},
     report::{Printer, Report},
-    written::Written,
+    source_excerpt::SourceExcerpt,
 };
 use crate::{
     debugger::trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
@@ -21,7 +21,7 @@ use std::{fmt::Write, io};
 
 /// The report of `render`, and the trace.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(flatten)]
@@ -52,10 +52,10 @@ struct Traced {
     outside: Option<[u32; 4]>,
     /// Holds what it held before frame 0 then, if that is not zeros.
     #[serde(skip_serializing_if = "Option::is_none")]
-    initial: Option<Written>,
+    initial: Option<SourceExcerpt>,
     /// The texel lies in the boundary of the pass, which this writes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    boundary: Option<Written>,
+    boundary: Option<SourceExcerpt>,
     /// Holds what the walker found; null where the pass draws nothing.
     value: Option<[Number; 4]>,
     /// The same way in double precision.
@@ -124,7 +124,7 @@ pub fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
         let traced =
             machine.attempt(&mut report, |machine, report| traced(machine, report, args, spec, inputs.clone()));
         let words = traced.as_ref().map_or(String::new(), |traced| words(spec, traced));
-        printer.print_as(&Line { report: &report, trace: traced.as_ref() }, &report, words.trim_end())?;
+        printer.print_as(&JsonLine { report: &report, trace: traced.as_ref() }, &report, words.trim_end())?;
     }
     Ok(printer.exit_code())
 }
@@ -201,7 +201,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
     };
     let fill = |kind: FillKind| {
         let index = project.passes.iter().position(|pass| pass.id == args.pass.pass)?;
-        Some(Written::at(project, Some(project.fill_span(index, kind)?)))
+        Some(SourceExcerpt::at(project, Some(project.fill_span(index, kind)?)))
     };
     let outside = match trace.origin {
         Origin::Outside(region) => Some([region.x, region.y, region.width, region.height]),

@@ -10,7 +10,7 @@ use super::{
 };
 use eddy_glsl::interface;
 use eddy_gpu::{Address, Filtering, Gpu};
-use eddy_graph::{Draw, Read, Source};
+use eddy_graph::{Draw, Read, TexelSource};
 use eddy_project::{Filter, Wrap};
 
 /// The bind groups of one draw.
@@ -41,7 +41,7 @@ impl DrawBindings {
         targets: &[Target],
     ) -> (&[wgpu::BindGroup], &wgpu::BindGroup) {
         let front = |read: &Option<Read>| match read.as_ref().map(|r| &r.source) {
-            Some(Source::Target { index, .. }) => targets[*index].front,
+            Some(TexelSource::Target { index, .. }) => targets[*index].front,
             _ => 0,
         };
         let key = draw.reads.iter().enumerate().fold(0, |key, (i, read)| key | front(read) << i);
@@ -161,7 +161,7 @@ fn view<'a>(
 ) -> &'a wgpu::TextureView {
     match read.map(|r| &r.source) {
         // Whether that is this frame's or one before it is the plan's order.
-        Some(Source::Target { index, .. }) => {
+        Some(TexelSource::Target { index, .. }) => {
             let texture = targets[*index].newest();
             // FilterMode by hand goes by the levels it finds.
             let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);

@@ -114,7 +114,7 @@ impl Sources<'_> {
         let text = fill_text::FillSource::new(value, self.fill_text(index, kind)?);
         let (fragment, said) =
             self.with_fill(text.code(), text.value(), |source| self.compile(cache, source, &Link::default(), options));
-        let said = text.told(said);
+        let said = text.relocated(said);
         Some(match fragment {
             Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
             None => Err(said),

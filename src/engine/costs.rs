@@ -1,7 +1,7 @@
 //! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
-use eddy_graph::{Draw, FramePlan, PassFacts, Read, Source, When};
+use eddy_graph::{Draw, FramePlan, PassFacts, Read, TexelSource, When};
 use eddy_project::{PassId, Project};
 use eddy_texture::TexelFormat;
 
@@ -129,10 +129,10 @@ fn reads(whole: &FramePlan, project: &Project, pass: &PassId, drawn: Option<&Dra
     let is_it = |draw: &&Draw| project.passes[draw.pass].id == *pass;
     let Some(planned) = whole.draws.iter().find(is_it) else { return Vec::new() };
     let read = |(channel, read): (usize, &Option<Read>)| {
-        let Source::Target { index, when } = read.as_ref()?.source else { return None };
+        let TexelSource::Target { index, when } = read.as_ref()?.source else { return None };
         let target = &whole.targets[index];
         let used = drawn.and_then(|draw| draw.reads[channel].as_ref());
-        let is_used = used.is_some_and(|read| matches!(read.source, Source::Target { .. }));
+        let is_used = used.is_some_and(|read| matches!(read.source, TexelSource::Target { .. }));
         Some(PassRead { channel, pass: target.id.clone(), index: target.index, when, is_used })
     };
     planned.reads.iter().enumerate().filter_map(read).collect()

@@ -50,7 +50,7 @@ impl FillSource {
     }
 
     /// Returns what the compiler says of the program as it is said to the author.
-    pub fn told(&self, mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    pub fn relocated(&self, mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
         if self.expression.is_none() {
             return all;
         }

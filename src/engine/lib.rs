@@ -37,7 +37,6 @@ mod trial;
 mod uniforms;
 mod uploads;
 mod viewer;
-mod watch;
 
 pub use build::{BuildOptions, BuildWork, Builder, Built};
 pub use compiled::CompiledPass;

@@ -96,7 +96,7 @@ pub(super) struct BoundChannel {
     pub texture: bool,
     pub sampler: bool,
     pub filter_mode: FilterMode,
-    /// What it reads of [`Program::externals`].
+    /// The one of [`Program::externals`] that it reads.
     pub external: Option<BoundExternal>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.
     pub resolution: [f32; 3],

@@ -5,12 +5,12 @@ use super::{
     frame::DrawMode, running::Running,
 };
 use super::{
+    frame::Watch,
     inspect::{Capture, PassInputs},
     shared::Shared,
     snapshot::{self, Extent, Snapshot},
     targets::Target,
     viewer::Viewer,
-    watch::Watch,
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
 use eddy_project::{CustomUniformValues, PassId};

@@ -10,7 +10,7 @@ use eddy_glsl::{
 };
 use eddy_project::{
     Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source,
-    Stage, lines_not_obeyed,
+    Stage, ignored_channel_lines,
 };
 use eddy_texture::Dimension;
 use std::{
@@ -50,7 +50,7 @@ impl<'p> Sources<'p> {
         let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
         let mut diagnostics: Vec<Diagnostic> =
             lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
-        diagnostics.extend(lines_not_obeyed(project));
+        diagnostics.extend(ignored_channel_lines(project));
         let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
@@ -214,7 +214,7 @@ impl<'p> Sources<'p> {
         let lowered = self.with_fill(text.code(), Some(value), |source| {
             Walkable::new(source, &Link::default(), self.preamble(), Detail::Values)
         });
-        Some(lowered.map_err(|said| text.told(said)))
+        Some(lowered.map_err(|said| text.relocated(said)))
     }
 
     fn own_kind(&self, index: usize) -> PassKind {

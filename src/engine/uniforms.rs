@@ -232,9 +232,9 @@ mod tests {
             assert_eq!(places.len(), 1, "{name:?}");
             places.into_iter().flatten().for_each(|byte| taken[byte] += 1);
         }
-        let pad = offset_of!(UniformBlock, pad);
+        let face = offset_of!(UniformBlock, cube_face);
         for (byte, taken) in taken.into_iter().enumerate() {
-            assert_eq!(taken, u8::from(!(pad..pad + 8).contains(&byte)), "byte {byte}");
+            assert_eq!(taken, u8::from(!(face..face + 8).contains(&byte)), "byte {byte}");
         }
         assert_eq!(places(UniformSet::empty()).count(), 0);
     }

@@ -1,4 +1,4 @@
-//! The device and what was found out about it.
+//! The device and what was found out about it, and the place of a thread among others where a processor draws.
 
 use std::sync::{
     Arc, Mutex,
@@ -289,4 +289,15 @@ impl Gpu {
             Some(reason) => Err(GpuError::Refused { what: what.into(), reason }),
         }
     }
+}
+
+/// Lets other threads go before the calling one. On Linux this is a thread's own, and the threads that a driver starts
+/// for it have it from it.
+pub fn step_back(steps: i32) {
+    #[cfg(target_os = "linux")]
+    if let Err(error) = rustix::process::nice(steps) {
+        log::debug!("a thread keeps its priority: {error}");
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = steps;
 }

@@ -1,6 +1,8 @@
-//! Owns the question of what one frame leaves to the next.
+//! Owns the questions of what one frame leaves to the next, and which draw of a frame may be done in pieces, with
+//! anything between them.
 
-use super::{FramePlan, Source, When};
+use super::{FramePlan, TexelSource, When};
+use eddy_texture::Dimension;
 
 /// The part of a target that the frames to come depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,8 +25,25 @@ impl FramePlan {
         if draw.keeps_content && draw.region.is_none() && self.targets[target].doubled {
             return Carried::All;
         }
-        let is_read = |source: &Source| *source == Source::Target { index: target, when: When::LastFrame };
+        let is_read = |source: &TexelSource| *source == TexelSource::Target { index: target, when: When::LastFrame };
         let is_read = self.draws.iter().flat_map(|draw| draw.reads.iter().flatten()).any(|read| is_read(&read.source));
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
+    }
+
+    /// Returns the last draw of a frame if nobody can tell in how many pieces it was done, nor, until the next frame
+    /// is drawn, whether all of them were: no pass reads its picture, and every texel of it depends on what other
+    /// passes drew and on nothing that was in its place.
+    pub fn divisible_draw(&self) -> Option<usize> {
+        let last = self.runs.last().filter(|run| run.steps == 1)?;
+        let index = last.draws.clone().last()?;
+        let draw = &self.draws[index];
+        let is_plain = draw.beside.is_none() && draw.boundary.is_none();
+        let mut targets = draw.targets.clone();
+        let is_target_plain = targets.len() == 1
+            && targets.all(|target| {
+                let of = &self.targets[target];
+                of.dimension == Dimension::D2 && !of.doubled && !of.mips && self.carried(target) == Carried::Nothing
+            });
+        (is_plain && is_target_plain).then_some(index)
     }
 }

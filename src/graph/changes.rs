@@ -1,6 +1,6 @@
 //! The draws of a frame that may be left out because nothing they read has changed.
 
-use super::{Draw, FramePlan, Source};
+use super::{Draw, FramePlan, TexelSource};
 
 /// Finds what has changed since each draw was done. A count goes up with every drawing of a target, so that a change is
 /// seen however many passes lie between; uniforms and keys are compared byte for byte.
@@ -35,7 +35,7 @@ impl Changes {
     pub fn must_draw(&mut self, index: usize, draw: &Draw, inputs: &[u8]) -> bool {
         if draw.is_cacheable {
             let targets = std::array::from_fn(|channel| match draw.reads[channel].as_ref().map(|r| &r.source) {
-                Some(Source::Target { index, .. }) => self.drawn[*index],
+                Some(TexelSource::Target { index, .. }) => self.drawn[*index],
                 _ => 0,
             });
             if self.read[index].as_ref().is_some_and(|r| r.targets == targets && r.inputs == inputs) {

@@ -8,15 +8,13 @@
 
 mod carried;
 mod changes;
-mod divisible;
 mod plan;
-mod samplers;
 #[cfg(test)]
 mod tests;
 mod traffic;
 
 pub use carried::Carried;
 pub use changes::Changes;
-pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, When};
-pub use samplers::effective_sampler;
+pub use plan::effective_sampler;
+pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Target, TexelSource, When};
 pub use traffic::Traffic;

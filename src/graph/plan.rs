@@ -1,7 +1,6 @@
-//! The plan of a frame.
+//! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
-use super::effective_sampler;
-use eddy_project::{Filter, Input, PassId, PassSize, Project, Region, Sampler, Wrap};
+use eddy_project::{Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
@@ -40,7 +39,7 @@ pub enum When {
 
 /// The source of a channel's texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum TexelSource {
     /// An index into [`FramePlan::targets`].
     Target { index: usize, when: When },
     /// A texture that something else than a pass fills.
@@ -52,7 +51,7 @@ pub enum Source {
 /// A channel of a draw: what it reads and how.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Read {
-    pub source: Source,
+    pub source: TexelSource,
     pub sampler: Sampler,
     /// Levels beyond 0 may be sampled: the sampler asks for them and the source has them.
     pub mips: bool,
@@ -109,7 +108,7 @@ impl Draw {
     /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it
     /// is one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
-        let read = is_picture.then_some(Read { source: Source::External, sampler: FILL_SAMPLER, mips: false });
+        let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false });
         Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
     }
 }
@@ -250,22 +249,29 @@ impl FramePlan {
         let pass = drawn[place];
         let sampler = effective_sampler(project, pass, channel);
         let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
-            None => Source::Nothing,
+            None => TexelSource::Nothing,
             Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
-            Some(input) if input.row().undrawn.is_some() => Source::Nothing,
-            Some(Input::Media { .. } | Input::Device(_)) => Source::External,
+            Some(input) if input.row().undrawn.is_some() => TexelSource::Nothing,
+            Some(Input::Media { .. } | Input::Device(_)) => TexelSource::External,
         };
         Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })
     }
 
-    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: &PassId, index: usize) -> Source {
+    fn target_read(
+        &mut self,
+        project: &Project,
+        drawn: &[usize],
+        place: usize,
+        id: &PassId,
+        index: usize,
+    ) -> TexelSource {
         // A buffer without a pass holds zeros. A cube of them would take 48 MiB to say less than an empty channel.
         if *id == PassId::Cubemap && project.pass(id).is_none() {
-            return Source::Nothing;
+            return TexelSource::Nothing;
         }
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
-        let Some(index) = self.targets(project, id).nth(index) else { return Source::Nothing };
-        Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
+        let Some(index) = self.targets(project, id).nth(index) else { return TexelSource::Nothing };
+        TexelSource::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
     /// Decides what each target needs, now that every read is known.
@@ -277,7 +283,7 @@ impl FramePlan {
                     .iter()
                     .flat_map(|d| d.reads.iter().enumerate().map(move |(c, r)| (d.pass, c, r)))
                     .filter(move |(_, _, r)| {
-                        matches!(r, Some(Read { source: Source::Target { index: i, when: w }, .. })
+                        matches!(r, Some(Read { source: TexelSource::Target { index: i, when: w }, .. })
                             if *i == index && when.is_none_or(|when| when == *w))
                     })
                     .map(|(pass, channel, _)| (pass, channel))
@@ -308,15 +314,15 @@ impl FramePlan {
                 .reads
                 .iter()
                 .flatten()
-                .any(|r| matches!(r.source, Source::Target { index, .. } if own.contains(&index)));
+                .any(|r| matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
             let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.meshes().is_none();
             draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {
-                        Source::Target { index, .. } => self.targets[index].mips,
-                        Source::External => true,
-                        Source::Nothing => false,
+                        TexelSource::Target { index, .. } => self.targets[index].mips,
+                        TexelSource::External => true,
+                        TexelSource::Nothing => false,
                     };
             }
         }
@@ -348,4 +354,25 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
         }
     }
     reached
+}
+
+/// Returns the sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
+///
+/// Some kinds of input, such as the keyboard, are always read in one way. Under [`SamplerRules::Site`] a buffer's filter
+/// is that of the last channel of the same pass that reads it, because the site sets it on the texture just before the
+/// pass draws, and its wrap that of the last channel of the whole project, because the site sets it once as channels
+/// load.
+pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
+    let pass = &project.passes[pass];
+    let channel = pass.channels[index].as_ref()?;
+    let is_shared = channel.input.target().is_some();
+    if !is_shared || project.sampler_rules == SamplerRules::PerChannel {
+        return Some(channel.sampler());
+    }
+    let same = |channels: &[Option<eddy_project::Channel>; 4]| {
+        channels.iter().flatten().rfind(|c| c.input == channel.input).map(|c| c.sampler)
+    };
+    let filter = same(&pass.channels)?.filter;
+    let wrap = project.passes.iter().rev().find_map(|p| same(&p.channels))?.wrap;
+    Some(Sampler { filter, wrap, ..channel.sampler })
 }

@@ -1,6 +1,6 @@
 //! The plan's rules, with no device.
 
-use super::{Carried, Changes, ChannelFacts, FramePlan, PassFacts, Source, Target, When, effective_sampler};
+use super::{Carried, Changes, ChannelFacts, FramePlan, PassFacts, Target, TexelSource, When, effective_sampler};
 use eddy_project::{
     Channel, Filter, Group, Input, Origin, Pass, PassBody, PassId, PassSize, Project, Region, Sampler, SamplerRules,
     Wrap,
@@ -41,7 +41,7 @@ fn plan(project: &Project) -> FramePlan {
 fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, When)> {
     let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
     match &draw.reads[c].as_ref()?.source {
-        Source::Target { index, when } => Some((plan.targets[*index].id.title(), *when)),
+        TexelSource::Target { index, when } => Some((plan.targets[*index].id.title(), *when)),
         _ => None,
     }
 }
@@ -171,7 +171,10 @@ fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
     let project =
         project(vec![pass(PassId::Image, [channel(Input::KEYBOARD, Filter::Linear, Wrap::Repeat), None, None, None])]);
     let read = plan(&project).draws[0].reads[0].clone().unwrap();
-    assert_eq!((read.sampler.filter, read.sampler.wrap, read.source), (Filter::Nearest, Wrap::Clamp, Source::External));
+    assert_eq!(
+        (read.sampler.filter, read.sampler.wrap, read.source),
+        (Filter::Nearest, Wrap::Clamp, TexelSource::External)
+    );
 }
 
 #[test]
@@ -303,8 +306,8 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     assert_eq!(plan.draws[0].targets, 0..2);
     assert!(!plan.draws[0].keeps_content && plan.draws[0].is_cacheable);
     let read = |draw: usize, c: usize| plan.draws[draw].reads[c].as_ref().unwrap().source.clone();
-    assert_eq!(read(1, 0), Source::Target { index: 1, when: When::ThisFrame });
-    assert_eq!(read(2, 0), Source::Target { index: 0, when: When::ThisFrame });
+    assert_eq!(read(1, 0), TexelSource::Target { index: 1, when: When::ThisFrame });
+    assert_eq!(read(2, 0), TexelSource::Target { index: 0, when: When::ThisFrame });
     // Without skipping it is drawn each frame, and cleared all the same.
     let full = FramePlan::new(&project, &facts, &[], false);
     assert!(!full.draws[0].keeps_content && !full.draws[0].is_cacheable);
@@ -330,7 +333,7 @@ fn a_target_that_is_not_there_reads_as_nothing() {
     project.passes[1].channels[0] =
         channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 3 }, Filter::Linear, Wrap::Clamp);
     let plan = FramePlan::new(&project, &facts, &[], true);
-    assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, Source::Nothing);
+    assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, TexelSource::Nothing);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Bytes that a frame cannot do without, from its plan alone.
 
-use super::{FramePlan, Source, Target};
+use super::{FramePlan, Target, TexelSource};
 use eddy_texture::TextureShape;
 
 /// The least that is moved if everything is drawn.
@@ -91,8 +91,8 @@ impl Target {
 
 fn target_of(read: &super::Read) -> Option<usize> {
     match read.source {
-        Source::Target { index, .. } => Some(index),
-        Source::External | Source::Nothing => None,
+        TexelSource::Target { index, .. } => Some(index),
+        TexelSource::External | TexelSource::Nothing => None,
     }
 }
 

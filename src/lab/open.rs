@@ -24,7 +24,7 @@ pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
             let Some(fill) = pass.fill_mut(kind) else { continue };
             let FillValue::File(name) = &fill.value else { continue };
             let Some(texels) = media.fill(name) else { continue };
-            fill.value = FillValue::Held { name: name.clone(), npy: media::npy_bytes(texels).into() };
+            fill.value = FillValue::InMemory { name: name.clone(), npy: media::npy_bytes(texels).into() };
         }
     }
     // As a person's hand leaves them, which is how they are read again.

@@ -69,7 +69,7 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
     for (.., fill) in project.fills() {
         let Some(path) = fill.value.path().filter(|path| set.fill(path).is_none()) else { continue };
         let texels = match &fill.value {
-            FillValue::Held { npy, .. } => super::npy::read(npy, path, set.room()),
+            FillValue::InMemory { npy, .. } => super::npy::read(npy, path, set.room()),
             _ => load_within(&MediaKey::of_fill(path), base, None, set.room()),
         };
         match texels {

@@ -19,12 +19,12 @@ pub(super) const MANIFEST: &str = "eddy.toml";
 
 /// The text files of a project, by name relative to its folder.
 pub(super) struct Files<'a> {
-    place: Place<'a>,
+    place: Storage<'a>,
     /// Bytes that may still be read: see [`limits::ALL_TEXTS`].
     left: Cell<u64>,
 }
 
-enum Place<'a> {
+enum Storage<'a> {
     Disk(&'a Path),
     Embedded(&'a include_dir::Dir<'a>),
     /// A folder as it will be once it is saved.
@@ -42,18 +42,18 @@ pub(super) enum Read {
 
 impl<'a> Files<'a> {
     pub fn on_disk(folder: &'a Path) -> Self {
-        Self::of(Place::Disk(folder))
+        Self::of(Storage::Disk(folder))
     }
 
     pub fn embedded(folder: &'a include_dir::Dir<'a>) -> Self {
-        Self::of(Place::Embedded(folder))
+        Self::of(Storage::Embedded(folder))
     }
 
     pub fn in_memory(files: &'a BTreeMap<String, Vec<u8>>) -> Self {
-        Self::of(Place::Memory(files))
+        Self::of(Storage::Memory(files))
     }
 
-    fn of(place: Place<'a>) -> Self {
+    fn of(place: Storage<'a>) -> Self {
         Self { place, left: Cell::new(limits::ALL_TEXTS.bytes) }
     }
 
@@ -61,7 +61,7 @@ impl<'a> Files<'a> {
     /// of more than [`limits::FILES`].
     pub fn names(&self) -> Result<Vec<String>, ProjectError> {
         let mut names: Vec<String> = match self.place {
-            Place::Disk(path) => {
+            Storage::Disk(path) => {
                 let mut names = Vec::new();
                 let start = if path.as_os_str().is_empty() { Path::new(".") } else { path };
                 for entry in fs::read_dir(start).map_err(ProjectError::io("list", path))? {
@@ -78,10 +78,10 @@ impl<'a> Files<'a> {
                 }
                 names
             }
-            Place::Embedded(dir) => {
+            Storage::Embedded(dir) => {
                 dir.files().filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
             }
-            Place::Memory(files) => files.keys().cloned().collect(),
+            Storage::Memory(files) => files.keys().cloned().collect(),
         };
         names.sort();
         Ok(names)
@@ -90,7 +90,7 @@ impl<'a> Files<'a> {
     /// Reads a text of at most `limit` bytes. All that one `Files` reads is at most [`limits::ALL_TEXTS`].
     pub fn read(&self, name: &str, limit: Limit) -> Read {
         let bytes = match self.place {
-            Place::Disk(folder) => {
+            Storage::Disk(folder) => {
                 let left = Limit { bytes: self.left.get(), ..limits::ALL_TEXTS };
                 let smaller = if left.bytes < limit.bytes { left } else { limit };
                 match confine::read(folder, name, smaller) {
@@ -103,11 +103,11 @@ impl<'a> Files<'a> {
                     Err(e) => return Read::Refused(e),
                 }
             }
-            Place::Embedded(dir) => match dir.get_file(dir.path().join(name)) {
+            Storage::Embedded(dir) => match dir.get_file(dir.path().join(name)) {
                 Some(file) => file.contents().to_vec(),
                 None => return Read::Missing,
             },
-            Place::Memory(files) => match files.get(&confine::relative("", name).unwrap_or_default()) {
+            Storage::Memory(files) => match files.get(&confine::relative("", name).unwrap_or_default()) {
                 Some(bytes) => bytes.clone(),
                 None => return Read::Missing,
             },
@@ -120,17 +120,17 @@ impl<'a> Files<'a> {
     /// then reading says why.
     pub fn exists(&self, name: &str) -> bool {
         match self.place {
-            Place::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
-            Place::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
-            Place::Memory(files) => files.contains_key(name),
+            Storage::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
+            Storage::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
+            Storage::Memory(files) => files.contains_key(name),
         }
     }
 
     /// The file behind a name, where there is one on disk.
     pub fn path(&self, name: &str) -> Option<PathBuf> {
         match self.place {
-            Place::Disk(folder) => Some(folder.join(name)),
-            Place::Embedded(_) | Place::Memory(_) => None,
+            Storage::Disk(folder) => Some(folder.join(name)),
+            Storage::Embedded(_) | Storage::Memory(_) => None,
         }
     }
 }

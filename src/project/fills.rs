@@ -25,7 +25,7 @@ pub enum FillValue {
     /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes
     /// the file into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a
     /// project is one.
-    Held { name: PathBuf, npy: Arc<[u8]> },
+    InMemory { name: PathBuf, npy: Arc<[u8]> },
 }
 
 impl FillValue {
@@ -33,7 +33,7 @@ impl FillValue {
     pub fn path(&self) -> Option<&Path> {
         match self {
             FillValue::Expression(_) => None,
-            FillValue::File(path) | FillValue::Held { name: path, .. } => Some(path),
+            FillValue::File(path) | FillValue::InMemory { name: path, .. } => Some(path),
         }
     }
 }
@@ -68,7 +68,7 @@ impl Fill {
     pub(super) fn text(&self) -> (Arc<str>, Range<usize>) {
         let value: Arc<str> = match &self.value {
             FillValue::Expression(text) => text.clone(),
-            FillValue::File(path) | FillValue::Held { name: path, .. } => path.to_string_lossy().into(),
+            FillValue::File(path) | FillValue::InMemory { name: path, .. } => path.to_string_lossy().into(),
         };
         let Some(Written { manifest, range }) = &self.written else { return (value.clone(), 0..value.len()) };
         let written = manifest.get(range.clone()).unwrap_or_default();

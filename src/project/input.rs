@@ -38,7 +38,7 @@ pub enum InputSource {
     Device,
 }
 
-/// What is known of a kind of input.
+/// Everything that is known of a kind of input.
 #[derive(Debug)]
 pub struct InputRow {
     pub kind: InputKind,

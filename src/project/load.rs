@@ -1,7 +1,7 @@
 //! Files become a [`Project`].
 
 use super::{
-    Loaded, Origin, Pass, PassId, Project, ProjectError, Source,
+    Origin, Pass, PassId, Project, ProjectError, Source,
     atomic::sweep,
     confine, file_names,
     files::{self, Files, MANIFEST, Read},
@@ -141,4 +141,14 @@ fn finish(what: &str, loaded: Loaded) -> Result<Loaded, ProjectError> {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
     }
     Ok(loaded)
+}
+
+/// A project and what there is to say of it.
+#[derive(Debug)]
+pub struct Loaded {
+    pub project: Project,
+    /// Warnings and notes, never an error.
+    pub warnings: Vec<Diagnostic>,
+    /// [`Project::sources`], and after them the files that `warnings` point into besides.
+    pub sources: SourceMap,
 }

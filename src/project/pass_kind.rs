@@ -12,7 +12,7 @@ pub enum PassKind {
     Image,
 }
 
-/// What is known of a kind of pass.
+/// Everything that is known of a kind of pass.
 #[derive(Debug)]
 pub struct PassRow {
     pub kind: PassKind,
@@ -20,7 +20,7 @@ pub struct PassRow {
     pub title: &'static str,
     /// The spelling of file names, `eddy.toml` and `--pass`; of buffers what stands before the name.
     pub key: &'static str,
-    /// What it is called besides, in lower case without blanks.
+    /// Its other names, in lower case without blanks.
     pub(crate) spellings: &'static [&'static str],
     /// The type in the site's JSON.
     pub json_type: &'static str,

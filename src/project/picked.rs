@@ -127,7 +127,7 @@ pub(super) fn write_held(project: &mut Project, target: &Path, writes: &mut Writ
     for pass in &mut project.passes {
         for kind in FillKind::ALL {
             let Some(fill) = pass.fill_mut(kind) else { continue };
-            let FillValue::Held { name, npy } = &fill.value else { continue };
+            let FillValue::InMemory { name, npy } = &fill.value else { continue };
             let name = add(parts(name), npy.to_vec(), target, writes)?;
             *fill = Fill::file(name);
         }

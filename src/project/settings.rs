@@ -1,7 +1,7 @@
 //! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
 //! often a frame.
 
-use super::{Boundary, Fill, Geometry, PassId, TexelFormat};
+use super::{Boundary, Fill, Geometry, Pass, PassId, TexelFormat};
 
 /// Says how a pass is drawn. The default is what the site does.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,4 +102,14 @@ pub struct Group {
     pub passes: Vec<PassId>,
     /// At least 1.
     pub steps: u32,
+}
+
+/// The passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
+pub(super) fn draws(passes: &[Pass], groups: &[Group]) -> u64 {
+    let draws = |pass: &Pass| {
+        let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
+        let meshes = pass.settings.meshes().map_or(1, |g| g.draws.len().max(1) as u64);
+        meshes.saturating_mul(steps)
+    };
+    passes.iter().map(draws).fold(0, u64::saturating_add)
 }

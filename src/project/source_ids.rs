@@ -1,9 +1,10 @@
 //! A [`SourceId`] names a text of a project: Common (an empty text where there is none), then the passes in order, then
 //! the stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing else
-//! counts them.
+//! counts them. A [`TextLocation`] is a place in one of them, as people are told it.
 
 use super::{Included, PassId, Project, Stage, Tab};
-use eddy_diag::SourceId;
+use eddy_diag::{SourceId, SourceMap, Span};
+use std::ops::Range;
 
 impl Project {
     /// The id of Common's text.
@@ -81,4 +82,33 @@ impl Project {
 /// A project holds far fewer texts than there are ids; see [`super::limits`].
 fn id(place: usize) -> SourceId {
     SourceId(place as u16)
+}
+
+/// A location in a text of the project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextLocation {
+    /// `None`: the text is no tab, as an included file is not.
+    pub tab: Option<Tab>,
+    /// The text's name.
+    pub text: String,
+    /// Line and column of the start, counted from 1; columns count characters.
+    pub line: usize,
+    pub column: usize,
+    /// Bytes of the text as it was compiled.
+    pub range: Range<usize>,
+}
+
+impl TextLocation {
+    /// Returns `None` for a span of a text that `sources` does not have.
+    pub fn new(span: Span, sources: &SourceMap, project: &Project) -> Option<Self> {
+        let at = sources.line_column(span)?;
+        let text = sources.get(span.source)?.name.clone();
+        let tab = project.tab_of(span.source);
+        Some(Self { tab, text, line: at.line, column: at.column, range: span.range() })
+    }
+
+    /// The tab's title, or the text's own name where it is no tab.
+    pub fn title(&self) -> String {
+        self.tab.as_ref().map_or_else(|| self.text.clone(), Tab::title)
+    }
 }

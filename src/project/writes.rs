@@ -72,7 +72,7 @@ impl Writes {
         let refuse = |why: String| Err(ProjectError::Unwritable { path: self.folder.join(name), why });
         let name = match confine::relative("", name) {
             Ok(name) => name,
-            Err(e) => return Err(ProjectError::Unwritable { path: PathBuf::from(name), why: told(&e) }),
+            Err(e) => return Err(ProjectError::Unwritable { path: PathBuf::from(name), why: with_hint(&e) }),
         };
         if self.own.contains(&name) || name == MANIFEST {
             return Ok(name);
@@ -190,7 +190,7 @@ pub fn check_within(folder: &Path, name: &str) -> io::Result<()> {
     }
 }
 
-fn told(error: &FileError) -> String {
+fn with_hint(error: &FileError) -> String {
     format!("{error}; {}", error.hint())
 }
 

@@ -72,10 +72,7 @@ impl Session {
                 self.notice(Level::Info, format!("a new shader: {done}"));
             }
             Some((pass, channel)) => {
-                let pass = match &pass {
-                    PassId::Sound => PassId::Image,
-                    other => other.clone(),
-                };
+                let pass = if pass.is_picture() { pass } else { PassId::Image };
                 let before = self.project().clone();
                 let mut project = before.clone();
                 let done = self.put_in(&mut project, &pass, channel, &pictures, &models);

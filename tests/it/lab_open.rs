@@ -62,11 +62,11 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let setup = study.setup(point);
             let Opened { project: opened, size, pass } = open::project(study, point).unwrap();
             assert_eq!((size, &opened.origin), (setup.size(), &Origin::Unsaved), "{point:?}");
-            held += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::Held { .. })).count();
+            held += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
             let folder = tempfile::tempdir().unwrap();
             let saved = project::save(&opened, &folder.path().join("saved"), Overwrite::Refuse);
             let saved = saved.unwrap_or_else(|e| panic!("{point:?}: {e}"));
-            assert!(saved.fills().all(|(.., f)| !matches!(f.value, FillValue::Held { .. })));
+            assert!(saved.fills().all(|(.., f)| !matches!(f.value, FillValue::InMemory { .. })));
             let loaded = project::load(folder.path().join("saved").to_str().unwrap()).unwrap();
             assert_eq!(loaded.warnings, [], "{point:?}");
             let mut running = rig.open(&setup).unwrap();

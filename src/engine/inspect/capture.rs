@@ -3,7 +3,7 @@
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared};
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
-use eddy_graph::{Source, When};
+use eddy_graph::{TexelSource, When};
 use eddy_media::Texels;
 use eddy_project::{Filter, PassId, Wrap};
 use eddy_texture::{Dimension, TextureShape};
@@ -68,11 +68,11 @@ impl<'a> Capture<'a> {
         let read = running.program.plan.draws[index].reads[channel].as_ref();
         let texture = match read.map(|read| &read.source) {
             _ if !bound.texture => None,
-            Some(Source::Target { index: target, when: When::LastFrame }) if self.is_past => {
+            Some(TexelSource::Target { index: target, when: When::LastFrame }) if self.is_past => {
                 Some(self.before(running, index, *target)?)
             }
-            Some(Source::Target { index, .. }) => Some(running.targets[*index].newest()),
-            Some(Source::External | Source::Nothing) | None => {
+            Some(TexelSource::Target { index, .. }) => Some(running.targets[*index].newest()),
+            Some(TexelSource::External | TexelSource::Nothing) | None => {
                 bound.external.as_ref().map(|external| &external.texture)
             }
         };

@@ -34,7 +34,7 @@ impl Form {
         match value {
             None => Form::Nothing,
             Some(FillValue::Expression(_)) => Form::Expression,
-            Some(FillValue::File(_) | FillValue::Held { .. }) => Form::File,
+            Some(FillValue::File(_) | FillValue::InMemory { .. }) => Form::File,
         }
     }
 }
@@ -144,6 +144,6 @@ fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut Ui
 fn text(value: &FillValue) -> String {
     match value {
         FillValue::Expression(text) => text.to_string(),
-        FillValue::File(path) | FillValue::Held { name: path, .. } => path.display().to_string(),
+        FillValue::File(path) | FillValue::InMemory { name: path, .. } => path.display().to_string(),
     }
 }

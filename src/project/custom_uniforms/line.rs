@@ -29,7 +29,7 @@ pub(crate) fn is_declaration(line: &HashLine<'_>) -> bool {
 }
 
 /// The parts of a line; one that it leaves out is `None`.
-pub(super) struct Line {
+pub(super) struct Declaration {
     pub name: String,
     pub ty: CustomUniformType,
     pub default: Option<[f64; 4]>,
@@ -55,7 +55,7 @@ fn about(rest: &str) -> String {
     if comment.starts_with('@') { String::new() } else { comment.to_owned() }
 }
 
-impl Line {
+impl Declaration {
     pub fn custom_uniform(&self, source: SourceId) -> CustomUniform {
         CustomUniform {
             name: self.name.clone(),
@@ -71,7 +71,7 @@ impl Line {
     }
 
     /// Takes over what only `other` says. Err: what both say, and differently.
-    pub fn join(&mut self, other: &Line) -> Result<(), &'static str> {
+    pub fn join(&mut self, other: &Declaration) -> Result<(), &'static str> {
         fn one<T: Copy + PartialEq>(
             mine: &mut Option<T>,
             theirs: Option<T>,
@@ -155,13 +155,13 @@ pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
 }
 
 /// Reads a line that [`is_declaration`], in a group.
-pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Line, Diagnostic> {
+pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Declaration, Diagnostic> {
     let skipped = "iUniform".len();
     let mut words = Words::new(&line.body[skipped..], line.body_at + skipped, source);
     let ty = words.ty()?;
     let (name, span) = words.name()?;
     let (default, range, step, group) = (None, None, None, group.to_owned());
-    let mut out = Line { name, ty, default, range, step, about: String::new(), group, span };
+    let mut out = Declaration { name, ty, default, range, step, about: String::new(), group, span };
     if words.peek() == Word::Sign('=') {
         words.next();
         out.default = Some(words.value(ty)?);

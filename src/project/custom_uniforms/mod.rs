@@ -17,7 +17,7 @@ mod types;
 use super::{lines::hash_lines, nearest};
 pub(super) use declared::words_of_uniforms;
 use eddy_diag::{Diagnostic, SourceId, Span};
-use line::Line;
+use line::Declaration;
 pub(super) use line::{is_declaration, value};
 pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
 
@@ -35,7 +35,7 @@ impl CustomUniforms {
     pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> CustomUniforms {
         let mut custom_uniforms = CustomUniforms::default();
         // What the lines of each custom uniform say so far, since one may leave to another what it does not say.
-        let mut said: Vec<Line> = Vec::new();
+        let mut said: Vec<Declaration> = Vec::new();
         for (source, text) in texts {
             let groups = groups(text);
             for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
@@ -52,7 +52,7 @@ impl CustomUniforms {
         custom_uniforms
     }
 
-    fn add(&mut self, line: Line, source: SourceId, said: &mut Vec<Line>) {
+    fn add(&mut self, line: Declaration, source: SourceId, said: &mut Vec<Declaration>) {
         let Some(at) = self.list.iter().position(|k| k.name == line.name) else {
             self.list.push(line.custom_uniform(source));
             said.push(line);

@@ -16,18 +16,18 @@
 //! #iChannel3::WrapMode "Clamp"        // or "Repeat"
 //! ```
 //!
-//! A line that is read is obeyed, or it is an error or a warning at its place ([`read`], and [`lines_not_obeyed`]
+//! A line that is read is obeyed, or it is an error or a warning at its place ([`read`], and [`ignored_channel_lines`]
 //! for the texts where these lines count for nothing).
 
 mod around;
+mod ignored;
 mod line;
-mod not_obeyed;
 mod passes_beside;
 mod read;
 
 use super::{Source, custom_uniforms, includes, lines::hash_lines};
 pub(super) use around::{Around, files_of_passes};
-pub use not_obeyed::lines_not_obeyed;
+pub use ignored::ignored_channel_lines;
 pub(super) use passes_beside::passes_beside;
 pub(super) use read::read;
 use std::{borrow::Cow, ops::Range};

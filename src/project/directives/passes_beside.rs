@@ -90,9 +90,7 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
 /// A name for the pass of a file, which no other pass has.
 fn free_id(project: &Project, usual: Option<PassId>, stem: &str) -> PassId {
     let is_free = |id: &PassId| project.pass(id).is_none();
-    if let Some(id @ (PassId::Buffer(_) | PassId::Cubemap)) = usual
-        && is_free(&id)
-    {
+    if let Some(id) = usual.filter(|id| id.row().input.is_some() && is_free(id)) {
         return id;
     }
     let letters: String = stem.to_lowercase().chars().filter(|c| c.is_alphanumeric()).take(limits::NAME - 6).collect();

@@ -19,10 +19,10 @@ use std::{
 /// several shaders, `FILE.json#ID` is one, by its id, its number from 1 or its name.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     match locate(spec)? {
-        Place::Preset(name) => presets::load(name),
-        Place::Folder(path) => load_folder(&path),
-        Place::Glsl(path) => load_glsl(&path),
-        Place::Json(path, wanted) => load_json(&path, wanted.as_deref()),
+        Location::Preset(name) => presets::load(name),
+        Location::Folder(path) => load_folder(&path),
+        Location::Glsl(path) => load_glsl(&path),
+        Location::Json(path, wanted) => load_json(&path, wanted.as_deref()),
     }
 }
 
@@ -30,10 +30,10 @@ pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
 /// extension.
 pub fn stem(spec: &str) -> String {
     let path = match locate(spec) {
-        Ok(Place::Preset(name)) => return name.to_owned(),
-        Ok(Place::Folder(path)) => return folder_name(&path),
-        Ok(Place::Glsl(path) | Place::Json(path, None)) => path,
-        Ok(Place::Json(path, Some(wanted))) => {
+        Ok(Location::Preset(name)) => return name.to_owned(),
+        Ok(Location::Folder(path)) => return folder_name(&path),
+        Ok(Location::Glsl(path) | Location::Json(path, None)) => path,
+        Ok(Location::Json(path, Some(wanted))) => {
             let letters = wanted.chars().map(|c| if c.is_alphanumeric() || c == '-' { c } else { '_' }).take(64);
             let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             return format!("{stem}_{}", letters.collect::<String>());
@@ -43,7 +43,7 @@ pub fn stem(spec: &str) -> String {
     path.file_stem().map_or_else(|| "project".into(), |s| s.to_string_lossy().into_owned())
 }
 
-enum Place {
+enum Location {
     Preset(&'static str),
     Folder(PathBuf),
     Glsl(PathBuf),
@@ -51,14 +51,14 @@ enum Place {
     Json(PathBuf, Option<String>),
 }
 
-fn locate(spec: &str) -> Result<Place, ProjectError> {
+fn locate(spec: &str) -> Result<Location, ProjectError> {
     let path = Path::new(spec);
     let preset = presets::names().iter().copied().find(|n| *n == spec);
     let metadata = fs::metadata(path);
     if metadata.is_err()
         && let Some((path, wanted)) = json::of_several(spec)
     {
-        return Ok(Place::Json(path, Some(wanted)));
+        return Ok(Location::Json(path, Some(wanted)));
     }
     let metadata = match metadata {
         Ok(metadata) => metadata,
@@ -66,7 +66,7 @@ fn locate(spec: &str) -> Result<Place, ProjectError> {
             return Err(ProjectError::Io { action: "read", path: path.to_owned(), source: e });
         }
         Err(_) => {
-            return preset.map(Place::Preset).ok_or_else(|| ProjectError::NotFound {
+            return preset.map(Location::Preset).ok_or_else(|| ProjectError::NotFound {
                 spec: spec.to_owned(),
                 near: nearest(spec, presets::names().iter().copied()).map(str::to_owned),
                 presets: presets::names().iter().map(|&n| n.to_owned()).collect(),
@@ -75,18 +75,18 @@ fn locate(spec: &str) -> Result<Place, ProjectError> {
     };
     if metadata.is_dir() {
         return Ok(match preset {
-            Some(name) if !holds_project(path) => Place::Preset(name),
-            _ => Place::Folder(path.to_owned()),
+            Some(name) if !holds_project(path) => Location::Preset(name),
+            _ => Location::Folder(path.to_owned()),
         });
     }
     let extension = path.extension().unwrap_or_default();
     if path.file_name().is_some_and(|n| n == MANIFEST) {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok(Place::Folder(folder.to_owned()))
+        Ok(Location::Folder(folder.to_owned()))
     } else if extension.eq_ignore_ascii_case("json") {
-        Ok(Place::Json(path.to_owned(), None))
+        Ok(Location::Json(path.to_owned(), None))
     } else if file_names::is_glsl_extension(extension) {
-        Ok(Place::Glsl(path.to_owned()))
+        Ok(Location::Glsl(path.to_owned()))
     } else {
         Err(ProjectError::UnknownKind { path: path.to_owned() })
     }

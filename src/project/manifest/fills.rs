@@ -105,7 +105,7 @@ pub(super) fn write_fills(table: &mut dyn TableLike, settings: &PassSettings) {
 fn value(fill: &Fill) -> Value {
     match &fill.value {
         FillValue::Expression(text) => Value::from(&**text),
-        FillValue::File(path) | FillValue::Held { name: path, .. } => {
+        FillValue::File(path) | FillValue::InMemory { name: path, .. } => {
             // Forward slashes are understood everywhere.
             let path = path.to_string_lossy();
             let path = if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() };

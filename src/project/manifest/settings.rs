@@ -5,8 +5,8 @@ use super::{
     reader::Reader,
 };
 use crate::{
-    Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, draws::draws, file_names, limits,
-    listed, nearest,
+    Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, file_names, limits, listed, nearest,
+    settings::draws,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 

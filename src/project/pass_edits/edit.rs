@@ -4,9 +4,9 @@ use super::{error::PassEditError, groups};
 use crate::{
     Boundary, Fill, FillValue, Filter, Pass, PassId, PassKind, PassSize, Project, Region, Sampler, Source, Tab,
     TexelFormat, Wrap, confine,
-    draws::draws,
     file_names::{self, Role},
     limits,
+    settings::draws,
 };
 use std::path::Path;
 
@@ -245,7 +245,7 @@ fn fill(value: Option<&FillValue>, now: Option<&Fill>) -> Result<Option<Fill>, P
     let Some(value) = value else { return Ok(None) };
     match value {
         FillValue::Expression(text) if text.trim().is_empty() => return Err(PassEditError::EmptyFill),
-        FillValue::Expression(_) | FillValue::Held { .. } => {}
+        FillValue::Expression(_) | FillValue::InMemory { .. } => {}
         FillValue::File(path) => {
             let name = path.to_str().and_then(|name| confine::relative("", name).ok());
             if name.is_none() {

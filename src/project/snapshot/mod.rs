@@ -3,7 +3,7 @@
 //! Owns the text's form, both ways: JSON with the project's place, an `eddy.toml` for all that is not text, and each
 //! tab's text under the tab's own name, so that two passes of one file may differ while they are edited. Of the files that
 //! the texts include those are in it that were edited; of a fill that is in memory alone (see
-//! [`super::FillValue::Held`]) only the name is.
+//! [`super::FillValue::InMemory`]) only the name is.
 
 use super::{
     Channel, Included, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, confine,
@@ -30,7 +30,7 @@ pub enum SnapshotError {
 struct Form {
     eddy_snapshot: u32,
     name: String,
-    origin: Place,
+    origin: SavedOrigin,
     /// The project as `eddy.toml` says it.
     manifest: String,
     texts: Vec<Text>,
@@ -46,7 +46,7 @@ struct Form {
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Place {
+enum SavedOrigin {
     Unsaved,
     Preset(String),
     Folder { path: PathBuf, has_manifest: bool },
@@ -99,7 +99,7 @@ pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     let form = Form {
         eddy_snapshot: VERSION,
         name: project.name.clone(),
-        origin: Place::of(&project.origin),
+        origin: SavedOrigin::of(&project.origin),
         manifest: manifest::write(&named, None, &project.name, false),
         texts: project
             .tabs()
@@ -235,24 +235,24 @@ fn absolute(path: PathBuf) -> PathBuf {
     std::path::absolute(&path).unwrap_or(path)
 }
 
-impl Place {
-    fn of(origin: &Origin) -> Place {
+impl SavedOrigin {
+    fn of(origin: &Origin) -> SavedOrigin {
         match origin.clone() {
-            Origin::Unsaved => Place::Unsaved,
-            Origin::Preset(name) => Place::Preset(name),
-            Origin::Folder { path, has_manifest } => Place::Folder { path: absolute(path), has_manifest },
-            Origin::File(path) => Place::File(absolute(path)),
-            Origin::Json(path) => Place::Json(absolute(path)),
+            Origin::Unsaved => SavedOrigin::Unsaved,
+            Origin::Preset(name) => SavedOrigin::Preset(name),
+            Origin::Folder { path, has_manifest } => SavedOrigin::Folder { path: absolute(path), has_manifest },
+            Origin::File(path) => SavedOrigin::File(absolute(path)),
+            Origin::Json(path) => SavedOrigin::Json(absolute(path)),
         }
     }
 
     fn into_origin(self) -> Origin {
         match self {
-            Place::Unsaved => Origin::Unsaved,
-            Place::Preset(name) => Origin::Preset(name),
-            Place::Folder { path, has_manifest } => Origin::Folder { path, has_manifest },
-            Place::File(path) => Origin::File(path),
-            Place::Json(path) => Origin::Json(path),
+            SavedOrigin::Unsaved => Origin::Unsaved,
+            SavedOrigin::Preset(name) => Origin::Preset(name),
+            SavedOrigin::Folder { path, has_manifest } => Origin::Folder { path, has_manifest },
+            SavedOrigin::File(path) => Origin::File(path),
+            SavedOrigin::Json(path) => Origin::Json(path),
         }
     }
 }

@@ -9,7 +9,7 @@ use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 
 /// Returns what to say of `#iChannel` lines that are not obeyed: those in texts that are no pass, which have no
 /// channels, and those that say something else than what the project is read from. Spans are of [`Project::sources`].
-pub fn lines_not_obeyed(project: &Project) -> Vec<Diagnostic> {
+pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let counts = project.origin.has_channels_in_texts();
     let (severity, who) = match &project.origin {

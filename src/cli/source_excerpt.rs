@@ -4,7 +4,7 @@ use crate::{diag::Span, project::Project};
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
-pub struct Written {
+pub struct SourceExcerpt {
     pub source: Option<String>,
     /// Counted from 1, in characters.
     pub line: Option<usize>,
@@ -13,7 +13,7 @@ pub struct Written {
     pub text: String,
 }
 
-impl Written {
+impl SourceExcerpt {
     pub fn at(project: &Project, span: Option<Span>) -> Self {
         let sources = project.sources();
         let at = span.and_then(|span| sources.line_column(span));
