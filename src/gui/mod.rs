@@ -14,6 +14,7 @@ mod buffers;
 mod channels;
 mod code;
 mod compare;
+mod config_file;
 mod costs;
 mod custom_uniforms;
 mod damage;
@@ -65,7 +66,6 @@ mod ui_output;
 mod uniform_row;
 mod uses;
 mod viewport;
-mod watched_file;
 
 pub use app::run;
 

@@ -16,13 +16,13 @@ use egui_wgpu::Renderer;
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
 
-/// Says what is around the picture.
+/// The part of the window that the picture fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Around {
-    /// Other panels, one of which may have the keyboard.
-    Panels,
-    /// Nothing: the picture fills the window.
-    Nothing,
+pub enum ViewportMode {
+    /// A panel. Another one may have the keyboard.
+    Panel,
+    /// The whole window.
+    Window,
 }
 
 pub struct Viewport {
@@ -130,8 +130,8 @@ impl Viewport {
     }
 
     /// Fills the space there is.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, around: Around, out: &mut UiOutput) {
-        let alone = around == Around::Nothing;
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, mode: ViewportMode, out: &mut UiOutput) {
+        let alone = mode == ViewportMode::Window;
         let rect = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let rim = if alone { 0.0 } else { RIM };
@@ -209,7 +209,7 @@ impl Viewport {
                     if is_pick && response.rect.contains(pos) && on_top(pos) {
                         if letterbox.contains(x, y) {
                             self.picks = false;
-                            out.wishes.push(ShellCommand::Trace(fraction(letterbox, pos2(x, y))));
+                            out.shell_commands.push(ShellCommand::Trace(fraction(letterbox, pos2(x, y))));
                         }
                         continue;
                     }

@@ -54,7 +54,7 @@ pub fn choose(
             set(out, Some(Channel { input: Input::Keyboard, sampler }));
         }
         if out.clicked("choose:file", &ui.button("Image file…")) {
-            out.wishes.push(ShellCommand::Pick(Pick::Picture { channel: index }));
+            out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
         }
     });
     if let Some(channel) = channel {
