@@ -1,7 +1,7 @@
 //! The picture, and the mouse over it.
 
 use super::{
-    accessible, audited,
+    accessible, error_map,
     geometry::{Area, Letterbox, Shape},
     halt, probe, theme,
     ui_output::{ShellCommand, UiOutput},
@@ -163,7 +163,7 @@ impl Viewport {
         out.home("picture", ui, Self::id());
         out.place("picture", rect);
         self.mouse(ui, &response, &letterbox, out);
-        audited::paint(ui, session, picture);
+        error_map::paint(ui, session, picture);
         traced(ui, session, picture);
         let scale = ui.pixels_per_point();
         let pointer = ui.input(|i| i.pointer.latest_pos()).filter(|at| picture.contains(*at));
@@ -190,7 +190,7 @@ impl Viewport {
             pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::DARK.error);
         }
         probe::show(ui, session, rect, self.under, out);
-        audited::show(ui, session, rect, out);
+        error_map::show(ui, session, rect, out);
         halt::show(ui, session, rect, out);
     }
 

@@ -1,14 +1,14 @@
 //! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
 
-mod asks;
 mod bars;
 mod everywhere;
 mod find_bar;
 mod fixes;
 mod menu;
 mod places;
+mod project_edits;
 mod rename_bar;
-mod several;
+mod requests;
 
 use super::{
     actions::{Action, Keymap, Listening},

@@ -1,6 +1,6 @@
 //! The list of methods beside the plot, and what the signs mean.
 
-use super::{ink::Ink, model::PlotData, plot};
+use super::{colors::Ink, model::PlotData, plot};
 use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 

@@ -3,7 +3,7 @@
 
 use super::{
     axis::{self, short},
-    ink::Ink,
+    colors::Ink,
     model::{Dot, PlotData, nearest},
 };
 use crate::{
