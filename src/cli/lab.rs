@@ -136,7 +136,7 @@ impl Progress {
                     )
                 }
                 Step::Cost { study, points } => format!("[{}] {study}: timing {points} points", "#".repeat(WIDTH)),
-                Step::Known(_) | Step::Measured(_) | Step::Estimate { .. } | Step::Turn { .. } | Step::Costed(_) => {
+                Step::Resumed(_) | Step::Measured(_) | Step::Estimate { .. } | Step::Turn { .. } | Step::Costed(_) => {
                     return;
                 }
             };

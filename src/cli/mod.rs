@@ -4,7 +4,7 @@
 //! the front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
 
 mod args;
-mod audited;
+mod audit;
 mod bench;
 mod check;
 mod compare;

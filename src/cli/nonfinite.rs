@@ -115,7 +115,9 @@ pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
     let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
         return format!("{spec}: all texels of all passes are finite in {frames} frames");
     };
-    let mut out = format!("{spec}: the first is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n");
+    let mut out = format!(
+        "{spec}: the first NaN or infinity is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n"
+    );
     let place = born.as_ref().and_then(|born| Some((born, born.written.place()?)));
     let _ = match place {
         Some((Born { message, written, numbers }, place)) => {

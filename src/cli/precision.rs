@@ -3,7 +3,7 @@
 
 use super::{
     args::PrecisionArgs,
-    audited::{self, Audited},
+    audit::{self, Audited},
     machine::{Machine, Trouble},
     report::{Printer, Report},
 };
@@ -54,14 +54,13 @@ pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
         let is_well = report.errors() == 0;
         let double = is_well
             .then(|| {
-                machine
-                    .attempt(&mut report, |machine, report| audited::run(machine, report, args, spec, inputs.clone()))
+                machine.attempt(&mut report, |machine, report| audit::run(machine, report, args, spec, inputs.clone()))
             })
             .flatten();
         let mut words = compared.as_ref().map_or(String::new(), |compared| words(spec, compared));
         if let Some(double) = &double {
             words.push_str(&if words.is_empty() { format!("{spec}\n") } else { String::new() });
-            words.push_str(&audited::words(double));
+            words.push_str(&audit::words(double));
         }
         let line = JsonLine { report: &report, compared: compared.as_ref(), double: double.as_ref() };
         printer.print_as(&line, &report, words.trim_end())?;

@@ -10,7 +10,7 @@ use super::{
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
-    settings::{Place, Remembered, SettingsFile, UsualSizes, WindowFile},
+    settings::{Remembered, SettingsFile, UsualSizes, WindowFile, WindowPlace},
     shell::Shell,
     surface::{Presented, Surface},
     system_theme, theme,
@@ -469,17 +469,17 @@ impl Running {
             (true, true) => now,
             (true, false) => {
                 let usual = now.size.and_then(|size| self.usual.other_than(size));
-                Place { is_maximized, ..usual.unwrap_or(known) }
+                WindowPlace { is_maximized, ..usual.unwrap_or(known) }
             }
         };
         let (open, layout) = (Some(dock.open_panels().clone()), dock.arrangement());
         self.window_file.keep(Remembered { place, open, layout });
     }
 
-    fn place(&self, is_maximized: bool) -> Place {
+    fn place(&self, is_maximized: bool) -> WindowPlace {
         let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
         let corner = self.window.outer_position().ok().map(|at| (at.x, at.y));
-        Place { size: Some((size.width, size.height)), corner, is_maximized }
+        WindowPlace { size: Some((size.width, size.height)), corner, is_maximized }
     }
 
     fn screen_interval(&self) -> Duration {
@@ -503,7 +503,7 @@ impl Running {
 }
 
 /// Returns where and how large the window opens: as the command line says, else as it was, else as suits the screen.
-fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &Place) -> WindowAttributes {
+fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &WindowPlace) -> WindowAttributes {
     let attributes = Window::default_attributes()
         .with_title("Eddy")
         .with_visible(false)

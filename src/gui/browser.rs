@@ -54,15 +54,15 @@ impl Browser {
 
     /// Returns what there is to say of pages for which the desktop has answered.
     pub fn take(&mut self) -> Vec<Command> {
-        let mut told = Vec::new();
+        let mut notices = Vec::new();
         self.opening.retain(|(path, answer)| match answer.try_recv() {
             Err(TryRecvError::Empty) => true,
             answer => {
-                told.push(opened(path.clone(), answer == Ok(true)));
+                notices.push(opened(path.clone(), answer == Ok(true)));
                 false
             }
         });
-        told
+        notices
     }
 }
 

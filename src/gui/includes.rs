@@ -68,7 +68,7 @@ fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut UiOutput) 
     let link = ui.interact(rect, ui.scope_id().with(("include", &part.text)), Sense::click());
     paint_link(ui, &link, &part.text);
     if out.clicked(&format!("includes:{}", part.text), &link) {
-        out.wishes.push(ShellCommand::GoTo(file, None));
+        out.shell_commands.push(ShellCommand::GoTo(file, None));
     }
     accessible::name(&link, egui::Role::Link, format!("Open {}", part.text));
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open this file");
@@ -87,7 +87,7 @@ fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut UiOu
         for file in tabs(session) {
             let button = ui.button(file.title());
             if out.clicked(&format!("includes:{}", file.title()), &button) {
-                out.wishes.push(ShellCommand::GoTo(file, None));
+                out.shell_commands.push(ShellCommand::GoTo(file, None));
             }
         }
     });

@@ -85,7 +85,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
                 let tip = out.keys.tip("Fix it", Action::Code(EditorAction::QuickFix));
                 let button = ui.small_button(&fix.title).on_hover_text(tip);
                 if out.clicked(&format!("problem-at-caret:fix:{n}"), &button) {
-                    out.wishes.push(ShellCommand::Fix(fix.clone()));
+                    out.shell_commands.push(ShellCommand::Fix(fix.clone()));
                 }
             }
         });
@@ -172,7 +172,7 @@ impl Row<'_> {
             let name = format!("{}:fix", self.name);
             let button = ui.place(place, egui::Button::new(RichText::new("Fix").size(12.0)).small());
             if out.clicked(&name, &button.on_hover_text(&fix.title)) {
-                out.wishes.push(ShellCommand::Fix(fix.clone()));
+                out.shell_commands.push(ShellCommand::Fix(fix.clone()));
             }
         }
         let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
@@ -200,7 +200,7 @@ impl Row<'_> {
         if out.clicked(&self.name, &response)
             && let Some(wish) = self.place.and_then(wish_of)
         {
-            out.wishes.push(wish);
+            out.shell_commands.push(wish);
         }
         response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_ui(|ui| {
             ui.colored_label(color, &self.problem.message);

@@ -228,7 +228,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
     let list = [("Recover", Answer::Recover), ("Discard", Answer::Discard), ("Ask again later", Answer::Cancel)];
     answers(ui, &list, out);
     if out.commands.contains(&Command::Answer(Answer::Recover)) {
-        out.wishes.push(ShellCommand::ShowRecovered);
+        out.shell_commands.push(ShellCommand::ShowRecovered);
     }
 }
 

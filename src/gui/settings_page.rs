@@ -147,7 +147,7 @@ impl SettingsPage {
                             choice.request_focus();
                         }
                         if out.clicked(&format!("setting:theme:{}", theme.name()), &choice) {
-                            out.wishes.push(ShellCommand::Set(Change::Theme(theme)));
+                            out.shell_commands.push(ShellCommand::Set(Change::Theme(theme)));
                         }
                     }
                 }
@@ -157,7 +157,7 @@ impl SettingsPage {
                     let switch = ui.checkbox(&mut is_on, title);
                     accessible::choice(&switch, Role::CheckBox, is_on, key.title);
                     if out.clicked(&format!("setting:{}", key.name), &switch) {
-                        out.wishes.push(ShellCommand::Set(change(is_on)));
+                        out.shell_commands.push(ShellCommand::Set(change(is_on)));
                     }
                 }
                 Control::Number(number) => self.number(ui, key, number, (number.get)(settings), out),
@@ -168,7 +168,7 @@ impl SettingsPage {
                 accessible::name(&reset, Role::Button, format!("Reset {}", key.title.to_lowercase()));
                 if out.clicked(&format!("setting:{}:reset", key.name), &reset) {
                     (self.typed, self.font_trouble) = (None, None);
-                    out.wishes.push(ShellCommand::Set(key.usual_change()));
+                    out.shell_commands.push(ShellCommand::Set(key.usual_change()));
                 }
             }
         });
@@ -181,7 +181,7 @@ impl SettingsPage {
     /// A number between two buttons. While it is dragged nothing is changed: the window would move under the hand.
     fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut UiOutput) {
         let mut set = |value: f64| {
-            out.wishes.push(ShellCommand::Set((number.change)(value.clamp(number.least, number.most))));
+            out.shell_commands.push(ShellCommand::Set((number.change)(value.clamp(number.least, number.most))));
         };
         let mut wanted = None;
         let mut step = |ui: &mut Ui, sign: &str, name: &str, to: f64| {
@@ -236,11 +236,11 @@ impl SettingsPage {
                 "" => Some(Change::CodeFont(None)),
                 path => self.choose_font(path),
             };
-            out.wishes.extend(change.map(ShellCommand::Set));
+            out.shell_commands.extend(change.map(ShellCommand::Set));
         }
         let choose = ui.button("Choose…").on_hover_text("Choose a font file");
         if out.clicked("setting:code-font:choose", &choose) {
-            out.wishes.push(ShellCommand::Pick(Pick::CodeFont));
+            out.shell_commands.push(ShellCommand::Pick(Pick::CodeFont));
         }
     }
 }

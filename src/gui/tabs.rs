@@ -32,7 +32,7 @@ impl OpenFile {
     /// Returns who else an edit of it concerns.
     fn shared(&self) -> String {
         match &self.users[..] {
-            [] => "Included by no pass".to_owned(),
+            [] => "No pass includes this file".to_owned(),
             users => format!("Included by {}", listed(&users.iter().map(Tab::title).collect::<Vec<_>>())),
         }
     }
@@ -171,9 +171,9 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
     };
     let is_middle = response.clicked_by(egui::PointerButton::Middle) && can_close;
     if closes || is_middle {
-        out.wishes.push(ShellCommand::CloseFile(tab.clone()));
+        out.shell_commands.push(ShellCommand::CloseFile(tab.clone()));
     } else if out.clicked(&format!("tab:{}", tab.title()), &response) {
-        out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
+        out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
     }
     menus::context(&response, |ui| {
         if let Tab::Pass(id) = tab
@@ -184,13 +184,13 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         if let Some(id) = tab.pass()
             && ui.button("Name, size, format, steps…").clicked()
         {
-            out.wishes.push(ShellCommand::ChoosePass(Tab::Pass(id.clone())));
+            out.shell_commands.push(ShellCommand::ChoosePass(Tab::Pass(id.clone())));
         }
         let can_go = *tab != Tab::Pass(PassId::Image);
         if is_included {
             let close = ui.add_enabled(can_close, egui::Button::new("Close tab"));
             if close.on_disabled_hover_text("Save it first").clicked() {
-                out.wishes.push(ShellCommand::CloseFile(tab.clone()));
+                out.shell_commands.push(ShellCommand::CloseFile(tab.clone()));
             }
         } else if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
@@ -198,7 +198,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         ui.separator();
         let close = ui.button("Close code");
         if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
-            out.wishes.push(ShellCommand::ClosePanel(Panel::Code));
+            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Code));
         }
     });
     // Paused, no frame takes any time.

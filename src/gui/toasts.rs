@@ -21,29 +21,29 @@ const SHOWN: usize = 4;
 const PLACE: &str = "notices";
 
 /// Notices that say the same, shown as one.
-struct Told<'a> {
+struct Group<'a> {
     newest: &'a Notice,
     /// All of them, oldest first.
     ids: Vec<u64>,
 }
 
-/// Returns what is told, newest first, each text once.
-fn told(notices: &[Notice]) -> Vec<Told<'_>> {
-    let mut told: Vec<Told<'_>> = Vec::new();
+/// Returns the notices, newest first, each text once.
+fn groups(notices: &[Notice]) -> Vec<Group<'_>> {
+    let mut groups: Vec<Group<'_>> = Vec::new();
     for notice in notices.iter().rev() {
-        let is_same = |one: &&mut Told<'_>| {
+        let is_same = |one: &&mut Group<'_>| {
             let newest = one.newest;
             (newest.level, &newest.text, &newest.path) == (notice.level, &notice.text, &notice.path)
         };
-        match told.iter_mut().find(is_same) {
+        match groups.iter_mut().find(is_same) {
             Some(one) => one.ids.insert(0, notice.id),
-            None => told.push(Told { newest: notice, ids: vec![notice.id] }),
+            None => groups.push(Group { newest: notice, ids: vec![notice.id] }),
         }
     }
-    told
+    groups
 }
 
-impl Told<'_> {
+impl Group<'_> {
     fn text(&self) -> String {
         match self.ids.len() {
             1 => self.newest.text.clone(),
@@ -58,10 +58,10 @@ impl Told<'_> {
 
 /// Closes those that have been there long enough. What is said again stays with the newest of its kind.
 pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput) {
-    for told in told(session.notices()).iter().filter(|told| told.newest.level == Level::Info) {
-        let age = now.saturating_duration_since(told.newest.at);
+    for group in groups(session.notices()).iter().filter(|group| group.newest.level == Level::Info) {
+        let age = now.saturating_duration_since(group.newest.at);
         if age >= STAYS {
-            told.dismiss(out);
+            group.dismiss(out);
         } else {
             ctx.request_repaint_after(STAYS - age);
         }
@@ -71,8 +71,8 @@ pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput
 /// Shows them at the bottom of `ui`, which has so much less room: the newest on top, where the eye is, and the oldest
 /// below, where they are scrolled to.
 pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    let told = told(session.notices());
-    if told.is_empty() {
+    let groups = groups(session.notices());
+    if groups.is_empty() {
         return;
     }
     let most = (ui.available_height() * 0.4).max(40.0);
@@ -80,7 +80,7 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     // As high as what is in it was in the last frame: what scrolls does not say by itself how high it would be.
     let id = Id::unique("height of notices");
     let (count, height) = ui.data(|d| d.get_temp::<(usize, f32)>(id)).unwrap_or_default();
-    let more = told.len().min(SHOWN) as f32 - count.min(SHOWN) as f32;
+    let more = groups.len().min(SHOWN) as f32 - count.min(SHOWN) as f32;
     let height = (height + more * ROW).max(ROW);
     let panel = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false);
     let shown = panel.exact_size(height.min(most)).show(ui, |ui| {
@@ -89,19 +89,19 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let area = ScrollArea::vertical().id_salt(PLACE).min_scrolled_height(0.0).auto_shrink([false, true]);
         let shown = area.show(ui, |ui| {
-            told.iter().take(SHOWN).for_each(|told| row(ui, session, told, out));
-            let older = told.get(SHOWN..).unwrap_or_default();
+            groups.iter().take(SHOWN).for_each(|group| row(ui, session, group, out));
+            let older = groups.get(SHOWN..).unwrap_or_default();
             if !older.is_empty() {
                 ui.horizontal(|ui| {
                     ui.add_space(10.0);
                     let close = ui.small_button(format!("Close {} older", older.len()));
                     if out.clicked("notices:close-older", &close) {
-                        older.iter().for_each(|told| told.dismiss(out));
+                        older.iter().for_each(|group| group.dismiss(out));
                     }
                 });
             }
         });
-        ui.data_mut(|d| d.insert_temp(id, (told.len(), shown.content_size.y)));
+        ui.data_mut(|d| d.insert_temp(id, (groups.len(), shown.content_size.y)));
         if (shown.content_size.y - height).abs() > 0.5 {
             ui.ctx().request_repaint();
         }
@@ -113,9 +113,9 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 /// here: it is still there when the code is.
 pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
     let is_fresh = |n: &&Notice| now.saturating_duration_since(n.at) < STAYS;
-    let told = told(session.notices());
-    let Some(told) = told.first().filter(|told| is_fresh(&told.newest)) else { return };
-    let notice = told.newest;
+    let groups = groups(session.notices());
+    let Some(group) = groups.first().filter(|group| is_fresh(&group.newest)) else { return };
+    let notice = group.newest;
     if out.places.contains_key(PLACE) {
         return;
     }
@@ -127,7 +127,7 @@ pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
             Frame::popup(ui.style()).fill(theme::of(ui).raised.gamma_multiply(0.92)).inner_margin(Margin::same(10));
         frame.stroke(Stroke::new(1.0, color(ui, notice.level))).show(ui, |ui| {
             ui.set_max_width(width);
-            ui.add(Label::new(laid_out(ui, &told.text(), 13.0)).wrap());
+            ui.add(Label::new(laid_out(ui, &group.text(), 13.0)).wrap());
         });
     });
     out.place(PLACE, shown.response.rect);
@@ -167,8 +167,8 @@ const BUTTON: f32 = 20.0;
 const ROW: f32 = BUTTON + 2.0 * PADDING;
 
 /// Shows one, as high as its text and its buttons need.
-fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut UiOutput) {
-    let notice = told.newest;
+fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
+    let notice = group.newest;
     let newest = session.pass_undo().map(|step| step.serial);
     let undoes = notice.undoes.is_some() && notice.undoes == newest;
     let frame =
@@ -180,13 +180,13 @@ fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut UiOutput) {
         ui.with_layout(Layout::right_to_left(Align::TOP), |ui| {
             let close = icons::flat(ui, Icon::Close, "Close this notice");
             if out.clicked(&format!("toast:{}:close", notice.id), &close.on_hover_text("Close")) {
-                told.dismiss(out);
+                group.dismiss(out);
             }
             if undoes {
                 let undo = ui.button("Undo");
                 if out.clicked(&format!("toast:{}:undo", notice.id), &undo) {
                     out.ask(Command::UndoPassEdit);
-                    told.dismiss(out);
+                    group.dismiss(out);
                 }
             }
             if let Some(path) = &notice.path {
@@ -197,7 +197,7 @@ fn row(ui: &mut Ui, session: &Session, told: &Told<'_>, out: &mut UiOutput) {
             }
             ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
                 ui.add_space(2.0);
-                ui.add(Label::new(laid_out(ui, &told.text(), 12.5)).wrap().selectable(true));
+                ui.add(Label::new(laid_out(ui, &group.text(), 12.5)).wrap().selectable(true));
             });
         });
     });
@@ -233,12 +233,12 @@ mod tests {
             notice(4, "a", Level::Info),
             notice(5, "c", Level::Info),
         ];
-        let told = told(&all);
-        let said: Vec<_> = told.iter().map(|one| (one.text(), one.ids.clone())).collect();
+        let groups = groups(&all);
+        let said: Vec<_> = groups.iter().map(|one| (one.text(), one.ids.clone())).collect();
         let wanted: [(&str, &[u64]); 4] = [("c", &[5]), ("a", &[4]), ("a (×2)", &[1, 3]), ("b", &[2])];
         assert_eq!(said, wanted.map(|(text, ids)| (text.to_owned(), ids.to_vec())));
         let mut out = UiOutput::default();
-        told[2].dismiss(&mut out);
+        groups[2].dismiss(&mut out);
         assert_eq!(out.commands.len(), 2, "closing one closes all that say the same");
     }
 }

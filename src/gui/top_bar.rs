@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutpu
         item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
             if ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files").clicked() {
-                out.wishes.push(ShellCommand::Pick(Pick::OpenFolder));
+                out.shell_commands.push(ShellCommand::Pick(Pick::OpenFolder));
                 ui.close();
             }
             let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
@@ -100,7 +100,15 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutpu
             view_menu(ui, state, out);
             if width > ROOMY {
                 let is_on = state.open.contains(&Panel::Lab) && !state.is_gallery;
-                item(ui, "button:lab", "Lab", "Compare methods: speed against error", Action::Lab, is_on, out);
+                item(
+                    ui,
+                    "button:lab",
+                    "Lab",
+                    "Compare methods: speed against error",
+                    Action::Panel(Panel::Lab),
+                    is_on,
+                    out,
+                );
             }
             if !state.is_gallery {
                 name(ui, session);
@@ -115,12 +123,8 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let (button, _) = MenuButton::new("View").config(config).ui(ui, |ui| {
         ui.set_min_width(230.0);
-        for panel in Panel::ALL {
-            let action = match panel {
-                Panel::Lab => Action::Lab,
-                Panel::Costs => Action::Costs,
-                panel => Action::Panel(panel),
-            };
+        for panel in Panel::all() {
+            let action = Action::Panel(panel);
             let is_open = state.open.contains(&panel) && !state.is_gallery;
             let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
             if out.clicked(&format!("view:{}", panel.name()), &entry) {
@@ -155,7 +159,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
                     Theme::Light => "Use the light theme",
                 });
                 if out.clicked(&format!("theme:{}", theme.name()), &choice) {
-                    out.wishes.push(ShellCommand::Set(Change::Theme(theme)));
+                    out.shell_commands.push(ShellCommand::Set(Change::Theme(theme)));
                 }
             }
         });

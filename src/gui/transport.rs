@@ -136,7 +136,7 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
     accessible::name(&response, egui::Role::Button, "Costs of each pass");
     if out.clicked("button:costs", &response) {
-        out.act(Action::Costs);
+        out.act(Action::Panel(Panel::Costs));
     }
     if response.hovered() {
         ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::of(ui).button);
@@ -167,7 +167,10 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         if session.pass_times().is_empty() {
             ui.colored_label(theme::of(ui).weak, "This GPU does not report times per pass.");
         }
-        ui.colored_label(theme::of(ui).weak, out.keys.tip("Click to open the Costs panel", Action::Costs));
+        ui.colored_label(
+            theme::of(ui).weak,
+            out.keys.tip("Click to open the Costs panel", Action::Panel(Panel::Costs)),
+        );
     });
 }
 
@@ -217,7 +220,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
             Action::ExportJson,
             Action::Audit,
             Action::Fullscreen,
-            Action::Costs,
+            Action::Panel(Panel::Costs),
             Action::Compile,
         ];
         for action in all {
@@ -229,7 +232,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         ui.separator();
         let close = menus::entry(ui, "Close picture", String::new());
         if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
-            out.wishes.push(ShellCommand::ClosePanel(Panel::Picture));
+            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Picture));
         }
     });
     if let Some(shape) = shape {

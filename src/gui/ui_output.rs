@@ -80,7 +80,7 @@ pub struct FocusStop {
 #[derive(Debug, Default)]
 pub struct UiOutput {
     pub commands: Vec<Command>,
-    pub wishes: Vec<ShellCommand>,
+    pub shell_commands: Vec<ShellCommand>,
     /// Named places, in points.
     pub places: BTreeMap<String, Rect>,
     /// Says where F6 takes the keyboard.
@@ -99,7 +99,7 @@ impl UiOutput {
     }
 
     pub fn act(&mut self, action: Action) {
-        self.wishes.push(ShellCommand::Act(action));
+        self.shell_commands.push(ShellCommand::Act(action));
     }
 
     /// Notes where a widget is, for scripts that click on it.

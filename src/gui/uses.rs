@@ -14,11 +14,11 @@ const ROW: f32 = 21.0;
 
 pub struct Uses {
     name: String,
-    places: Vec<Place>,
+    places: Vec<Use>,
     selected: Option<usize>,
 }
 
-struct Place {
+struct Use {
     tab: Tab,
     range: Range<usize>,
     /// From 1.
@@ -30,7 +30,7 @@ struct Place {
 
 /// The results of a frame of the list.
 #[derive(Default)]
-pub struct Shown {
+pub struct UsesResponse {
     pub go_to: Option<(Tab, Range<usize>)>,
     pub closed: bool,
 }
@@ -38,7 +38,7 @@ pub struct Shown {
 impl Uses {
     /// `None` where there is nothing to list.
     pub fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
-        let mut list: Vec<Place> = Vec::new();
+        let mut list: Vec<Use> = Vec::new();
         for (tab, range) in places {
             // Lines are counted on from the place before: from the top each time, many uses in a long text take
             // minutes.
@@ -57,9 +57,9 @@ impl Uses {
     }
 
     /// `limit`: how high the list may be.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> Shown {
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> UsesResponse {
         out.stop("uses", ui);
-        let mut shown = Shown::default();
+        let mut shown = UsesResponse::default();
         let top = ui.max_rect().top() + 0.5;
         ui.painter().hline(ui.max_rect().x_range(), top, Stroke::new(1.0, theme::of(ui).line));
         ui.add_space(3.0);
@@ -131,7 +131,7 @@ const BEFORE: usize = 120;
 const BEHIND: usize = 240;
 
 /// `known`: a place at or before this one, and its line.
-fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Option<Place> {
+fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Option<Use> {
     text.get(range.clone())?;
     let head = &text[text.ceil_char_boundary(range.start.saturating_sub(BEFORE))..range.start];
     let start = range.start - head.len() + head.rfind('\n').map_or(0, |i| i + 1);
@@ -142,7 +142,7 @@ fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Op
     let name = range.start.checked_sub(start + indent)?..range.end.checked_sub(start + indent)?;
     let passed = text.as_bytes().get(known.0..range.start)?;
     let number = known.1 + passed.iter().filter(|b| **b == b'\n').count();
-    Some(Place { tab, line: number, text: line[indent..].to_owned(), name, range })
+    Some(Use { tab, line: number, text: line[indent..].to_owned(), name, range })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The picture, and the mouse over it.
 
 use super::{
-    accessible, audited,
+    accessible, error_map,
     geometry::{Area, Letterbox, Shape},
     halt, probe, theme,
     ui_output::{ShellCommand, UiOutput},
@@ -16,13 +16,13 @@ use egui_wgpu::Renderer;
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
 
-/// Says what is around the picture.
+/// The part of the window that the picture fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Around {
-    /// Other panels, one of which may have the keyboard.
-    Panels,
-    /// Nothing: the picture fills the window.
-    Nothing,
+pub enum ViewportMode {
+    /// A panel. Another one may have the keyboard.
+    Panel,
+    /// The whole window.
+    Window,
 }
 
 pub struct Viewport {
@@ -130,8 +130,8 @@ impl Viewport {
     }
 
     /// Fills the space there is.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, around: Around, out: &mut UiOutput) {
-        let alone = around == Around::Nothing;
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, mode: ViewportMode, out: &mut UiOutput) {
+        let alone = mode == ViewportMode::Window;
         let rect = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let rim = if alone { 0.0 } else { RIM };
@@ -163,7 +163,7 @@ impl Viewport {
         out.home("picture", ui, Self::id());
         out.place("picture", rect);
         self.mouse(ui, &response, &letterbox, out);
-        audited::paint(ui, session, picture);
+        error_map::paint(ui, session, picture);
         traced(ui, session, picture);
         let scale = ui.pixels_per_point();
         let pointer = ui.input(|i| i.pointer.latest_pos()).filter(|at| picture.contains(*at));
@@ -190,7 +190,7 @@ impl Viewport {
             pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::DARK.error);
         }
         probe::show(ui, session, rect, self.under, out);
-        audited::show(ui, session, rect, out);
+        error_map::show(ui, session, rect, out);
         halt::show(ui, session, rect, out);
     }
 
@@ -209,7 +209,7 @@ impl Viewport {
                     if is_pick && response.rect.contains(pos) && on_top(pos) {
                         if letterbox.contains(x, y) {
                             self.picks = false;
-                            out.wishes.push(ShellCommand::Trace(fraction(letterbox, pos2(x, y))));
+                            out.shell_commands.push(ShellCommand::Trace(fraction(letterbox, pos2(x, y))));
                         }
                         continue;
                     }

@@ -26,7 +26,7 @@ const STEPS_BACK: i32 = 10;
 #[derive(Clone, Debug)]
 pub enum Event {
     /// Says what the folder holds already.
-    Known(Results),
+    Resumed(Results),
     Progress(Progress),
     Measured(ErrorRecord),
     /// About what a frame of the point costs; its [`Event::Costed`] comes later.
@@ -129,7 +129,7 @@ fn measure(
     let gpu = open().map_err(|e| said(e.into()))?;
     let passed_on = |step: Step<'_>| {
         tell(match step {
-            Step::Known(results) => Event::Known(results.clone()),
+            Step::Resumed(results) => Event::Resumed(results.clone()),
             Step::Error { point, done, all } => Event::Progress(Progress::Error { point: point.clone(), done, all }),
             Step::Measured(record) => Event::Measured(record.clone()),
             Step::Estimate { point, millis } => Event::Estimate { point: point.clone(), millis },

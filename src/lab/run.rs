@@ -33,7 +33,7 @@ pub struct Options {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step<'a> {
     /// Says what the folder holds already.
-    Known(&'a Results),
+    Resumed(&'a Results),
     /// This point is measured next; `done` of `all` are, of all studies together.
     Error {
         point: &'a Point,
@@ -110,7 +110,7 @@ pub fn controlled(
             results.keep_of(&point, &setup);
         }
     }
-    tell(Step::Known(&results));
+    tell(Step::Resumed(&results));
     let mut work = Work { rig: Rig::stoppable(gpu.clone(), control.stop.clone()), journal, results, tell };
     match work.all(studies, options, control) {
         Ok(()) | Err(LabError::Stopped) => Ok(work.results),

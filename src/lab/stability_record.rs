@@ -138,7 +138,7 @@ impl StabilityRecord {
 
 impl Offence {
     /// In words: where, what, and what would have been right.
-    pub fn told(&self) -> String {
+    pub fn describe(&self) -> String {
         let place = self.texel.map_or(String::new(), |(x, y)| format!(" texel ({x}, {y})"));
         let others = if self.count > 1 { format!(", {} values outside", self.count) } else { String::new() };
         let number = |n: Number| short(n.0);

@@ -34,8 +34,8 @@ impl Unit {
     pub fn label(self) -> &'static str {
         match self {
             Unit::Scene => "ms for the simulated time of the scene",
-            Unit::Frame => "ms a frame",
-            Unit::Solve => "ms a solve",
+            Unit::Frame => "ms per frame",
+            Unit::Solve => "ms per solve",
         }
     }
 }

@@ -52,7 +52,7 @@ enum Number {
 
 fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
     let cut = || "the file is truncated".to_owned();
-    let rest = bytes.strip_prefix(MAGIC).ok_or("not an .npy file: it does not begin with \\x93NUMPY")?;
+    let rest = bytes.strip_prefix(MAGIC).ok_or("not an .npy file: it does not start with \\x93NUMPY")?;
     let &[major, _, ref rest @ ..] = rest else { return Err(cut()) };
     let (length, rest) = match major {
         1 => rest.split_first_chunk::<2>().map(|(n, rest)| (usize::from(u16::from_le_bytes(*n)), rest)),
@@ -162,7 +162,7 @@ mod tests {
             (file(good, &f4)[..40].to_vec(), "truncated"),
             (file(good, &f4[..7]), "truncated"),
             (b"\x93NUMPY".to_vec(), "truncated"),
-            (b"hello".to_vec(), "does not begin"),
+            (b"hello".to_vec(), "does not start"),
             (file(&good.replace("<f4", "<i8"), &f4), "type <i8"),
             (file(&good.replace("False", "True"), &f4), "Fortran"),
             (file(&good.replace("(1, 2)", "(2,)"), &f4), "shape [2]"),

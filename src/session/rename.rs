@@ -18,7 +18,7 @@ impl Session {
     pub fn renamable(&self, tab: &Tab, at: usize) -> Result<String, String> {
         let (name, places) = self.named_at(tab, at)?;
         if places.is_empty() {
-            Err(format!("`{name}` is declared in no text of this project: it keeps its name"))
+            Err(format!("`{name}` is not declared in this project and cannot be renamed"))
         } else {
             Ok(name)
         }
@@ -30,7 +30,7 @@ impl Session {
         let to = to.trim();
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if to.is_empty() || !to.chars().all(is_name) || to.starts_with(|c: char| c.is_ascii_digit()) {
-            return Err(format!("\"{to}\" is not a name: use letters, digits and _, a letter first"));
+            return Err(format!("\"{to}\" is not a name: use letters, digits and _, and start with a letter"));
         }
         if let Some(why) = glsl::taken(to) {
             return Err(format!("`{to}` cannot be declared: {why}"));
@@ -72,7 +72,7 @@ impl Session {
         let is_taken =
             || renamed.custom_uniforms().get(to).is_some() && programs(&renamed).iter().any(|p| p.declares(to));
         if found != wanted || is_taken() {
-            return Err(format!("`{to}` means something here already: choose another name"));
+            return Err(format!("`{to}` already has a meaning here: choose another name"));
         }
         Ok(TabFix { title: format!("Rename `{name}` to `{to}`"), edits })
     }

@@ -70,7 +70,7 @@ impl Session {
             Some(Run { frames, is_whole: true }) if !frames.is_empty() => {
                 let name = self.documents.current().name.clone();
                 if let Err(e) = self.runs.keep(&origin, name, frames) {
-                    log::warn!("the frame that is shown will not be drawn again: {e}");
+                    log::warn!("the shown frame cannot be restored at the next start: {e}");
                     self.runs.forget(&origin);
                 }
             }
@@ -102,7 +102,7 @@ impl Session {
         let Some(path) = kept_files::path_of(&self.documents.current().origin).map(Path::to_owned) else { return };
         match self.last_pictures.keep(&path, picture) {
             Ok(()) => self.changed = true,
-            Err(e) => log::warn!("the picture of {} is not kept: {e}", path.display()),
+            Err(e) => log::warn!("cannot keep the picture of {}: {e}", path.display()),
         }
     }
 

@@ -72,7 +72,7 @@ impl Runs {
         let path = self.file(origin)?;
         let file = File::open(&path).ok()?;
         let recording = Recording::read_within(BufReader::new(file), limits::RUN, limits::RUN_BYTES)
-            .inspect_err(|e| log::warn!("{} is not drawn again: {e}", path.display()))
+            .inspect_err(|e| log::warn!("cannot read {}: {e}", path.display()))
             .ok()?;
         if recording.frames.len() > LONGEST {
             return None;

@@ -12,8 +12,9 @@ use eddy::lab::{
     studies::{
         self, cavity,
         flow::{Flow, STIFFNESS},
-        fluid, rest,
+        fluid,
         torus::{Torus, energy_kept},
+        waves,
     },
 };
 use std::f64::consts::TAU;
@@ -198,7 +199,7 @@ fn shear_waves_decay_by_their_exact_factors() {
         ("fluid-accurate", 1e-4),
         ("lattice", 5e-3),
     ] {
-        let off = (rest::shear_wave(&rig, name, flow, 15.0).unwrap() - 1.0).abs();
+        let off = (waves::shear_wave(&rig, name, flow, 15.0).unwrap() - 1.0).abs();
         println!("{name}: {off:.2e}");
         assert!(off < most, "{name}: {off}");
     }
@@ -212,7 +213,7 @@ fn sound_grows_as_linear_theory_says() {
     let Some(rig) = rig() else { return };
     for viscosity in [0.0, 0.05] {
         let flow = Flow { n: 32, dt: 0.15, viscosity };
-        let growth = rest::growth_of_sound(&rig, flow, STIFFNESS, 150).unwrap();
+        let growth = waves::growth_of_sound(&rig, flow, STIFFNESS, 150).unwrap();
         assert!((growth - 1.0).abs() < 0.05, "nu {viscosity}: {growth}");
     }
 }
@@ -221,8 +222,9 @@ fn sound_grows_as_linear_theory_says() {
 #[test]
 fn a_checkerboard_in_the_pressure_goes() {
     let Some(rig) = rig() else { return };
-    let left =
-        |name: &str, dt| rest::checkerboard_left(&rig, name, Flow { n: 32, dt, viscosity: 0.0 }, 100).unwrap().unwrap();
+    let left = |name: &str, dt| {
+        waves::checkerboard_left(&rig, name, Flow { n: 32, dt, viscosity: 0.0 }, 100).unwrap().unwrap()
+    };
     for (name, dt) in [("fluid-accurate", 0.5), ("fluid-accurate", 2.0), ("maccormack-cycle", 0.15)] {
         let left = left(name, dt);
         println!("{name} at {dt}: {left}");

@@ -121,7 +121,8 @@ fn a_run_tells_each_point_when_it_is_known_stops_when_it_shall_and_goes_on() {
     // It says of itself that a window drew beside it.
     assert!(results.runs.iter().all(|run| run.beside_window));
     let second = heard(&gpu, folder.path(), |events| errors(events).len() >= 2);
-    let had = second.iter().find_map(|e| if let Event::Known(results) = e { Some(results.errors.len()) } else { None });
+    let had =
+        second.iter().find_map(|e| if let Event::Resumed(results) = e { Some(results.errors.len()) } else { None });
     assert_eq!(had, Some(known.len()));
     assert!(errors(&second).iter().all(|point| !known.contains(point)), "what was known is not measured again");
     // The command line does not mix its own figures in.

@@ -119,7 +119,7 @@ fn an_explicit_viscosity_that_is_too_large_is_found_with_its_first_frame_and_tex
     assert_eq!(cases[0].outcome, Some(Outcome::Held), "{}", table(&cases));
     let (frame, texel, value) = first_above_one(0.3, (160, 90), frames).unwrap();
     let found = left(&cases[1]);
-    assert_eq!((found.frame, found.texel), (frame, Some(texel)), "{}", found.told());
+    assert_eq!((found.frame, found.texel), (frame, Some(texel)), "{}", found.describe());
     assert!((found.value.0 / f64::from(value) - 1.0).abs() < 1e-4, "{} for {value}", found.value.0);
     assert!(frame % 7 != 6, "the frame lies between two that are looked at, or nothing is shown by it");
     assert!(table(&cases).contains("heat: rate=0.3"), "{}", table(&cases));
@@ -162,11 +162,11 @@ fn a_number_that_is_none_spreads_where_nothing_stops_it_and_is_gone_where_someth
     let subject = bounded(Subject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
     let Some(cases) = measured(&subject, Some("NaN")) else { return };
     let found = left(&cases[0]);
-    assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.told());
+    assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.describe());
     assert!(matches!(cases[0].recovery, Some(Recovery::NotWithin(_))));
     let infinite = measured(&subject, Some("infinity")).unwrap();
     let found = left(&infinite[0]);
-    assert!(found.frame == 6 && !found.value.0.is_finite(), "{}", found.told());
+    assert!(found.frame == 6 && !found.value.0.is_finite(), "{}", found.describe());
     let healed = changed_heat("return isnan(texelFetch(iChannel0, p, 0).x) ? 0.0 : 0.0 * float(p.x)");
     let cases = measured(&healed, Some("NaN")).unwrap();
     assert_eq!((&cases[0].outcome, cases[0].recovery), (&Some(Outcome::Held), Some(Recovery::Frames(0))));

@@ -1,9 +1,9 @@
 //! Real shaders, walker against device: every pass of every file of a folder of Shadertoy's JSON, at a few pixels.
 //!
-//! `EDDY_CORPUS` names the folder; without it nothing is done. `EDDY_CORPUS_PIXELS` (20) and `EDDY_CORPUS_FRAME` (3)
+//! `EDDY_CORPUS` names the folder. `EDDY_CORPUS_PIXELS` (20) and `EDDY_CORPUS_FRAME` (3)
 //! say where, `EDDY_CORPUS_SECONDS` (30) how long a shader may take, `EDDY_CORPUS_COUNT` how many there are at most.
 //! Each is drawn by a process of its own, as drivers do not come back from all of them.
-//! `EDDY_CORPUS=FOLDER cargo test --test it walker_corpus -- --nocapture` prints a line for each pixel that is visibly
+//! `EDDY_CORPUS=FOLDER cargo test --test it walker_corpus::a_corpus -- --ignored --nocapture` prints a line for each pixel that is visibly
 //! different, and the counts.
 
 use crate::support::{
@@ -128,8 +128,9 @@ fn walk_pass(
 
 /// The work of a process: the one shader that `EDDY_CORPUS_ONE` names.
 #[test]
+#[ignore = "`a_corpus_is_walked_to_what_the_device_draws` starts it"]
 fn one_shader_of_the_corpus() {
-    let Some(path) = std::env::var_os("EDDY_CORPUS_ONE") else { return };
+    let path = std::env::var_os("EDDY_CORPUS_ONE").expect("EDDY_CORPUS_ONE names the shader");
     if let Err(why) = compare(Path::new(&path)) {
         println!("\n{SAID}failed");
         println!("{}: {}", path.display(), why.lines().next().unwrap_or_default());
@@ -140,7 +141,7 @@ fn one_shader_of_the_corpus() {
 fn shader(path: &Path, limit: Duration) -> Option<String> {
     let mut said = tempfile::tempfile().unwrap();
     let mut child = Command::new(std::env::current_exe().unwrap())
-        .args(["walker_corpus::one_shader_of_the_corpus", "--exact", "--nocapture", "--test-threads", "1"])
+        .args(["walker_corpus::one_shader_of_the_corpus", "--exact", "--ignored", "--nocapture", "--test-threads", "1"])
         .env("EDDY_CORPUS_ONE", path)
         .stdout(said.try_clone().unwrap())
         .stderr(Stdio::null())
@@ -166,8 +167,9 @@ fn shader(path: &Path, limit: Duration) -> Option<String> {
 }
 
 #[test]
+#[ignore = "needs a folder of Shadertoy's JSON"]
 fn a_corpus_is_walked_to_what_the_device_draws() {
-    let Ok(folder) = std::env::var("EDDY_CORPUS") else { return };
+    let folder = std::env::var_os("EDDY_CORPUS").expect("EDDY_CORPUS names the folder");
     let limit = Duration::from_secs(number("EDDY_CORPUS_SECONDS", 30));
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));

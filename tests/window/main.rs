@@ -3,6 +3,7 @@
 #[path = "../it/support/mod.rs"]
 mod support;
 
+mod pictures;
 mod random;
 mod window;
 mod window_audit;

@@ -288,9 +288,6 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     let [red, green, blue] = colour(&mut window);
     assert!((20..=235).contains(&red), "red is {red} with the slider about half way");
     assert_eq!([green, blue], [255, 255]);
-    if let Some(path) = std::env::var_os("EDDY_PHOTOGRAPH") {
-        display.photograph(Path::new(&path));
-    }
     window.click_on("uniform:reset:red");
     window.wait_until("the default", "uniforms", |e| e["values"]["red"][0] == 0.0);
     window.click_on("uniforms:reset");

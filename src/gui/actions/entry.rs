@@ -85,7 +85,18 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use crate::gui::actions::ACTIONS;
+    use crate::gui::{
+        actions::{ACTIONS, Action},
+        dock::Panel,
+    };
+
+    #[test]
+    fn every_panel_has_an_action() {
+        for panel in Panel::all() {
+            let has_row = ACTIONS.iter().any(|entry| entry.action == Action::Panel(panel));
+            assert!(has_row, "actions/table.rs has no row for {}", panel.title());
+        }
+    }
 
     /// People look for what they want to do, so that comes first: "Open settings file", not "The file of settings".
     #[test]

@@ -1,7 +1,7 @@
 //! The file in which a person gives actions other keys.
 
 use super::{Chord, Entry, Group, Keymap, keymap::level, table::ACTIONS};
-use crate::{gui::watched_file::Mistake, project::nearest};
+use crate::{gui::config_file::Mistake, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
 
@@ -99,12 +99,14 @@ pub fn template() -> String {
 mod tests {
     use super::*;
     use crate::gui::actions::Action;
+    use crate::gui::dock::Panel;
 
     #[test]
     fn keys_of_the_file_take_the_place_of_the_tables() {
         let (keymap, mistakes) = read("palette = \"F9\"\nsave = [\"Ctrl+S\", \"F2\"]\nlab = \"\"\nquit = \"Ctrl+F\"\n");
         assert_eq!(mistakes, []);
-        let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::Find].map(|a| keymap.hint(a));
+        let hints = [Action::Palette, Action::Save, Action::Panel(Panel::Lab), Action::Quit, Action::Find]
+            .map(|a| keymap.hint(a));
         assert_eq!(hints, ["F9", "Ctrl+S", "", "Ctrl+F", ""]);
     }
 
@@ -112,15 +114,16 @@ mod tests {
     fn every_mistake_is_told_at_its_line_and_leaves_the_action_its_keys() {
         let text = "# mine\npalete = \"F9\"\nsave = 3\nlab = [\"F9\",\n  \"Ctrl+Fo\"]\nquit = \"F7\"\nnew = \"f7\"\n";
         let (keymap, mistakes) = read(text);
-        let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
+        let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let wanted = [
             (2, "unknown action \"palete\"; did you mean \"palette\"?"),
             (3, "the keys of save must be a string or a list: save = [\"Ctrl+K\", \"F4\"]"),
             (5, "lab = \"Ctrl+Fo\": unknown key \"Fo\"; write keys as A, 7, F3, Up, PageDown, Space or /"),
             (7, "F7 is already used by quit in line 6; give one of them another key"),
         ];
-        assert_eq!(told, wanted);
-        let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::New].map(|a| keymap.hint(a));
+        assert_eq!(found, wanted);
+        let hints = [Action::Palette, Action::Save, Action::Panel(Panel::Lab), Action::Quit, Action::New]
+            .map(|a| keymap.hint(a));
         assert_eq!(hints, ["Ctrl+Shift+P", "Ctrl+S", "Ctrl+Shift+Y", "F7", "Ctrl+N"]);
         let (_, mistakes) = read("save = \"F2\"\nopen = \n");
         assert_eq!(mistakes.len(), 1);

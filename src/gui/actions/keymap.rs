@@ -148,7 +148,8 @@ fn is_plus(key: Key) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::editor::{EditorAction, Motion, Way};
+    use crate::gui::dock::Panel;
+    use crate::gui::editor::{EditorAction as Code, Motion, Vertical};
 
     fn press(key: Key, modifiers: Modifiers) -> Event {
         Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers }
@@ -185,25 +186,22 @@ mod tests {
         assert_eq!(action(Key::Enter, Modifiers::ALT, true), Some(Action::Compile));
         assert_eq!(action(Key::Equals, ctrl_shift, false), Some(Action::FontLarger));
         assert_eq!(action(Key::ArrowUp, Modifiers::NONE, false), None);
-        assert_eq!(
-            action(Key::ArrowUp, Modifiers::NONE, true),
-            Some(Action::Code(EditorAction::Go(Motion::Lines(-1))))
-        );
+        assert_eq!(action(Key::ArrowUp, Modifiers::NONE, true), Some(Action::Code(Code::Go(Motion::Lines(-1)))));
         assert_eq!(action(Key::ArrowUp, Modifiers::ALT, false), Some(Action::TogglePlay));
-        assert_eq!(action(Key::ArrowUp, Modifiers::ALT, true), Some(Action::Code(EditorAction::MoveLines(Way::Up))));
-        assert_eq!(action(Key::F12, Modifiers::NONE, true), Some(Action::Code(EditorAction::Definition)));
+        assert_eq!(action(Key::ArrowUp, Modifiers::ALT, true), Some(Action::Code(Code::MoveLines(Vertical::Up))));
+        assert_eq!(action(Key::F12, Modifiers::NONE, true), Some(Action::Code(Code::Definition)));
         assert_eq!(action(Key::F12, Modifiers::NONE, false), Some(Action::Screenshot));
         // The code's own keys are VS Code's, and the Lab has another one that opens it from there too.
-        assert_eq!(action(Key::L, ctrl_shift, true), Some(Action::Code(EditorAction::AddAll)));
-        assert_eq!(action(Key::L, ctrl_shift, false), Some(Action::Lab));
-        assert_eq!(action(Key::Y, ctrl_shift, true), Some(Action::Lab));
-        assert_eq!(action(Key::OpenBracket, ctrl, true), Some(Action::Code(EditorAction::Unindent)));
-        assert_eq!(action(Key::CloseBracket, ctrl, true), Some(Action::Code(EditorAction::IndentLines)));
-        assert_eq!(action(Key::Enter, ctrl, true), Some(Action::Code(EditorAction::OpenLine(Way::Down))));
-        assert_eq!(action(Key::Enter, ctrl_shift, true), Some(Action::Code(EditorAction::OpenLine(Way::Up))));
+        assert_eq!(action(Key::L, ctrl_shift, true), Some(Action::Code(Code::AddAll)));
+        assert_eq!(action(Key::L, ctrl_shift, false), Some(Action::Panel(Panel::Lab)));
+        assert_eq!(action(Key::Y, ctrl_shift, true), Some(Action::Panel(Panel::Lab)));
+        assert_eq!(action(Key::OpenBracket, ctrl, true), Some(Action::Code(Code::Unindent)));
+        assert_eq!(action(Key::CloseBracket, ctrl, true), Some(Action::Code(Code::IndentLines)));
+        assert_eq!(action(Key::Enter, ctrl, true), Some(Action::Code(Code::OpenLine(Vertical::Down))));
+        assert_eq!(action(Key::Enter, ctrl_shift, true), Some(Action::Code(Code::OpenLine(Vertical::Up))));
         assert_eq!(action(Key::Enter, ctrl, false), Some(Action::Compile));
         let shift_alt = Modifiers { shift: true, ..Modifiers::ALT };
-        assert_eq!(action(Key::A, shift_alt, true), Some(Action::Code(EditorAction::ToggleBlockComment)));
+        assert_eq!(action(Key::A, shift_alt, true), Some(Action::Code(Code::ToggleBlockComment)));
         // A US keyboard types { with Shift and [.
         let (key, physical_key) = (Key::OpenCurlyBracket, Some(Key::OpenBracket));
         let event = Event::Key { key, physical_key, pressed: true, repeat: false, modifiers: ctrl_shift };
@@ -216,7 +214,7 @@ mod tests {
         let mut keymap = Keymap::default();
         let entry = ACTIONS.iter().find(|e| e.name == "lab").unwrap();
         keymap.give(entry, vec![Chord::parse("Ctrl+P").unwrap()]);
-        assert_eq!(keymap.hint(Action::Lab), "Ctrl+P");
+        assert_eq!(keymap.hint(Action::Panel(Panel::Lab)), "Ctrl+P");
         assert_eq!(keymap.hint(Action::Screenshot), "F12");
         let play = ACTIONS.iter().find(|e| e.name == "play").unwrap();
         assert_eq!(keymap.listed(play), "Alt+Up (not while typing), F5");

@@ -2,7 +2,7 @@
 
 use super::{
     Action, Entry, Group, LayoutAction, PictureAction, TimeAction, TraceAction,
-    picture::{SCALES, SIZES},
+    action::{SCALES, SIZES},
 };
 use crate::{
     debugger::trace::travel::{
@@ -11,7 +11,7 @@ use crate::{
     },
     gui::{
         dock::{Panel, Side},
-        editor::{EditorAction as Code, Motion, Way},
+        editor::{EditorAction as Code, Motion, Vertical},
         geometry::Shape,
         settings::Theme,
     },
@@ -195,8 +195,14 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::TabRight, "tab-right", "Go to the tab on the right", &["Alt+Right", "Ctrl+PageDown"], Group::Window),
     row(Action::NextPanel, "next-panel", "Focus next panel", &["F6"], Group::Window).found_by("switch window"),
     row(Action::PreviousPanel, "previous-panel", "Focus previous panel", &["Shift+F6"], Group::Window),
-    row(Action::Lab, "lab", "Panel: Lab (speed against error)", &["Ctrl+Shift+Y", "Ctrl+Shift+L"], Group::Window)
-        .found_by("benchmark study measure"),
+    row(
+        Action::Panel(Panel::Lab),
+        "lab",
+        "Panel: Lab (speed against error)",
+        &["Ctrl+Shift+Y", "Ctrl+Shift+L"],
+        Group::Window,
+    )
+    .found_by("benchmark study measure"),
     row(Action::LabReport, "lab-report", "Save lab report", &[], Group::Window).found_by("export html plots tables"),
     row(
         Action::Passes,
@@ -215,8 +221,14 @@ pub const ACTIONS: &[Entry] = &[
         &["Ctrl+Shift+Z", "Ctrl+Y"],
         Group::Window,
     ),
-    row(Action::Costs, "costs", "Panel: Costs (time and memory of each pass)", &["Ctrl+Shift+M"], Group::Window)
-        .found_by("profiler profile performance timing gpu memory"),
+    row(
+        Action::Panel(Panel::Costs),
+        "costs",
+        "Panel: Costs (time and memory of each pass)",
+        &["Ctrl+Shift+M"],
+        Group::Window,
+    )
+    .found_by("profiler profile performance timing gpu memory"),
     row(Action::Panel(Panel::Picture), "picture-panel", "Panel: Picture", &[], Group::Window),
     row(Action::Panel(Panel::Code), "code-panel", "Panel: Code", &[], Group::Window),
     row(Action::Panel(Panel::Uniforms), "uniforms", "Panel: Uniforms", &[], Group::Window)
@@ -320,17 +332,17 @@ pub const ACTIONS: &[Entry] = &[
     code(Code::Signature, "signature", "Show parameter hints", &["Ctrl+Shift+Space"]),
     code(Code::ToggleComment, "toggle-comment", "Toggle line comment", &["Ctrl+/"]).found_by("uncomment"),
     code(Code::ToggleBlockComment, "toggle-block-comment", "Toggle block comment", &["Shift+Alt+A"]),
-    code(Code::MoveLines(Way::Up), "move-lines-up", "Move lines up", &["Alt+Up"]),
-    code(Code::MoveLines(Way::Down), "move-lines-down", "Move lines down", &["Alt+Down"]),
-    code(Code::CopyLines(Way::Up), "copy-lines-up", "Copy lines up", &["Shift+Alt+Up"]),
-    code(Code::CopyLines(Way::Down), "copy-lines-down", "Copy lines down", &["Shift+Alt+Down"]),
+    code(Code::MoveLines(Vertical::Up), "move-lines-up", "Move lines up", &["Alt+Up"]),
+    code(Code::MoveLines(Vertical::Down), "move-lines-down", "Move lines down", &["Alt+Down"]),
+    code(Code::CopyLines(Vertical::Up), "copy-lines-up", "Copy lines up", &["Shift+Alt+Up"]),
+    code(Code::CopyLines(Vertical::Down), "copy-lines-down", "Copy lines down", &["Shift+Alt+Down"]),
     code(Code::DeleteLines, "delete-lines", "Delete lines", &["Ctrl+Shift+K"]),
     code(Code::Indent, "indent", "Indent or insert tab", &["Tab"]),
     code(Code::IndentLines, "indent-lines", "Indent lines", &["Ctrl+]"]),
     code(Code::Unindent, "unindent", "Outdent lines", &["Shift+Tab", "Ctrl+["]),
     code(Code::NewLine, "new-line", "New line", &["Enter", "Shift+Enter"]),
-    code(Code::OpenLine(Way::Down), "line-below", "Insert line below", &["Ctrl+Enter"]),
-    code(Code::OpenLine(Way::Up), "line-above", "Insert line above", &["Ctrl+Shift+Enter"]),
+    code(Code::OpenLine(Vertical::Down), "line-below", "Insert line below", &["Ctrl+Enter"]),
+    code(Code::OpenLine(Vertical::Up), "line-above", "Insert line above", &["Ctrl+Shift+Enter"]),
     code(Code::Delete(Motion::Left), "delete-left", "Delete left", &["Backspace", "Shift+Backspace"]),
     code(Code::Delete(Motion::Right), "delete-right", "Delete right", &["Delete"]),
     code(
@@ -356,8 +368,8 @@ pub const ACTIONS: &[Entry] = &[
     code(Code::UnfoldAll, "unfold-all", "Unfold all blocks", &[]),
     caret(Code::AddNext, "add-next", "Select word, then add next occurrence", &["Ctrl+D"]),
     caret(Code::AddAll, "add-all", "Select all occurrences", &["Ctrl+Shift+L", "Ctrl+F2"]),
-    caret(Code::AddCaret(Way::Up), "add-caret-up", "Add caret above", &["Ctrl+Alt+Up"]),
-    caret(Code::AddCaret(Way::Down), "add-caret-down", "Add caret below", &["Ctrl+Alt+Down"]),
+    caret(Code::AddCaret(Vertical::Up), "add-caret-up", "Add caret above", &["Ctrl+Alt+Up"]),
+    caret(Code::AddCaret(Vertical::Down), "add-caret-down", "Add caret below", &["Ctrl+Alt+Down"]),
     caret(Code::OneCaret, "one-caret", "Return to one caret", &["Escape"]),
     caret(Code::OtherBracket, "other-bracket", "Go to matching bracket", &["Ctrl+Shift+\\"]),
     caret(Code::SelectAll, "select-all", "Select all", &["Ctrl+A"]),

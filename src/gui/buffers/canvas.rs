@@ -2,7 +2,7 @@
 
 use super::{
     numbers::fitted,
-    state::{Buffers, Seen},
+    state::{Buffers, ShownTarget},
     zoom::{Placed, Zoom},
 };
 use crate::{
@@ -147,7 +147,7 @@ fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, pl
 }
 
 /// Draws what is seen of the picture.
-fn picture(painter: &Painter, seen: &Seen, placed: &Placed) {
+fn picture(painter: &Painter, seen: &ShownTarget, placed: &Placed) {
     let [(left, right), (bottom, top)] = placed.seen();
     if left >= right || bottom >= top {
         return;
@@ -164,7 +164,7 @@ fn picture(painter: &Painter, seen: &Seen, placed: &Placed) {
 
 /// Lights up what is NaN or infinite, and goes out again. Asks for frames only where something is. Says whether it is
 /// lit.
-fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &Seen, placed: &Placed) -> bool {
+fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &Placed) -> bool {
     if seen.runs.is_empty() {
         return false;
     }
@@ -194,12 +194,12 @@ fn rule(painter: &Painter, placed: &Placed) {
     }
 }
 
-fn numbers(seen: &Seen, value: [f32; 4], letters: usize) -> Vec<String> {
+fn numbers(seen: &ShownTarget, value: [f32; 4], letters: usize) -> Vec<String> {
     value[..usize::from(seen.read.components).clamp(1, 4)].iter().map(|x| fitted(*x, letters)).collect()
 }
 
 /// Writes a texel's numbers on it, in black or white. Gives what was written.
-fn write(painter: &Painter, seen: &Seen, placed: &Placed, (x, y): (u32, u32), is_lit: bool) -> Vec<String> {
+fn write(painter: &Painter, seen: &ShownTarget, placed: &Placed, (x, y): (u32, u32), is_lit: bool) -> Vec<String> {
     let pixels = &seen.read.pixels;
     let Some(value) = pixels.texels.get((y * pixels.width + x) as usize) else { return Vec::new() };
     let rect = placed.rect((x, x + 1), y);

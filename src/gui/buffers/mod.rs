@@ -15,6 +15,6 @@ mod search;
 mod state;
 mod zoom;
 
-pub use panel::{Around, show};
+pub use panel::{Context, show};
 pub use report::report;
 pub use state::Buffers;

@@ -10,15 +10,15 @@ use crate::{
 };
 use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Holds what the panel needs from beside it.
-pub struct Around<'a> {
+/// The parts of the window that the panel needs.
+pub struct Context<'a> {
     /// Small pictures of passes.
     pub live: &'a mut Live,
     /// The place of the window's picture under the pointer, from 0 to 1.
     pub under_picture: Option<[f32; 2]>,
 }
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<'_>, out: &mut UiOutput) {
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context: Context<'_>, out: &mut UiOutput) {
     out.stop("buffers", ui);
     state.begin();
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
@@ -45,7 +45,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<
     let (left, right) = upper.split_left_right_at_x(upper.left() + beside);
     let canvas = right.with_min_x(right.left() + 6.0);
     let canvas = if foot > 0.0 { canvas.with_max_y(canvas.bottom() - 4.0) } else { canvas };
-    canvas::show(state, ui, session, (canvas, around.under_picture), out);
+    canvas::show(state, ui, session, (canvas, context.under_picture), out);
     if state.seen.is_none() {
         state.wants_costs = true;
         let costs = session.pass_costs();
@@ -53,7 +53,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, around: Around<
         let why = reason(&target.0, &all).unwrap_or_else(|| "Reading…".to_owned());
         note(ui, canvas, &format!("{} {why}", target.0.title()));
     }
-    within(ui, left, "list", |ui| list::show(state, ui, session, around.live, out));
+    within(ui, left, "list", |ui| list::show(state, ui, session, context.live, out));
     if foot > 0.0 {
         within(ui, lower, "figures", |ui| figures::show(state, ui, out));
     }

@@ -92,7 +92,7 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut UiO
             && let Some(tab) = &place.tab
             && out.clicked("buffers:go-to", &ui.button("Go to line"))
         {
-            out.wishes.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+            out.shell_commands.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
         }
     } else if !found.is_older {
         let words = "No operation produces it: it is too large for the pass's format, or was read from a texture.";

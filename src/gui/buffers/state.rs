@@ -27,7 +27,7 @@ pub(super) enum Page {
 const RUNS: usize = 4096;
 
 /// A target as the window has it.
-pub(super) struct Seen {
+pub(super) struct ShownTarget {
     pub read: Arc<BufferRead>,
     pub generation: u64,
     pub texture: TextureHandle,
@@ -46,7 +46,7 @@ pub struct Buffers {
     pub(super) sheet: Zoom,
     /// The sheet that was placed last, by its texels.
     pub(super) sheet_of: (u32, u32),
-    pub(super) seen: Option<Seen>,
+    pub(super) seen: Option<ShownTarget>,
     /// The place under the pointer or the keyboard's cursor, of this frame.
     pub(super) under: Option<[f32; 2]>,
     /// The texel of the chosen target there.
@@ -61,8 +61,8 @@ pub struct Buffers {
     is_shown: bool,
     /// Says whether what passes cost is to be gathered.
     pub(super) wants_costs: bool,
-    /// Holds what the session was told of.
-    told: BufferWatch,
+    /// The last request to the session.
+    sent: BufferWatch,
 }
 
 impl Default for Buffers {
@@ -82,7 +82,7 @@ impl Default for Buffers {
             reveals: None,
             is_shown: false,
             wants_costs: false,
-            told: BufferWatch::default(),
+            sent: BufferWatch::default(),
         }
     }
 }
@@ -149,7 +149,7 @@ impl Buffers {
             }
             None => {
                 let texture = ctx.load_texture("buffer", image, options);
-                self.seen = Some(Seen { read: read.clone(), generation, texture, runs });
+                self.seen = Some(ShownTarget { read: read.clone(), generation, texture, runs });
             }
         }
     }
@@ -169,10 +169,10 @@ impl Buffers {
         if !shown {
             self.seen = None;
         }
-        if watch == self.told {
+        if watch == self.sent {
             return None;
         }
-        self.told = watch.clone();
+        self.sent = watch.clone();
         Some(Command::WatchBuffers(watch))
     }
 }

@@ -58,7 +58,7 @@ pub fn choose(
             }
         }
         if out.clicked("choose:file", &ui.button("Image file…")) {
-            out.wishes.push(ShellCommand::Pick(Pick::Picture { channel: index }));
+            out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
         }
     });
     if let Some(channel) = channel {

@@ -14,8 +14,8 @@ pub struct Live {
     textures: HashMap<Target, (TextureHandle, u64)>,
     /// Looked at in this frame.
     wanted: Vec<Target>,
-    /// Holds what the session was told of.
-    told: Vec<Target>,
+    /// The last request to the session.
+    sent: Vec<Target>,
 }
 
 impl Live {
@@ -53,11 +53,11 @@ impl Live {
     /// Ends a frame: what was not looked at is not read back any more.
     pub fn end_frame(&mut self) -> Option<Command> {
         let wanted = std::mem::take(&mut self.wanted);
-        if wanted == self.told {
+        if wanted == self.sent {
             return None;
         }
         self.textures.retain(|target, _| wanted.contains(target));
-        self.told.clone_from(&wanted);
+        self.sent.clone_from(&wanted);
         Some(Command::WatchTargets(wanted))
     }
 }

@@ -39,7 +39,7 @@ impl CodePanel {
         match bar.show(ui, session, out) {
             Renamed::Nothing => return,
             Renamed::Closed => self.focus(),
-            Renamed::To(fix) => out.wishes.push(ShellCommand::Fix(fix)),
+            Renamed::To(fix) => out.shell_commands.push(ShellCommand::Fix(fix)),
         }
         self.rename = None;
     }

@@ -1,8 +1,8 @@
 //! Finding and replacing in every text of the project.
 
-use super::{CodePanel, matches::Everywhere};
+use super::CodePanel;
 use crate::{
-    gui::{ui_output::UiOutput, uses::Uses},
+    gui::{editor::Query, ui_output::UiOutput, uses::Uses},
     project::Tab,
     session::{Command, Level, Session},
 };
@@ -81,5 +81,21 @@ impl CodePanel {
             let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
             out.ask(Command::Notify { level: Level::Info, text, path: None });
         }
+    }
+}
+
+/// The matches of a query in all texts.
+#[derive(Default)]
+pub(super) struct Everywhere {
+    /// The query, and the texts' revisions, that they are of.
+    pub of: Option<(Query, Vec<(Tab, u64)>)>,
+    pub places: Vec<(Tab, Range<usize>)>,
+    /// They are listed below the code.
+    pub is_listed: bool,
+}
+
+impl Everywhere {
+    pub fn count(&self) -> usize {
+        self.places.len()
     }
 }

@@ -1,15 +1,14 @@
 //! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
 
-mod asks;
 mod bars;
 mod everywhere;
 mod find_bar;
 mod fixes;
-mod matches;
 mod menu;
 mod places;
+mod project_edits;
 mod rename_bar;
-mod several;
+mod requests;
 
 use super::{
     actions::{Action, Keymap, Listening},
@@ -25,9 +24,9 @@ use crate::{
     session::{Command, Session, probe::ProbePlace},
 };
 use egui::{Frame, Id, Margin, Panel, Ui};
+use everywhere::Everywhere;
 use find_bar::FindBar;
 use fixes::{Chosen, Fixes};
-use matches::Everywhere;
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
@@ -405,7 +404,7 @@ impl CodePanel {
         }
         self.tell_changed(out);
         if let Some(line) = shown.clicked_line {
-            out.wishes.push(ShellCommand::Breakpoint(self.current.clone(), line));
+            out.shell_commands.push(ShellCommand::Breakpoint(self.current.clone(), line));
         }
         self.point(shown.pointed, out);
         for (name, rect) in shown.placed {

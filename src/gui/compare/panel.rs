@@ -78,7 +78,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
         if out.clicked("compare:browse", &browse) {
-            out.wishes.push(ShellCommand::Pick(Pick::Reference));
+            out.shell_commands.push(ShellCommand::Pick(Pick::Reference));
         }
     }
 }

@@ -30,7 +30,7 @@ pub(super) enum View {
 }
 
 /// The pictures of the newest comparison on the window's device.
-pub(super) struct Seen {
+pub(super) struct Pictures {
     pub figures: Figures,
     pub ours: TextureHandle,
     pub theirs: TextureHandle,
@@ -60,7 +60,7 @@ pub struct Compare {
     pub(super) gain: u32,
     /// Compare again after each edit.
     pub(super) follows: bool,
-    pub(super) seen: Option<Seen>,
+    pub(super) seen: Option<Pictures>,
     coming: Option<Receiver<Figures>>,
     /// The comparison whose figures are made, or there.
     of: Option<Arc<Comparison>>,
@@ -120,7 +120,7 @@ impl Compare {
         let Some(figures) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) else { return };
         self.coming = None;
         let load = |name: &str, image: &egui::ColorImage| ctx.load_texture(name, image.clone(), options());
-        self.seen = Some(Seen {
+        self.seen = Some(Pictures {
             ours: load("ours", &figures.ours),
             theirs: load("theirs", &figures.theirs),
             flip: load("flip", &figures.flip),
@@ -135,7 +135,7 @@ impl Compare {
     }
 }
 
-impl Seen {
+impl Pictures {
     /// The picture of the differences, so many times as large.
     pub(super) fn difference(&mut self, ctx: &egui::Context, gain: u32) -> &TextureHandle {
         let made = self.difference.take().filter(|(_, of)| *of == gain);

@@ -25,10 +25,10 @@ const MOST_CHANNELS: f32 = 150.0;
 pub const COLLAPSED: f32 = 44.0;
 /// A table of costs is so high.
 const COSTS: f32 = 170.0;
-/// The part of the code's height that the way of a pixel has.
-const TRACE: f32 = 0.42;
-/// And what passes have drawn, two pictures, or the lab.
-const BUFFERS: f32 = 0.56;
+/// The part of the height that a panel below the code has.
+const BELOW_CODE: f32 = 0.42;
+/// The part that one with pictures or plots has.
+const BELOW_CODE_LARGE: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
 /// A plot with its legend is so wide at least. Where the code is, the lab has its place below that and leaves the
@@ -41,7 +41,7 @@ type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 /// Returns where each open panel is.
 pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
-    let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_aside()), fronts);
+    let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_below_picture()), fronts);
     let is_tall = |size: Vec2| size.y > size.x * 1.1;
     let above: BTreeSet<Panel> = open.iter().copied().filter(|panel| *panel != Panel::Lab).collect();
     let has_right = code_and_below(&above, fronts).is_some();
@@ -81,9 +81,9 @@ fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
     let is_large = [Panel::Buffers, Panel::Compare, Panel::Lab].iter().any(is_open);
-    let part = if is_large { BUFFERS } else { TRACE };
-    let shared = [Panel::Trace, Panel::Buffers, Panel::Compare, Panel::Measurements, Panel::Lab];
-    let below = in_one_place(shared.into_iter().filter(is_open), fronts);
+    let part = if is_large { BELOW_CODE_LARGE } else { BELOW_CODE };
+    let shared = Panel::all().filter(|panel| panel.is_below_code()).chain([Panel::Lab]);
+    let below = in_one_place(shared.filter(is_open), fronts);
     match (code, below) {
         (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
         (code, below) => code.or(below),

@@ -104,7 +104,7 @@ impl Behavior<Panel> for Bars<'_> {
     /// Groups are moved by the panel in front.
     fn is_tile_draggable(&self, _: &Tiles<Panel>, id: TileId) -> bool {
         // The tile that is being shown is not among the others.
-        Panel::ALL.iter().any(|panel| panel.tile() == id)
+        Panel::all().any(|panel| panel.tile() == id)
     }
 
     /// By lines of the dock's own.

@@ -63,7 +63,7 @@ impl Dock {
     fn arrange(&mut self, node: Node) {
         self.tree = tree::of(&node);
         self.is_manual = true;
-        for panel in Panel::ALL {
+        for panel in Panel::all() {
             self.tree.tiles.set_visible(panel.tile(), self.open.contains(&panel));
         }
     }

@@ -36,7 +36,7 @@ pub struct Dock {
 
 impl Dock {
     pub fn new() -> Self {
-        let open = Panel::ALL.into_iter().filter(|panel| panel.is_open_at_first()).collect();
+        let open = Panel::all().filter(|panel| panel.is_open_by_default()).collect();
         Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 
@@ -96,7 +96,7 @@ impl Dock {
             let whole = missing.into_iter().fold(tree::node(&self.tree), |node, panel| Some(Node::with(node, panel)));
             self.tree = whole.map_or_else(|| Tree::empty(tree::id()), |node| tree::of(&node));
         }
-        for panel in Panel::ALL {
+        for panel in Panel::all() {
             self.tree.tiles.set_visible(panel.tile(), self.open.contains(&panel));
         }
         if let Some(front) = self.fronts.last() {

@@ -30,7 +30,7 @@ impl Node {
     /// An arrangement with one panel more: behind those it shares a place with at first, else below everything.
     pub(super) fn with(node: Option<Node>, panel: Panel) -> Node {
         let Some(mut node) = node else { return Node::Panel(panel) };
-        if panel.is_aside() && node.join(panel) {
+        if panel.is_below_picture() && node.join(panel) {
             return node;
         }
         Node::Column(vec![(node, 0.65), (Node::Panel(panel), 0.35)])
@@ -38,13 +38,13 @@ impl Node {
 
     fn join(&mut self, panel: Panel) -> bool {
         match self {
-            Node::Panel(there) if there.is_aside() => {
+            Node::Panel(there) if there.is_below_picture() => {
                 *self = Node::Tabs(vec![Node::Panel(*there), Node::Panel(panel)], 1);
                 true
             }
             Node::Panel(_) => false,
             Node::Tabs(nodes, front) => {
-                let fits = nodes.iter().any(|node| matches!(node, Node::Panel(there) if there.is_aside()));
+                let fits = nodes.iter().any(|node| matches!(node, Node::Panel(there) if there.is_below_picture()));
                 if fits {
                     *front = nodes.len();
                     nodes.push(Node::Panel(panel));
@@ -140,7 +140,7 @@ impl Node {
 
     fn read(value: &Value) -> Result<Node, String> {
         if let Some(name) = value.as_str() {
-            let names = Panel::ALL.map(Panel::name).join(", ");
+            let names = Panel::names();
             return Panel::named(name)
                 .map(Node::Panel)
                 .ok_or_else(|| format!("unknown panel \"{name}\"; the panels are {names}"));

@@ -28,68 +28,90 @@ pub enum Panel {
     Measurements,
 }
 
-impl Panel {
-    pub const ALL: [Panel; 10] = [
-        Panel::Picture,
-        Panel::Code,
-        Panel::Uniforms,
-        Panel::Channels,
-        Panel::Costs,
-        Panel::Lab,
-        Panel::Trace,
-        Panel::Buffers,
-        Panel::Compare,
-        Panel::Measurements,
-    ];
+/// Says of a panel what it is called and where it is before anybody moves it.
+struct Entry {
+    panel: Panel,
+    /// The name in files.
+    name: &'static str,
+    /// The name in the window.
+    title: &'static str,
+    /// It is open when nobody has opened or closed any.
+    is_open: bool,
+    place: DefaultPlace,
+}
 
-    /// Returns what it is called where it is kept.
+/// A panel's place before anybody moves it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum DefaultPlace {
+    /// A place of its own, which `automatic.rs` gives it.
+    Own,
+    /// Below the picture, where panels share a place as tabs.
+    BelowPicture,
+    /// Below the code, where panels share a place as tabs.
+    BelowCode,
+}
+
+const fn row(panel: Panel, name: &'static str, title: &'static str, is_open: bool, place: DefaultPlace) -> Entry {
+    Entry { panel, name, title, is_open, place }
+}
+
+/// A row for each panel, in the order of the enum, which is that of the View menu.
+const PANELS: [Entry; 10] = [
+    row(Panel::Picture, "picture", "Picture", true, DefaultPlace::Own),
+    row(Panel::Code, "code", "Code", true, DefaultPlace::Own),
+    row(Panel::Uniforms, "uniforms", "Uniforms", true, DefaultPlace::BelowPicture),
+    row(Panel::Channels, "channels", "Channels", true, DefaultPlace::Own),
+    row(Panel::Costs, "costs", "Costs", false, DefaultPlace::BelowPicture),
+    row(Panel::Lab, "lab", "Lab", false, DefaultPlace::Own),
+    row(Panel::Trace, "trace", "Trace", false, DefaultPlace::BelowCode),
+    row(Panel::Buffers, "buffers", "Buffers", false, DefaultPlace::BelowCode),
+    row(Panel::Compare, "compare", "Compare", false, DefaultPlace::BelowCode),
+    row(Panel::Measurements, "measurements", "Measurements", false, DefaultPlace::BelowCode),
+];
+
+impl Panel {
+    pub fn all() -> impl Iterator<Item = Panel> {
+        PANELS.iter().map(|entry| entry.panel)
+    }
+
+    fn entry(self) -> &'static Entry {
+        &PANELS[self as usize]
+    }
+
+    /// Returns the name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Panel::Picture => "picture",
-            Panel::Code => "code",
-            Panel::Uniforms => "uniforms",
-            Panel::Channels => "channels",
-            Panel::Costs => "costs",
-            Panel::Lab => "lab",
-            Panel::Trace => "trace",
-            Panel::Buffers => "buffers",
-            Panel::Compare => "compare",
-            Panel::Measurements => "measurements",
-        }
+        self.entry().name
     }
 
     pub fn named(name: &str) -> Option<Panel> {
-        Panel::ALL.into_iter().find(|panel| panel.name() == name)
+        Panel::all().find(|panel| panel.name() == name)
     }
 
-    /// Returns what the window calls it.
+    /// Returns all names, for a message.
+    pub fn names() -> String {
+        PANELS.map(|entry| entry.name).join(", ")
+    }
+
+    /// Returns the name in the window.
     pub fn title(self) -> &'static str {
-        match self {
-            Panel::Picture => "Picture",
-            Panel::Code => "Code",
-            Panel::Uniforms => "Uniforms",
-            Panel::Channels => "Channels",
-            Panel::Costs => "Costs",
-            Panel::Lab => "Lab",
-            Panel::Trace => "Trace",
-            Panel::Buffers => "Buffers",
-            Panel::Compare => "Compare",
-            Panel::Measurements => "Measurements",
-        }
+        self.entry().title
     }
 
-    pub(super) fn is_open_at_first(self) -> bool {
-        matches!(self, Panel::Picture | Panel::Code | Panel::Uniforms | Panel::Channels)
+    pub(super) fn is_open_by_default(self) -> bool {
+        self.entry().is_open
     }
 
-    /// It has a row of its own, by which it can be moved: another with its title would take room for nothing.
+    /// Its contents have a row by which it can be moved, so that it needs none with its title.
     pub(super) fn has_own_row(self) -> bool {
         matches!(self, Panel::Picture | Panel::Code)
     }
 
-    /// It shares a place under the picture with others that are looked into now and then.
-    pub(super) fn is_aside(self) -> bool {
-        matches!(self, Panel::Uniforms | Panel::Costs)
+    pub(super) fn is_below_picture(self) -> bool {
+        self.entry().place == DefaultPlace::BelowPicture
+    }
+
+    pub(super) fn is_below_code(self) -> bool {
+        self.entry().place == DefaultPlace::BelowCode
     }
 
     pub(super) fn tile(self) -> TileId {

@@ -126,7 +126,7 @@ fn panels_close_and_open_again_and_the_last_one_stays() {
     stage.click("panel:uniforms");
     assert!(stage.dock.is_seen(Panel::Uniforms) && !stage.dock.is_seen(Panel::Costs));
     assert_eq!(stage.dock.arrangement(), None, "that is no arrangement of one's own");
-    for panel in Panel::ALL {
+    for panel in Panel::all() {
         stage.dock.set_open(panel, false);
     }
     stage.frame(vec![]);
@@ -262,4 +262,9 @@ fn the_lab_leaves_the_picture_its_room_where_the_code_is_wide_enough() {
     }
     stage.frame(vec![]);
     assert!(stage.place("lab").height() > 650.0);
+}
+
+#[test]
+fn rows_of_panels_are_in_the_order_of_the_enum() {
+    Panel::all().enumerate().for_each(|(n, panel)| assert_eq!(panel as usize, n, "{}", panel.title()));
 }

@@ -1,6 +1,6 @@
 //! Owns what keys and the palette can ask of the code that is shown.
 
-use super::motion::{Motion, Way};
+use super::motion::{Motion, Vertical};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditorAction {
@@ -9,21 +9,21 @@ pub enum EditorAction {
     Delete(Motion),
     NewLine,
     /// A new line above or below that of the caret, wherever in it the caret is.
-    OpenLine(Way),
+    OpenLine(Vertical),
     Indent,
     /// The whole lines, also of a caret that selects nothing.
     IndentLines,
     Unindent,
     ToggleComment,
     ToggleBlockComment,
-    MoveLines(Way),
-    CopyLines(Way),
+    MoveLines(Vertical),
+    CopyLines(Vertical),
     DeleteLines,
     SelectAll,
     SelectLine,
     AddNext,
     AddAll,
-    AddCaret(Way),
+    AddCaret(Vertical),
     OneCaret,
     OtherBracket,
     Undo,

@@ -3,7 +3,7 @@
 use super::{
     buffer::{Buffer, Replacement},
     history::Kind,
-    motion::{Motion, Way},
+    motion::{Motion, Vertical},
 };
 use std::ops::Range;
 
@@ -69,13 +69,13 @@ impl Buffer {
 
     /// Ctrl+Enter and Ctrl+Shift+Enter: a new line below the caret's or above it, indented as that one. The line itself
     /// stays whole.
-    pub fn open_line(&mut self, way: Way) {
+    pub fn open_line(&mut self, way: Vertical) {
         self.replace_at_carets(Kind::Other, |buffer, s| {
             let line = buffer.line_range(buffer.line_of(s.head));
             let text = &buffer.text()[line.clone()];
             let mut indent = text[..text.len() - text.trim_start().len()].to_owned();
             let end = buffer.line_end();
-            if way == Way::Up {
+            if way == Vertical::Up {
                 let caret = indent.len();
                 return Replacement {
                     anchor: caret,
@@ -211,15 +211,15 @@ mod tests {
     #[test]
     fn lines_are_opened_above_and_below_whole_ones() {
         let mut b = with("  f() {\r\n  }", 4, 6);
-        b.open_line(Way::Down);
+        b.open_line(Vertical::Down);
         assert_eq!((b.text(), b.selection().head), ("  f() {\r\n    \r\n  }", 13));
         b.undo();
-        b.open_line(Way::Up);
+        b.open_line(Vertical::Up);
         assert_eq!((b.text(), b.selection().head), ("  \r\n  f() {\r\n  }", 2));
         let mut b = with("a", 1, 1);
-        b.open_line(Way::Up);
+        b.open_line(Vertical::Up);
         b.insert("b");
-        b.open_line(Way::Down);
+        b.open_line(Vertical::Down);
         b.insert("c");
         assert_eq!(b.text(), "b\nc\na");
     }

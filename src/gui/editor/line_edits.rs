@@ -4,7 +4,7 @@ use super::{
     buffer::{Buffer, Replacement, moved},
     edits::INDENT,
     history::{Change, Kind},
-    motion::Way,
+    motion::Vertical,
     selection::{Carets, Selection},
 };
 use std::ops::Range;
@@ -65,11 +65,11 @@ impl Buffer {
     }
 
     /// Moves the lines of every selection past the line above or below them. Where one cannot go on, none does.
-    pub fn move_lines(&mut self, way: Way) {
+    pub fn move_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let is_stuck = |b: &Range<usize>| match way {
-            Way::Up => b.start == 0,
-            Way::Down => b.end == self.line_count(),
+            Vertical::Up => b.start == 0,
+            Vertical::Down => b.end == self.line_count(),
         };
         if blocks.iter().any(is_stuck) {
             return;
@@ -80,13 +80,13 @@ impl Buffer {
             let lines = self.line_range(block.start).start..self.line_range(block.end - 1).end;
             let text = &self.text()[lines.clone()];
             match way {
-                Way::Up => {
+                Vertical::Up => {
                     let above = self.line_range(block.start - 1);
                     let end = &self.text()[above.end..lines.start];
                     shifts.push((lines.clone(), -((above.len() + end.len()) as isize)));
                     parts.push((above.start..lines.end, format!("{text}{end}{}", &self.text()[above])));
                 }
-                Way::Down => {
+                Vertical::Down => {
                     let below = self.line_range(block.end);
                     let end = &self.text()[lines.end..below.start];
                     shifts.push((lines.clone(), (below.len() + end.len()) as isize));
@@ -105,7 +105,7 @@ impl Buffer {
     }
 
     /// Puts a copy of the lines of every selection above or below them, and goes to the copy.
-    pub fn copy_lines(&mut self, way: Way) {
+    pub fn copy_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let mut parts = Vec::new();
         let mut shifts = Vec::new();
@@ -114,7 +114,7 @@ impl Buffer {
             let lines = self.line_range(block.start).start..self.line_range(block.end - 1).end;
             let copy = format!("{}{}", self.line_end(), &self.text()[lines.clone()]);
             // The text is the same either way; which of the two is the copy is where the carets are.
-            shifts.push((lines.start, shift + if way == Way::Down { copy.len() } else { 0 }));
+            shifts.push((lines.start, shift + if way == Vertical::Down { copy.len() } else { 0 }));
             shift += copy.len();
             parts.push((lines.end..lines.end, copy));
         }
@@ -263,23 +263,23 @@ mod tests {
     #[test]
     fn lines_are_moved_copied_and_deleted_with_their_carets() {
         let mut b = with("a\nbb\nc", 3, 3);
-        b.move_lines(Way::Down);
+        b.move_lines(Vertical::Down);
         assert_eq!((b.text(), b.selection()), ("a\nc\nbb", Selection::caret(5)));
-        b.move_lines(Way::Down);
+        b.move_lines(Vertical::Down);
         assert_eq!(b.text(), "a\nc\nbb", "there is nothing below");
-        b.move_lines(Way::Up);
-        b.move_lines(Way::Up);
+        b.move_lines(Vertical::Up);
+        b.move_lines(Vertical::Up);
         assert_eq!((b.text(), b.selection()), ("bb\na\nc", Selection::caret(1)));
-        b.copy_lines(Way::Down);
+        b.copy_lines(Vertical::Down);
         assert_eq!((b.text(), b.selection()), ("bb\nbb\na\nc", Selection::caret(4)));
-        b.copy_lines(Way::Up);
+        b.copy_lines(Vertical::Up);
         assert_eq!((b.text(), b.selection()), ("bb\nbb\nbb\na\nc", Selection::caret(4)));
         b.delete_lines();
         b.delete_lines();
         assert_eq!((b.text(), b.selection()), ("bb\na\nc", Selection::caret(4)));
         // Whole lines with the end of the last: the next line is not of them.
         let mut b = with("a\r\nb\r\nc", 0, 3);
-        b.move_lines(Way::Down);
+        b.move_lines(Vertical::Down);
         assert_eq!((b.text(), b.selection()), ("b\r\na\r\nc", Selection::new(3, 6)));
         let mut b = with("a\nb", 2, 2);
         b.delete_lines();

@@ -2,7 +2,7 @@
 
 use super::{
     buffer::Buffer,
-    motion::Way,
+    motion::Vertical,
     selection::{Carets, Selection},
 };
 use std::ops::Range;
@@ -16,12 +16,12 @@ impl Buffer {
     }
 
     /// One more caret above or below each.
-    pub fn add_caret(&mut self, way: Way) {
+    pub fn add_caret(&mut self, way: Vertical) {
         let mut list = self.carets().list().to_vec();
         let main = self.carets().main_index();
         for i in 0..list.len() {
             let s = list[i];
-            let by = if way == Way::Up { -1 } else { 1 };
+            let by = if way == Vertical::Up { -1 } else { 1 };
             if self.line_of(s.head).checked_add_signed(by).is_some_and(|line| line < self.line_count()) {
                 let away = self.lines_away(s, by);
                 list[i].column = away.column;
@@ -30,8 +30,8 @@ impl Buffer {
         }
         let main = match way {
             // The newest is the one to follow.
-            Way::Up => (0..list.len()).min_by_key(|i| list[*i].head),
-            Way::Down => (0..list.len()).max_by_key(|i| list[*i].head),
+            Vertical::Up => (0..list.len()).min_by_key(|i| list[*i].head),
+            Vertical::Down => (0..list.len()).max_by_key(|i| list[*i].head),
         }
         .unwrap_or(main);
         self.set_carets(Carets::new(list, main));
@@ -141,13 +141,13 @@ mod tests {
     fn carets_above_and_below_keep_their_column() {
         let mut b = Buffer::new("12345\n1\n12345\n");
         b.select(4, 4);
-        b.add_caret(Way::Down);
-        b.add_caret(Way::Down);
+        b.add_caret(Vertical::Down);
+        b.add_caret(Vertical::Down);
         assert_eq!(ranges(&b), [4..4, 7..7, 12..12]);
         b.insert("x");
         assert_eq!(b.text(), "1234x5\n1x\n1234x5\n");
         b.undo();
-        b.add_caret(Way::Up);
+        b.add_caret(Vertical::Up);
         assert_eq!(ranges(&b), [4..4, 7..7, 12..12]);
     }
 

@@ -16,7 +16,6 @@ mod buffer;
 mod colors;
 #[cfg(test)]
 mod cost;
-mod drag;
 mod edits;
 mod find;
 mod folding;
@@ -46,7 +45,7 @@ pub use assist::Ask;
 pub use buffer::Buffer;
 pub use find::{Finder, Query};
 pub use look::{Debug, Help, Look, Mark};
-pub use motion::{Motion, Way};
+pub use motion::{Motion, Vertical};
 pub use view::CodeEditor;
 
 #[cfg(test)]

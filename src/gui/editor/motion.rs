@@ -21,7 +21,7 @@ pub enum Motion {
 
 /// Up or down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Vertical {
     Up,
     Down,
 }

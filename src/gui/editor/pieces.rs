@@ -26,7 +26,7 @@ pub struct Piece {
 
 /// Pieces of a line as it was, and how many bytes at an end of it are as they were.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Known<'a> {
+pub struct Reusable<'a> {
     pub pieces: &'a [Piece],
     pub bytes: usize,
 }
@@ -46,8 +46,8 @@ pub struct Cut {
 pub fn cut(
     line: &str,
     state: LexState,
-    head: Known<'_>,
-    tail: (Known<'_>, LexState),
+    head: Reusable<'_>,
+    tail: (Reusable<'_>, LexState),
     width: &mut dyn FnMut(char) -> f32,
     scanned: &mut usize,
 ) -> Cut {
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     fn whole(line: &str) -> Cut {
-        cut(line, LexState::default(), Known::default(), Default::default(), &mut |_| 1.0, &mut 0)
+        cut(line, LexState::default(), Reusable::default(), Default::default(), &mut |_| 1.0, &mut 0)
     }
 
     fn text(len: usize) -> String {
@@ -193,8 +193,8 @@ mod tests {
             for (removed, with) in [(0, "x"), (1, ""), (0, "/*"), (0, "*/"), (2, "// "), (0, "\u{e9}"), (0, "/")] {
                 let Some(rest) = line.get(at + removed..) else { continue };
                 let new = format!("{}{with}{rest}", &line[..at]);
-                let head = Known { pieces: &old.pieces, bytes: at };
-                let tail = Known { pieces: &old.pieces, bytes: rest.len() };
+                let head = Reusable { pieces: &old.pieces, bytes: at };
+                let tail = Reusable { pieces: &old.pieces, bytes: rest.len() };
                 let mut scanned = 0;
                 let cut = cut(&new, LexState::default(), head, (tail, old.end), &mut |_| 1.0, &mut scanned);
                 let mut scanner = Scanner::new(&new, 0, LexState::default());

@@ -1,7 +1,6 @@
 //! The pointer over the text: placing carets, selecting by letters, words and lines, pasting.
 
 use super::{
-    drag::{Drag, Granularity},
     lines::Lines,
     look::Help,
     selection::{Carets, Selection},
@@ -100,4 +99,21 @@ impl CodeEditor {
             Granularity::Line => self.buffer.whole_line(at),
         }
     }
+}
+
+/// A selection being drawn with the pointer.
+#[derive(Clone, Debug)]
+pub(super) struct Drag {
+    /// The place where it began, whole words or lines at a time.
+    pub from: Range<usize>,
+    pub granularity: Granularity,
+    /// Selections that stay beside it.
+    pub others: Vec<Selection>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Granularity {
+    Letter,
+    Word,
+    Line,
 }

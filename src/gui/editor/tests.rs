@@ -4,7 +4,7 @@ use super::{
     action::EditorAction as Action,
     buffer::Buffer,
     input,
-    motion::{Motion, Way},
+    motion::{Motion, Vertical},
     selection::{Carets, Selection},
 };
 use std::ops::Range;
@@ -66,10 +66,10 @@ const ACTIONS: [Action; 22] = [
     Action::Indent,
     Action::Unindent,
     Action::ToggleComment,
-    Action::MoveLines(Way::Up),
-    Action::MoveLines(Way::Down),
-    Action::CopyLines(Way::Up),
-    Action::CopyLines(Way::Down),
+    Action::MoveLines(Vertical::Up),
+    Action::MoveLines(Vertical::Down),
+    Action::CopyLines(Vertical::Up),
+    Action::CopyLines(Vertical::Down),
     Action::DeleteLines,
     Action::Delete(Motion::Left),
     Action::Delete(Motion::Right),
@@ -77,8 +77,8 @@ const ACTIONS: [Action; 22] = [
     Action::Delete(Motion::WordRight),
     Action::AddNext,
     Action::AddAll,
-    Action::AddCaret(Way::Up),
-    Action::AddCaret(Way::Down),
+    Action::AddCaret(Vertical::Up),
+    Action::AddCaret(Vertical::Down),
     Action::OneCaret,
     Action::Go(Motion::Lines(1)),
     Action::Select(Motion::Lines(-1)),
@@ -182,8 +182,8 @@ fn many_carets_do_what_each_would() {
 fn lines_by_hand(text: &str, lines: Range<usize>, action: Action) -> String {
     let mut list: Vec<&str> = text.split('\n').collect();
     match action {
-        Action::MoveLines(Way::Up) if lines.start > 0 => list[lines.start - 1..lines.end].rotate_left(1),
-        Action::MoveLines(Way::Down) if lines.end < list.len() => list[lines.start..=lines.end].rotate_right(1),
+        Action::MoveLines(Vertical::Up) if lines.start > 0 => list[lines.start - 1..lines.end].rotate_left(1),
+        Action::MoveLines(Vertical::Down) if lines.end < list.len() => list[lines.start..=lines.end].rotate_right(1),
         Action::CopyLines(_) => {
             let copy = list[lines.clone()].to_vec();
             list.splice(lines.end..lines.end, copy);
@@ -204,10 +204,10 @@ fn lines_move_as_a_list_of_them_would() {
             buffer.select(main.anchor, main.head);
             let lines = buffer.blocks()[0].clone();
             let action = random.of(&[
-                Action::MoveLines(Way::Up),
-                Action::MoveLines(Way::Down),
-                Action::CopyLines(Way::Up),
-                Action::CopyLines(Way::Down),
+                Action::MoveLines(Vertical::Up),
+                Action::MoveLines(Vertical::Down),
+                Action::CopyLines(Vertical::Up),
+                Action::CopyLines(Vertical::Down),
                 Action::DeleteLines,
             ]);
             let wanted = lines_by_hand(buffer.text(), lines, action);

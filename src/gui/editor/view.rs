@@ -6,13 +6,13 @@ use super::{
     assist::{Ask, Assist},
     brackets,
     buffer::Buffer,
-    drag::Drag,
     gutter::{self, Clicked, Gutter},
     highlight::Highlight,
     input,
     lines::{Lines, MARGIN},
     look::{Help, Look},
     paint::{self, Painted},
+    pointer::Drag,
     rows::Rows,
     ruler,
     semantic::Semantic,
@@ -73,7 +73,7 @@ pub struct CodeEditor {
     /// To be put on the clipboard.
     copied: Option<String>,
     /// The revision of the text that others have.
-    told: u64,
+    reported_revision: u64,
     pub(super) work: Work,
     /// Says how high the text was in the frame before, and whether the caret could be seen.
     sight: (f32, bool),
@@ -108,7 +108,7 @@ impl CodeEditor {
             brackets_of: None,
             pasted: None,
             copied: None,
-            told: 0,
+            reported_revision: 0,
             work: Work::default(),
             sight: (0.0, false),
             sought_line: None,
@@ -127,13 +127,13 @@ impl CodeEditor {
     /// Takes over a text that was changed elsewhere.
     pub fn take_text(&mut self, text: &str) {
         self.buffer.set_text(text);
-        self.told = self.buffer.revision();
+        self.reported_revision = self.buffer.revision();
     }
 
     /// Returns the text if it has changed since the last call.
     pub fn take_changed(&mut self) -> Option<&str> {
         let revision = self.buffer.revision();
-        (std::mem::replace(&mut self.told, revision) != revision).then(|| self.buffer.text())
+        (std::mem::replace(&mut self.reported_revision, revision) != revision).then(|| self.buffer.text())
     }
 
     /// Does what a key or the palette asks.

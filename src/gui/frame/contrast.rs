@@ -140,7 +140,7 @@ fn every_text_has_enough_contrast_in_both_themes() {
         stage.state_mut().shell.set_open(Panel::Trace, true);
         stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
         until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
-        for panel in Panel::ALL {
+        for panel in Panel::all() {
             stage.state_mut().shell.set_open(panel, true);
             stage.run_steps(3);
             check(&mut stage, panel.title(), theme);

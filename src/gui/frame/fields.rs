@@ -127,7 +127,7 @@ fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
     let Some(mut stage) = open(false) else { return };
     let open_panel = |panel: Panel| {
         move |stage: &mut Stage| {
-            for other in Panel::ALL {
+            for other in Panel::all() {
                 stage
                     .state_mut()
                     .shell

@@ -4,7 +4,7 @@
 //! so that a shader sees the mouse where the hand has it now. Knows no window and no surface: what is to be painted
 //! comes back.
 
-use super::{shell::Shell, steps};
+use super::{input_steps, shell::Shell};
 use crate::session::{Session, Tick};
 use egui::{FullOutput, RawInput};
 use egui_wgpu::Renderer;
@@ -27,7 +27,7 @@ pub fn run(
     input: RawInput,
     now: Instant,
 ) -> Frame {
-    let nothing = steps::without_events(&input);
+    let nothing = input_steps::without_events(&input);
     let mut output = FullOutput::default();
     let mut show = |input, session: &mut Session, renderer: &mut Renderer| {
         shell.prepare(session, renderer);
@@ -37,7 +37,7 @@ pub fn run(
         commands.into_iter().for_each(|command| session.apply(command));
         asked
     };
-    for input in steps::split(input) {
+    for input in input_steps::split(input) {
         show(input, session, renderer);
     }
     let tick = session.tick(now);
@@ -50,13 +50,13 @@ pub fn run(
 #[cfg(test)]
 mod contrast;
 #[cfg(test)]
+mod edits;
+#[cfg(test)]
 mod fields;
 #[cfg(test)]
 mod harness;
 #[cfg(test)]
 mod looks;
-#[cfg(test)]
-mod mends;
 #[cfg(test)]
 mod names;
 #[cfg(test)]

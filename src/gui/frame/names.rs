@@ -97,7 +97,7 @@ fn every_panel_has_names() {
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
     stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
     until(&mut stage, "a comparison", |stage| matches!(stage.state().session.comparison(), Some(Status::Ended(Ok(_)))));
-    for panel in Panel::ALL {
+    for panel in Panel::all() {
         stage.state_mut().shell.set_open(panel, true);
         stage.run_steps(4);
         assert!(stage.state().shell.dock().is_seen(panel), "{panel:?}");

@@ -54,7 +54,7 @@ impl Gallery {
                 if can_close {
                     let back = ui.button(format!("Back to {}", short(session)));
                     if out.clicked("button:close-gallery", &back) {
-                        out.wishes.push(ShellCommand::CloseGallery);
+                        out.shell_commands.push(ShellCommand::CloseGallery);
                     }
                     ui.add_space(4.0);
                 }

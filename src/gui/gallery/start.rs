@@ -46,8 +46,8 @@ pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_a
     match clicked {
         Some("gallery:new") => out.act(Action::New),
         Some("gallery:paste") => out.act(Action::Paste),
-        Some("gallery:open-file") => out.wishes.push(ShellCommand::Pick(Pick::OpenFile)),
-        Some(_) => out.wishes.push(ShellCommand::Pick(Pick::OpenFolder)),
+        Some("gallery:open-file") => out.shell_commands.push(ShellCommand::Pick(Pick::OpenFile)),
+        Some(_) => out.shell_commands.push(ShellCommand::Pick(Pick::OpenFolder)),
         None => {}
     }
     recent_rows(ui, session, thumbnails, shows_all, out);

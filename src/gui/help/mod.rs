@@ -11,7 +11,7 @@ use egui::{
     Align, FocusDirection, FontId, Grid, Id, Key, Layout, Margin, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui,
     style::ScrollAnimation, vec2,
 };
-use text::{SECTIONS, SHADERTOY};
+use text::{Paragraph, SHADERTOY, Section};
 
 /// As wide as lines are read well.
 const WIDTH: f32 = 700.0;
@@ -19,15 +19,15 @@ const WIDTH: f32 = 700.0;
 const KEYS: f32 = 190.0;
 
 /// The page while it is open.
-#[derive(Default)]
 pub struct Help {
+    sections: Vec<Section>,
     search: String,
     is_new: bool,
 }
 
 impl Help {
     pub fn new() -> Self {
-        Self { is_new: true, ..Self::default() }
+        Self { sections: text::sections(), search: String::new(), is_new: true }
     }
 
     /// Shows it; false when it is closed.
@@ -75,19 +75,21 @@ impl Help {
     fn contents(&self, ui: &mut Ui, out: &mut UiOutput) {
         let wanted = Wanted::new(&self.search);
         let mut is_empty = true;
-        for section in SECTIONS {
-            let all = wanted.is_in(section.title);
-            let list: Vec<_> = section.paragraphs.iter().filter(|p| all || wanted.is_in(p)).collect();
+        for section in &self.sections {
+            let all = wanted.is_in(&section.title);
+            let list: Vec<_> = section.paragraphs.iter().filter(|p| all || wanted.is_in(p.text())).collect();
             if list.is_empty() {
                 continue;
             }
             is_empty = false;
-            title(ui, section.title);
+            title(ui, &section.title);
             for paragraph in list {
-                match paragraph.strip_prefix('\t') {
-                    Some(code) => ui.label(RichText::new(format!("    {code}")).font(FontId::monospace(12.5))),
-                    None => ui.label(*paragraph),
-                };
+                match paragraph {
+                    Paragraph::Code(code) => {
+                        ui.indent("code", |ui| ui.label(RichText::new(code).font(FontId::monospace(12.5))));
+                    }
+                    Paragraph::Text(text) => drop(ui.label(text)),
+                }
             }
             if section.title == SHADERTOY {
                 let open = ui.button("Open bookmarklet page");
@@ -166,13 +168,28 @@ impl Wanted {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gui::dock::Panel;
 
     #[test]
     fn all_words_of_a_search_are_found_in_any_order_and_size() {
         let text = "iMouse follows the mouse over the picture";
         assert!(Wanted::new("").is_in(text) && Wanted::new("  imouse PICTURE ").is_in(text));
         assert!(!Wanted::new("imouse keys").is_in(text));
-        assert!(SECTIONS.iter().any(|s| s.paragraphs.iter().any(|p| Wanted::new("iuniform color3").is_in(p))));
+        assert!(
+            text::sections()
+                .iter()
+                .any(|s| s.paragraphs.iter().any(|p| Wanted::new("iuniform color3").is_in(p.text())))
+        );
+    }
+
+    #[test]
+    fn every_panel_is_in_the_help() {
+        let sections = text::sections();
+        for panel in Panel::all() {
+            let wanted = Wanted::new(panel.title());
+            let is_there = sections.iter().any(|s| s.paragraphs.iter().any(|p| wanted.is_in(p.text())));
+            assert!(is_there, "docs/using.md and docs/debugging.md do not speak of {}", panel.title());
+        }
     }
 
     /// The help speaks of keys by their usual names: they are those of the table.
@@ -182,8 +199,10 @@ mod tests {
         let keys: Vec<&str> = ACTIONS.iter().flat_map(|e| e.keys).copied().chain(["Shift+F10"]).collect();
         let is_named = |word: &str| word.starts_with('F') && word[1..].parse::<u8>().is_ok() || word.contains("Shift+");
         // The mouse is in no table.
-        let is_key = |word: &str| is_named(word) && !word.ends_with("click");
-        let said = SECTIONS.iter().flat_map(|s| s.paragraphs).flat_map(|p| p.split([' ', ',', '.']));
+        let is_key = |word: &str| is_named(word) && !word.ends_with("click") && !word.ends_with("drag");
+        let sections = text::sections();
+        let texts = sections.iter().flat_map(|s| &s.paragraphs).map(Paragraph::text);
+        let said = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
         let said: Vec<&str> = said.filter(|word| is_key(word)).collect();
         assert!(said.contains(&"F6"), "{said:?}");
         said.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));

@@ -99,7 +99,7 @@ fn start(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
 /// In what room is left.
 fn progress(ui: &mut Ui, lab: &Lab) {
     let Some(run) = &lab.run else { return };
-    let (part, words) = model::told(&run.progress);
+    let (part, words) = model::progress_text(&run.progress);
     let is_other = (run.study, run.extent) != (lab.study, lab.extent);
     let words = if is_other { format!("{}: {words}", lab.studies[run.study].about().title) } else { words };
     let width = ui.available_width() - 8.0;

@@ -1,6 +1,6 @@
 //! The list of methods beside the plot, and what the signs mean.
 
-use super::{ink::Ink, model::Shown, plot};
+use super::{colors::Ink, model::PlotData, plot};
 use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
@@ -8,7 +8,7 @@ use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2}
 pub const WIDTH: f32 = 290.0;
 
 /// The method under the pointer.
-pub fn show(ui: &mut Ui, shown: &Shown) -> Option<usize> {
+pub fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
     let mut hovered = None;
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("lab methods").auto_shrink(false).show(ui, |ui| {
@@ -38,7 +38,7 @@ fn line(ui: &mut Ui, text: &str, size: f32, color: Color32) -> egui::Response {
     response
 }
 
-fn method(ui: &mut Ui, shown: &Shown, n: usize) -> bool {
+fn method(ui: &mut Ui, shown: &PlotData, n: usize) -> bool {
     let method = shown.methods[n];
     let row = line(ui, method.title, 13.0, theme::of(ui).text);
     let color = Ink::of(ui).method(n);

@@ -4,8 +4,8 @@
 //! of over its channel, and a click on a point opens that point's project as any other.
 
 mod axis;
+mod colors;
 mod header;
-mod ink;
 mod legend;
 mod model;
 mod panel;

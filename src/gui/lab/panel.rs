@@ -12,7 +12,7 @@ impl Lab {
         out.stop("lab", ui);
         ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
         header::show(ui, self, out);
-        if let Some((words, is_bad)) = &self.told {
+        if let Some((words, is_bad)) = &self.message {
             let color = if *is_bad { theme::of(ui).error } else { theme::of(ui).good };
             ui.add(egui::Label::new(RichText::new(words).size(12.0).color(color)).truncate().selectable(true));
         }
@@ -62,7 +62,7 @@ impl Lab {
             let grids: Vec<String> = study.grids(self.extent).iter().map(u32::to_string).collect();
             let words = match self.run {
                 Some(_) => "Measuring the first points…".to_owned(),
-                None => format!("Start measures {points} points on grids of {} texels a side.", grids.join(", ")),
+                None => format!("Start measures {points} points on grids of {} texels per side.", grids.join(", ")),
             };
             ui.colored_label(theme::of(ui).weak, words);
         });

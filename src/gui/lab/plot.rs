@@ -3,8 +3,8 @@
 
 use super::{
     axis::{self, short},
-    ink::Ink,
-    model::{Dot, Shown, nearest},
+    colors::Ink,
+    model::{Dot, PlotData, nearest},
 };
 use crate::{
     gui::{
@@ -39,7 +39,7 @@ pub fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fi
 }
 
 /// The row whose point was clicked.
-pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
+pub fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
     let (table, ink) = (&shown.table, Ink::of(ui));
     let tick = |mark: egui_plot::GridMark, range: &std::ops::RangeInclusive<f64>| {
         axis::label(mark, range.end() - range.start())
@@ -102,7 +102,7 @@ struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,
     ink: &'static Ink,
-    shown: &'a Shown,
+    shown: &'a PlotData,
     view: &'a View<'a>,
 }
 
@@ -163,7 +163,7 @@ fn target(painter: &Painter, palette: &Palette, area: Rect, transform: &PlotTran
     painter.text(egui::pos2(area.left() + 6.0, at), align, "error 1 %", font, palette.weak);
 }
 
-fn tooltip(ui: &mut Ui, shown: &Shown, dot: &Dot) {
+fn tooltip(ui: &mut Ui, shown: &PlotData, dot: &Dot) {
     let (row, about) = (shown.row(dot), shown.table.about);
     ui.set_max_width(360.0);
     ui.colored_label(theme::of(ui).strong, row.method.title);

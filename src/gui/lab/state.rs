@@ -1,6 +1,6 @@
 //! The state of the panel: the results that are known, the run under way, the folder they go to.
 
-use super::model::{Known, Shown};
+use super::model::{ExtentResults, PlotData};
 use crate::{
     gpu::{Gpu, GpuOptions},
     gui::ui_output::{Pick, ShellCommand, UiOutput},
@@ -33,14 +33,14 @@ pub struct Lab {
     pub(super) study: usize,
     pub(super) extent: Extent,
     /// Quick, then full.
-    pub(super) known: [Known; 2],
-    pub(super) shown: Option<Shown>,
+    pub(super) known: [ExtentResults; 2],
+    pub(super) shown: Option<PlotData>,
     pub(super) run: Option<Run>,
     pub(super) folder: Folder,
     /// A report that is being written.
     pub(super) saving: Option<(Extent, Receiver<Result<PathBuf, String>>)>,
     /// Says what the last thing came to, and whether it went wrong.
-    pub(super) told: Option<(String, bool)>,
+    pub(super) message: Option<(String, bool)>,
     /// The point whose project was opened last.
     pub(super) opened: Option<Point>,
     /// The project that a click opens, by its name, and the tab that is shown when it is there: the pass that is
@@ -78,18 +78,18 @@ impl Lab {
             run: None,
             folder: Folder::Temporary(None),
             saving: None,
-            told: None,
+            message: None,
             opened: None,
             code: None,
             hovered_method: None,
         }
     }
 
-    pub(super) fn known(&self, extent: Extent) -> &Known {
+    pub(super) fn known(&self, extent: Extent) -> &ExtentResults {
         &self.known[usize::from(extent == Extent::Full)]
     }
 
-    fn known_mut(&mut self, extent: Extent) -> &mut Known {
+    fn known_mut(&mut self, extent: Extent) -> &mut ExtentResults {
         &mut self.known[usize::from(extent == Extent::Full)]
     }
 
@@ -101,7 +101,7 @@ impl Lab {
     pub fn update(&mut self) {
         if let Some((extent, Ok(saved))) = self.saving.as_ref().map(|(extent, saved)| (*extent, saved.try_recv())) {
             self.saving = None;
-            self.told = Some(match saved {
+            self.message = Some(match saved {
                 Ok(path) => {
                     // What a run has added meanwhile is not in it.
                     self.known_mut(extent).is_saved = self.run.is_none();
@@ -124,7 +124,7 @@ impl Lab {
                 Event::Ended(ended) => {
                     self.run = None;
                     if let Err(why) = ended {
-                        self.told = Some((why, true));
+                        self.message = Some((why, true));
                     }
                 }
                 _ => {}
@@ -162,9 +162,9 @@ impl Lab {
 
     /// Measures what is not known of the shown study. All of it anew where all is known, in a temporary folder.
     pub(super) fn start(&mut self) {
-        self.told = None;
+        self.message = None;
         if let Err(why) = self.try_start() {
-            self.told = Some((why, true));
+            self.message = Some((why, true));
         }
     }
 
@@ -191,11 +191,11 @@ impl Lab {
     pub fn keep_in(&mut self, folder: PathBuf) {
         match self.try_keep_in(&folder) {
             Ok(()) => {
-                self.told = Some((format!("results are kept in {}", folder.display()), false));
+                self.message = Some((format!("results are kept in {}", folder.display()), false));
                 self.folder = Folder::Chosen(folder);
                 self.draw_anew();
             }
-            Err(why) => self.told = Some((why, true)),
+            Err(why) => self.message = Some((why, true)),
         }
     }
 
@@ -215,7 +215,7 @@ impl Lab {
                  or choose an empty folder"
             ));
         }
-        *known = Known { results: there, estimates: Vec::new(), is_saved: true };
+        *known = ExtentResults { results: there, estimates: Vec::new(), is_saved: true };
         self.extent = extent;
         Ok(())
     }
@@ -238,9 +238,9 @@ impl Lab {
         };
         match std::thread::Builder::new().name("lab report".into()).spawn(write) {
             Ok(_) => {
-                (self.saving, self.told) = (Some((self.extent, saved)), Some(("writing the report…".into(), false)))
+                (self.saving, self.message) = (Some((self.extent, saved)), Some(("writing the report…".into(), false)))
             }
-            Err(e) => self.told = Some((format!("cannot start a thread for the report: {e}"), true)),
+            Err(e) => self.message = Some((format!("cannot start a thread for the report: {e}"), true)),
         }
     }
 
@@ -258,7 +258,7 @@ impl Lab {
                 out.ask(Command::OpenProject { project: Box::new(project), size: Some(size) });
                 self.opened = Some(point);
             }
-            Err(error) => self.told = Some((error.to_string(), true)),
+            Err(error) => self.message = Some((error.to_string(), true)),
         }
     }
 
@@ -271,13 +271,13 @@ impl Lab {
             "running": self.run.as_ref().map(|r| self.studies[r.study].about().name),
             "points": dots.len(),
             "estimates": dots.iter().filter(|d| d.is_estimate).count(),
-            "told": self.told.as_ref().map(|(words, _)| words),
+            "told": self.message.as_ref().map(|(words, _)| words),
         })
     }
 
     /// Asks for a folder: to keep results in, or for a report.
     pub(super) fn pick(out: &mut UiOutput, pick: Pick) {
-        out.wishes.push(ShellCommand::Pick(pick));
+        out.shell_commands.push(ShellCommand::Pick(pick));
     }
 }
 

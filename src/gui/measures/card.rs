@@ -62,7 +62,7 @@ fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &m
         if out.clicked(&format!("measures:go:{index}"), &link.on_hover_text("Go to comment"))
             && let Some(tab) = &place.tab
         {
-            out.wishes.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+            out.shell_commands.push(ShellCommand::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
         }
         if !is_measured {
             return;

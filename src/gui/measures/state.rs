@@ -34,8 +34,8 @@ pub struct Measurements {
     pub(super) seen: Vec<u64>,
     /// Says whether what passes cost is to be gathered: it says why one is not drawn.
     pub(super) wants_costs: bool,
-    /// Holds what the session was told of.
-    told: Vec<u64>,
+    /// The last request to the session.
+    sent: Vec<u64>,
 }
 
 impl Measurements {
@@ -47,10 +47,10 @@ impl Measurements {
     /// Ends a frame of the window: what was not in sight is not measured any more.
     pub fn end_frame(&mut self) -> Option<Command> {
         let seen = std::mem::take(&mut self.seen);
-        if seen == self.told {
+        if seen == self.sent {
             return None;
         }
-        self.told.clone_from(&seen);
+        self.sent.clone_from(&seen);
         Some(Command::WatchMeasures(seen))
     }
 }

@@ -295,8 +295,8 @@ mod tests {
             ("keybindings", A::KeyFile),
             ("preferences", A::Settings),
             ("options", A::Settings),
-            ("profiler", A::Costs),
-            ("performance", A::Costs),
+            ("profiler", A::Panel(Panel::Costs)),
+            ("performance", A::Panel(Panel::Costs)),
             ("video", A::Record),
             ("screenshot", A::Screenshot),
             ("fullscreen", A::Fullscreen),
@@ -319,7 +319,10 @@ mod tests {
     #[test]
     fn every_action_but_the_palette_itself_is_in_it() {
         assert_eq!(fits("", &[], &[]).len(), ACTIONS.len() - 1);
-        assert_eq!(action(&fits("", &[Action::Lab, Action::Help], &[])[0]), Some(Action::Lab));
+        assert_eq!(
+            action(&fits("", &[Action::Panel(Panel::Lab), Action::Help], &[])[0]),
+            Some(Action::Panel(Panel::Lab))
+        );
         for entry in ACTIONS.iter().filter(|e| e.action != Action::Palette) {
             assert_eq!(first(entry.title), entry.action, "{} is not first by its own title", entry.title);
         }

@@ -104,7 +104,7 @@ fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if out.clicked("passes:text", &ui.button("Edit code")) {
-            out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
+            out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
         }
         if let Some(pass) = pass.filter(|id| id.is_drawn())
             && out.clicked("passes:show", &ui.button("Show this pass"))

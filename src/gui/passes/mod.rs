@@ -162,9 +162,9 @@ pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutpu
     ui.set_min_width(190.0);
     let add = |ui: &mut Ui, tab: Tab, out: &mut UiOutput| {
         out.ask(Command::AddTab(tab.clone()));
-        out.wishes.push(ShellCommand::GoTo(tab.clone(), None));
+        out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
         if chooses {
-            out.wishes.push(ShellCommand::ChoosePass(tab));
+            out.shell_commands.push(ShellCommand::ChoosePass(tab));
         }
         ui.data_mut(|d| d.remove_temp::<String>(id));
         ui.close();

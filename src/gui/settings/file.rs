@@ -1,7 +1,7 @@
 //! The text of `settings.toml`: read, made anew, and changed in one line.
 
 use super::keys::{Change, KEYS, Settings};
-use crate::{gui::watched_file::Mistake, project::nearest};
+use crate::{gui::config_file::Mistake, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
 
@@ -132,7 +132,7 @@ mod tests {
             "# mine\nthem = \"light\"\ntheme = \"blue\"\nzoom = 40\n[word-wrap]\non = true\n[editor]\nsize = 3\n";
         let (settings, mistakes) = read(text);
         assert_eq!(settings, Settings::default());
-        let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
+        let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
@@ -142,7 +142,7 @@ mod tests {
             (5, "word-wrap takes one value: word-wrap = false"),
             (7, nothing_near.as_str()),
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
         let (_, mistakes) = read("zoom = 1\ntheme = \n");
         assert_eq!((mistakes.len(), mistakes[0].line), (1, 2), "{mistakes:?}");
         let (_, mistakes) = read("frame-timeout = -1");

@@ -6,9 +6,9 @@
 
 mod file;
 mod keys;
-mod place;
-mod watch;
+mod settings_file;
+mod window_file;
 
 pub use keys::{Change, Control, KEYS, Key, Number, Settings, Theme};
-pub use place::{Place, Remembered, UsualSizes, WindowFile};
-pub use watch::SettingsFile;
+pub use settings_file::SettingsFile;
+pub use window_file::{Remembered, UsualSizes, WindowFile, WindowPlace};

@@ -91,8 +91,6 @@ impl Shell {
                 }
                 self.code.focus();
             }
-            Action::Lab => self.toggle(Panel::Lab, out),
-            Action::Costs => self.toggle(Panel::Costs, out),
             Action::Panel(panel) => self.toggle(panel, out),
             Action::UsualLayout => self.dock.reset(),
             Action::NextTheme => {
@@ -111,12 +109,12 @@ impl Shell {
             Action::Settings => self.page_of_settings = Some(SettingsPage::new()),
             Action::SettingsFile => {
                 let path = self.settings.write_if_missing();
-                out.ask(told("The settings are", path));
+                out.ask(path_notice("The settings are", path));
             }
             Action::Help => self.help = if self.help.is_some() { None } else { Some(Help::new()) },
             Action::Palette if self.palette.is_open() => self.palette.close(ui),
             Action::Palette => self.palette.open(ui),
-            Action::KeyFile => out.ask(told("The keyboard shortcuts are", self.keys.write_if_missing())),
+            Action::KeyFile => out.ask(path_notice("The keyboard shortcuts are", self.keys.write_if_missing())),
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
             Action::FindEverywhere => self.code.open_find_everywhere(),
@@ -208,7 +206,7 @@ impl Shell {
     fn add_pass(&mut self, tab: Tab, out: &mut UiOutput) {
         out.ask(Command::AddTab(tab.clone()));
         // It is there in the next frame.
-        self.wishes.push(ShellCommand::GoTo(tab, None));
+        self.shell_commands.push(ShellCommand::GoTo(tab, None));
         self.uncover(out);
     }
 
@@ -262,7 +260,7 @@ impl Shell {
 }
 
 /// Says where a file is that a person writes.
-fn told(what: &str, path: Result<&Path, String>) -> Command {
+fn path_notice(what: &str, path: Result<&Path, String>) -> Command {
     match path {
         Ok(path) => Command::Notify {
             level: Level::Info,

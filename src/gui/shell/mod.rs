@@ -26,7 +26,7 @@ use super::{
     thumbnails::Thumbnails,
     toasts,
     ui_output::{Pick, ShellCommand, UiOutput},
-    viewport::{Around, Viewport},
+    viewport::{Viewport, ViewportMode},
 };
 use crate::{
     gpu::Gpu,
@@ -84,7 +84,7 @@ pub struct Shell {
     was_focused: bool,
     pressed: keys::Keys,
     /// Wanted by the frame before: done when the session has done what went with it.
-    wishes: Vec<ShellCommand>,
+    shell_commands: Vec<ShellCommand>,
     places: UiOutput,
     /// Notices and texts told of in the report.
     reported_notice: Option<u64>,
@@ -130,7 +130,7 @@ impl Shell {
             opened: 0,
             was_focused: false,
             pressed: keys::Keys::default(),
-            wishes: Vec::new(),
+            shell_commands: Vec::new(),
             places: UiOutput::default(),
             reported_notice: None,
             reported_generation: None,
@@ -206,7 +206,7 @@ impl Shell {
         let mut out = UiOutput::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
             // What is mended is no news any more, and what is said anew is said once.
-            let is_over = |text: &str| self.keys.is_mended(text) || self.settings.is_mended(text);
+            let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
             let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
             over.for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
         }
@@ -215,7 +215,7 @@ impl Shell {
         }
         out.commands.extend(self.follow_settings(ui.ctx()));
         out.commands.extend(self.browser.take());
-        out.wishes.append(&mut self.wishes);
+        out.shell_commands.append(&mut self.shell_commands);
         let asking = session.question().is_some();
         if asking && self.palette.is_open() {
             self.palette.close(ui);
@@ -230,7 +230,7 @@ impl Shell {
         if self.presents && !self.gallery {
             self.present(ui, session, &mut out);
         } else if self.fullscreen && !self.gallery {
-            let picture = |ui: &mut Ui| self.viewport.show(ui, session, Around::Nothing, &mut out);
+            let picture = |ui: &mut Ui| self.viewport.show(ui, session, ViewportMode::Window, &mut out);
             CentralPanel::default().frame(Frame::NONE).show(ui, picture);
         } else {
             self.panels(ui, session, &mut out);
@@ -257,11 +257,11 @@ impl Shell {
             out.act(action);
         }
         match self.files.show(ui, &mut out) {
-            Some(Picked::Path(pick, path)) => out.wishes.push(ShellCommand::Picked(pick, path)),
+            Some(Picked::Path(pick, path)) => out.shell_commands.push(ShellCommand::Picked(pick, path)),
             Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(Command::SaveAsCancelled),
             Some(Picked::Cancelled(_)) | None => {}
         }
-        for wish in std::mem::take(&mut out.wishes) {
+        for wish in std::mem::take(&mut out.shell_commands) {
             self.grant(ui, session, wish, &mut out);
         }
         let is_over = self.help.is_some() || self.page_of_settings.is_some() || self.palette.is_open();
@@ -335,7 +335,7 @@ impl Shell {
         let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
         let keymap = self.keys.keymap().clone();
         let actions = ui.input_mut(|i| self.pressed.take(&mut i.events, &keymap, keyboard));
-        out.wishes.extend(actions.into_iter().map(ShellCommand::Act));
+        out.shell_commands.extend(actions.into_iter().map(ShellCommand::Act));
         if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
@@ -380,7 +380,7 @@ impl Shell {
 
     #[cfg(test)]
     pub fn ask_fix(&mut self, fix: crate::session::TabFix) {
-        self.wishes.push(ShellCommand::Fix(fix));
+        self.shell_commands.push(ShellCommand::Fix(fix));
     }
 
     #[cfg(test)]
@@ -448,11 +448,11 @@ impl Shell {
                     if clicked {
                         self.code.focus();
                     }
-                } else if !self.wishes.contains(&ShellCommand::GoTo(tab.clone(), place))
+                } else if !self.shell_commands.contains(&ShellCommand::GoTo(tab.clone(), place))
                     && out.commands.contains(&Command::AddTab(tab.clone()))
                 {
                     // The tab is being made; it is there in the next frame.
-                    self.wishes.push(ShellCommand::GoTo(tab, place));
+                    self.shell_commands.push(ShellCommand::GoTo(tab, place));
                 }
                 ui.ctx().request_repaint();
             }

@@ -4,21 +4,17 @@ use super::{Shell, of_project::OfProject};
 use crate::{
     gui::{
         actions::Action,
-        buffers::{self, Buffers},
+        buffers,
         channels::{self, Live},
         code::CodePanel,
-        compare::{self, Compare},
-        costs, custom_uniforms,
+        compare, costs, custom_uniforms,
         dock::{Contents, Heights, Panel},
         lab::Lab,
-        measures::{self, Measurements},
-        theme,
+        measures, theme,
         thumbnails::Thumbnails,
-        toasts, top_bar,
-        trace::{self, Debugger},
-        transport,
+        toasts, top_bar, trace, transport,
         ui_output::{ShellCommand, UiOutput},
-        viewport::{Around, Viewport},
+        viewport::{Viewport, ViewportMode},
     },
     project::Origin,
     session::{Command, Session},
@@ -49,17 +45,15 @@ impl Shell {
             return;
         }
         if let Some(tab) = self.lab.take_tab(session) {
-            out.wishes.push(ShellCommand::GoTo(tab, Some((0, 0))));
+            out.shell_commands.push(ShellCommand::GoTo(tab, Some((0, 0))));
         }
         if !self.dock.is_seen(Panel::Code) {
             toasts::panel(ui, session, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
         let Self { viewport, code, lab, kept, thumbnails, live, dock, .. } = self;
-        let OfProject { debugger, buffers, compare, measurements, passes: _ } = kept;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            let panels = Panels { viewport, code, lab, debugger, buffers, compare, measurements };
-            dock.show(ui, &mut Shown { panels, thumbnails, live, under_picture, session, out });
+            dock.show(ui, &mut Shown { viewport, code, lab, kept, thumbnails, live, under_picture, session, out });
         });
         // Who closes the panel is done with the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
@@ -82,7 +76,7 @@ impl Shell {
     pub(super) fn present(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
             let whole = ui.max_rect();
-            self.viewport.show(ui, session, Around::Nothing, out);
+            self.viewport.show(ui, session, ViewportMode::Window, out);
             // The rest is the picture's, with the mouse.
             let size = vec2((whole.width() * 0.56).clamp(320.0_f32.min(whole.width()), 1000.0), whole.height());
             let place = Rect::from_min_size(whole.min, size);
@@ -97,13 +91,13 @@ impl Shell {
                     ui.set_clip_rect(place);
                     self.code.show(ui, session, out);
                 });
-            way_out(ui, whole, out);
+            leave_button(ui, whole, out);
         });
     }
 }
 
 /// A button at the picture's corner by which a hand leaves code over picture; seen while the pointer moves there.
-fn way_out(ui: &Ui, whole: Rect, out: &mut UiOutput) {
+fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
     let corner = Rect::from_min_max(whole.right_top() + vec2(-260.0, 0.0), whole.right_top() + vec2(0.0, 120.0));
     if !ui.ctx().pointer_latest_pos().is_some_and(|at| corner.contains(at)) {
         return;
@@ -124,20 +118,12 @@ fn way_out(ui: &Ui, whole: Rect, out: &mut UiOutput) {
         });
 }
 
-/// The panels with a state of their own.
-struct Panels<'a> {
+/// Holds what is in the panels, while they are shown.
+struct Shown<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
-    debugger: &'a mut Debugger,
-    buffers: &'a mut Buffers,
-    compare: &'a mut Compare,
-    measurements: &'a mut Measurements,
-}
-
-/// Holds what is in the panels, while they are shown.
-struct Shown<'a> {
-    panels: Panels<'a>,
+    kept: &'a mut OfProject,
     /// The place of the picture under the pointer, as the newest frame had it.
     under_picture: Option<[f32; 2]>,
     thumbnails: &'a mut Thumbnails,
@@ -148,29 +134,21 @@ struct Shown<'a> {
 
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
-        let Self { panels, thumbnails, live, under_picture, session, out } = self;
-        let Panels { code, lab, debugger, buffers, compare, measurements, .. } = panels;
+        let Self { code, lab, kept, thumbnails, live, under_picture, session, out, .. } = self;
+        let margin = Margin { left: 8, right: 6, top: 2, bottom: 4 };
         match panel {
             Panel::Picture => return self.picture(ui),
             Panel::Code => return code.show(ui, session, out),
             Panel::Uniforms => within(ui, Margin::symmetric(10, 0), |ui| custom_uniforms::show(ui, session, out)),
             Panel::Channels => channels::show(ui, session, code.current(), thumbnails, live, out),
-            Panel::Costs => within(ui, Margin { left: 8, right: 6, top: 0, bottom: 4 }, |ui| {
-                costs::show(ui, session, out);
+            Panel::Costs => within(ui, Margin { top: 0, ..margin }, |ui| costs::show(ui, session, out)),
+            Panel::Trace => within(ui, margin, |ui| trace::show(&mut kept.debugger, ui, session, out)),
+            Panel::Buffers => within(ui, margin, |ui| {
+                let context = buffers::Context { live, under_picture: *under_picture };
+                buffers::show(&mut kept.buffers, ui, session, context, out);
             }),
-            Panel::Trace => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
-                trace::show(debugger, ui, session, out);
-            }),
-            Panel::Buffers => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
-                let around = buffers::Around { live, under_picture: *under_picture };
-                buffers::show(buffers, ui, session, around, out);
-            }),
-            Panel::Compare => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
-                compare::show(compare, ui, session, out);
-            }),
-            Panel::Measurements => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
-                measures::show(measurements, ui, session, out);
-            }),
+            Panel::Compare => within(ui, margin, |ui| compare::show(&mut kept.compare, ui, session, out)),
+            Panel::Measurements => within(ui, margin, |ui| measures::show(&mut kept.measurements, ui, session, out)),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }
         false
@@ -190,7 +168,7 @@ impl Contents for Shown<'_> {
                 0 => panel.title().to_owned(),
                 n => format!("{} ({n})", panel.title()),
             },
-            Panel::Channels => channels::title(self.session, self.panels.code.current()),
+            Panel::Channels => channels::title(self.session, self.code.current()),
             Panel::Costs => "Costs of a frame".to_owned(),
             _ => panel.title().to_owned(),
         }
@@ -217,10 +195,10 @@ impl Shown<'_> {
             .exact_size(transport::HEIGHT)
             .frame(Frame::NONE.fill(p.panel).inner_margin(Margin::symmetric(8, 0)))
             .show_separator_line(false)
-            .show(ui, |ui| transport::show(ui, self.session, self.panels.viewport.shape(), self.out));
+            .show(ui, |ui| transport::show(ui, self.session, self.viewport.shape(), self.out));
         CentralPanel::default()
             .frame(Frame::NONE)
-            .show(ui, |ui| self.panels.viewport.show(ui, self.session, Around::Panels, self.out));
+            .show(ui, |ui| self.viewport.show(ui, self.session, ViewportMode::Panel, self.out));
         bar.inner
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{audited, buffers, compare, costs, dock::Panel, halt, measures, probe, problems, report::Report, theme},
+    gui::{buffers, compare, costs, dock::Panel, error_map, halt, measures, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -86,7 +86,7 @@ impl Shell {
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));
-        report.say_if_new("audit", audited::report(session));
+        report.say_if_new("audit", error_map::report(session));
         if self.dock.is_open(Panel::Trace) {
             report.say_if_new("trace", self.kept.debugger.report(session));
         }

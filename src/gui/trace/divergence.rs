@@ -103,7 +103,7 @@ fn found(traced: &Traced, result: &DivergenceFound, ui: &mut Ui, out: &mut UiOut
             let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
             let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));
             if out.clicked("trace:parted", &link.on_hover_text(of)) {
-                out.wishes.push(ShellCommand::GoTo(tab, Some((line, 0))));
+                out.shell_commands.push(ShellCommand::GoTo(tab, Some((line, 0))));
             }
         }
     });

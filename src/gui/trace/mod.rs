@@ -3,6 +3,7 @@
 //! Owns where in it one is, breakpoints and watches ([`Debugger`]), and the panel that shows them. What a moment holds,
 //! and where a step leads to, is [`crate::debugger::trace`]'s.
 
+mod buttons;
 mod debugger;
 mod divergence;
 mod moment;
@@ -10,7 +11,6 @@ mod panel;
 mod parts;
 mod report;
 mod rows;
-mod signs;
 
 pub use debugger::Debugger;
 pub use panel::show;

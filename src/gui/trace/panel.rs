@@ -1,12 +1,12 @@
 //! The panel: buttons, where one is, what there is to see, and at its foot how far the walker is from the device.
 
 use super::{
+    buttons,
     debugger::Debugger,
     divergence,
     moment::words,
     parts,
     rows::{self, Asked},
-    signs,
 };
 use crate::{
     debugger::trace::{MomentKind, Traced},
@@ -32,7 +32,7 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut U
     out.stop("trace", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
     ui.horizontal_wrapped(|ui| {
-        signs::show(ui, debugger.is_on(), out);
+        buttons::show(ui, debugger.is_on(), out);
         ui.add_space(6.0);
         if parts::button(
             ui,
@@ -273,7 +273,7 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
             is_edited |= switch.changed();
             let link = ui.link(name);
             if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
-                out.wishes.push(ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
+                out.shell_commands.push(ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
             }
             let field = TextEdit::singleline(&mut breakpoint.condition)
                 .id_salt(("condition", index))

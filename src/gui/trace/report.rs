@@ -19,7 +19,7 @@ impl Debugger {
             return json!({ "pixel": null, "trouble": session.trace().trouble, "breakpoints": breakpoints });
         };
         let told_of = |comment: &Printed| {
-            let values: Vec<String> = comment.values.iter().map(|(_, value)| told(value)).collect();
+            let values: Vec<String> = comment.values.iter().map(|(_, value)| watched_text(value)).collect();
             json!({ "line": comment.line + 1, "expression": comment.expression, "values": values })
         };
         let printed: Vec<Value> = self.printed.iter().flatten().map(told_of).collect();
@@ -29,7 +29,7 @@ impl Debugger {
         let changed: Vec<&str> =
             seen.variables.iter().filter(|v| v.is_changed).map(|v| v.shown.name.as_str()).collect();
         let watches: Map<String, Value> =
-            watched.into_iter().zip(&seen.watches).map(|(watch, value)| (watch, told(value).into())).collect();
+            watched.into_iter().zip(&seen.watches).map(|(watch, value)| (watch, watched_text(value).into())).collect();
         let mesh = traced.mesh().map(|(fragment, name)| {
             json!({ "draw": fragment.draw, "name": name, "triangle": fragment.triangle, "front": fragment.is_front })
         });
@@ -73,7 +73,7 @@ fn divergence(session: &Session) -> Value {
     }
 }
 
-fn told(value: &Watched) -> String {
+fn watched_text(value: &Watched) -> String {
     match value {
         Ok(value) => words(value),
         Err(why) => format!("error: {why}"),

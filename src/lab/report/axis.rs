@@ -78,13 +78,13 @@ mod tests {
 
     #[test]
     fn an_axis_of_any_length_can_be_read() {
-        let told = |ends| marks(ends).labelled.into_iter().map(label).collect::<Vec<_>>();
-        assert_eq!(told((0.01, 0.1)), ["0.01", "0.02", "0.05", "0.1"]);
-        assert_eq!(told((1.0, 100.0)), ["1", "2", "5", "10", "20", "50", "100"]);
-        assert_eq!(told((1e-5, 1e-4)), ["1e-5", "2e-5", "5e-5", "1e-4"]);
-        assert_eq!(told((1e3, 1e5)), ["1000", "2000", "5000", "10000", "20000", "50000", "1e5"]);
-        assert_eq!(told((1e-2, 10.0)), ["0.01", "0.1", "1", "10"]);
-        assert_eq!(told((1e-30, 1.0)).len(), 11);
+        let labels = |ends| marks(ends).labelled.into_iter().map(label).collect::<Vec<_>>();
+        assert_eq!(labels((0.01, 0.1)), ["0.01", "0.02", "0.05", "0.1"]);
+        assert_eq!(labels((1.0, 100.0)), ["1", "2", "5", "10", "20", "50", "100"]);
+        assert_eq!(labels((1e-5, 1e-4)), ["1e-5", "2e-5", "5e-5", "1e-4"]);
+        assert_eq!(labels((1e3, 1e5)), ["1000", "2000", "5000", "10000", "20000", "50000", "1e5"]);
+        assert_eq!(labels((1e-2, 10.0)), ["0.01", "0.1", "1", "10"]);
+        assert_eq!(labels((1e-30, 1.0)).len(), 11);
         // Every other line is there, and none twice.
         let Marks { labelled, others } = marks((0.01, 10.0));
         assert_eq!((labelled.len(), others.len()), (4, 3 * 8));

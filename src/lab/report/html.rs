@@ -61,7 +61,7 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
     let _ = writeln!(
         out,
         "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The \
-         roofline is a pass that copies rgba32f in the same turns; bytes a texel are the least that the plan of a \
+         roofline is a pass that copies rgba32f in the same turns; bytes per texel are the least that the plan of a \
          frame moves for a texel of the study's grid.</p>"
     );
 }
@@ -72,7 +72,7 @@ const COLUMNS: [&str; 11] = [
     "ms",
     "Mtexel/s",
     "% of roofline",
-    "bytes a texel and frame",
+    "bytes per texel and frame",
     "L2",
     "L&infin;",
     "order",

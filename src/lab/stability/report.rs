@@ -70,22 +70,22 @@ fn slowest(rows: &[&StabilityRecord]) -> String {
         Recovery::Frames(n) => (false, *n),
         Recovery::NotWithin(n) => (true, *n),
     })
-    .map_or(String::new(), told)
+    .map_or(String::new(), recovery_text)
 }
 
 /// The measured cells a step: of each case that is about them, else the most there were.
 fn cells(rows: &[&StabilityRecord]) -> String {
     let all = rows.iter().filter_map(|r| Some((r.kind, r.courant?.0)));
     let (about, others): (Vec<_>, Vec<_>) = all.partition(|(kind, _)| *kind == Kind::Courant);
-    let told = |(_, cells): &(Kind, f64)| format!("{cells:.2}");
+    let cell = |(_, cells): &(Kind, f64)| format!("{cells:.2}");
     if about.is_empty() {
-        others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(String::new(), told)
+        others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(String::new(), cell)
     } else {
-        about.iter().map(told).collect::<Vec<_>>().join(", ")
+        about.iter().map(cell).collect::<Vec<_>>().join(", ")
     }
 }
 
-fn told(recovery: Recovery) -> String {
+fn recovery_text(recovery: Recovery) -> String {
     match recovery {
         Recovery::Frames(n) => format!("{n} frames"),
         Recovery::NotWithin(n) => format!("more than {n} frames"),
@@ -96,7 +96,7 @@ fn told(recovery: Recovery) -> String {
 fn what(record: &StabilityRecord) -> String {
     match (&record.trouble, record.offence()) {
         (Some(trouble), _) => trouble.clone(),
-        (None, Some(offence)) => offence.told(),
+        (None, Some(offence)) => offence.describe(),
         (None, None) => "held".into(),
     }
 }
@@ -252,7 +252,7 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord], subject
             r.frames,
             escaped(&expected(r)),
             escaped(&what(r)),
-            r.recovery.map_or(String::new(), told),
+            r.recovery.map_or(String::new(), recovery_text),
             r.courant.map_or(String::new(), |c| short(c.0)),
         );
     }

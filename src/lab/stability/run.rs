@@ -103,14 +103,14 @@ fn keep(journal: &mut Option<Journal>, results: &mut Results, record: Record) ->
 /// For each project a line that says how many pairs of its sliders' ends were drawn.
 pub fn coverage(subjects: &[Subject], options: &Options, results: &Results) -> String {
     let size = options.size.unwrap_or(cases::base(options.extent));
-    let told = |subject: &Subject| {
+    let row = |subject: &Subject| {
         let fingerprint = subject.fingerprint();
         let mut drawn = cases::list(subject, options.extent, size);
         drawn.retain(|case| results.cases.iter().any(|r| is_known(r, subject, case, &fingerprint)));
         let (seen, all) = cases::coverage(subject, &drawn);
         format!("{}: {seen} of {all} pairs of sliders' ends\n", subject.name)
     };
-    subjects.iter().map(told).collect()
+    subjects.iter().map(row).collect()
 }
 
 fn is_known(record: &StabilityRecord, subject: &Subject, case: &Case, fingerprint: &str) -> bool {

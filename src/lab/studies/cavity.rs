@@ -194,7 +194,7 @@ impl Study for Cavity {
         .value("ghia_u_100", u)
         .value("ghia_v_100", v)
         .value("noise", slow.noise);
-        measured = slow.watched.told(measured);
+        measured = slow.watched.add_to(measured);
         if n < FINE {
             return Ok(measured);
         }

@@ -308,7 +308,7 @@ pub struct Watched {
 
 impl Watched {
     /// Adds what it has to a point's figures.
-    pub fn told(&self, mut measured: Measured) -> Measured {
+    pub fn add_to(&self, mut measured: Measured) -> Measured {
         for (name, value) in [("mach", self.mach), ("mass_drift", self.mass_drift)] {
             if let Some(value) = value {
                 measured = measured.value(name, value);

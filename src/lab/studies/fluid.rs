@@ -2,7 +2,7 @@
 
 use super::{
     flow::{Flow, STIFFNESS, Solver, divergence, largest, without_format},
-    rest,
+    waves,
 };
 use crate::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Race, Rig, Setup, Study, Unit,
@@ -218,7 +218,7 @@ impl Study for Fluid {
                 .value("energy_error", square_drift(&exact, after))
                 .value("divergence", divergence(&solver, after, SPEED))
                 .value("momentum", mean(after) / SPEED);
-        measured = watched.told(measured);
+        measured = watched.add_to(measured);
         // The hard cases and the single waves are the same on every grid.
         if !MAIN_GRIDS.contains(&point.grid) {
             return Ok(measured);
@@ -228,14 +228,14 @@ impl Study for Fluid {
         let n = if dt > LONG_STEP { HARD_GRID_OF_LONG_STEPS } else { HARD_GRID };
         let still = Flow { n, dt, viscosity: 0.0 };
         if base == "guay" {
-            let growth = rest::growth_of_sound(rig, still, stiffness, (20.0 / dt) as u32)?;
+            let growth = waves::growth_of_sound(rig, still, stiffness, (20.0 / dt) as u32)?;
             measured = measured.value("growth/theory", growth);
         }
         if without_format(base) != "mip-fluid" {
-            let left = rest::shear_wave(rig, base, Flow { viscosity: NU, ..still }, WAVE_TIME)?;
+            let left = waves::shear_wave(rig, base, Flow { viscosity: NU, ..still }, WAVE_TIME)?;
             measured = measured.value("shear_wave-1", left - 1.0);
         }
-        if let Some(left) = rest::checkerboard_left(rig, base, still, 100)? {
+        if let Some(left) = waves::checkerboard_left(rig, base, still, 100)? {
             measured = measured.hard(HardCase::at_most("left of a checkerboard in the pressure", left, 0.1));
         }
         let at_rest = at_rest(rig, &point.method, n, dt)?;

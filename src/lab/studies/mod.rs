@@ -18,11 +18,12 @@ pub mod outline;
 pub mod particles;
 pub mod poisson;
 mod precision;
-pub mod rest;
+
 mod silhouettes;
 pub mod ssr;
 pub mod taa;
 pub mod torus;
+pub mod waves;
 
 use super::{LabError, Study};
 use eddy_project::{listed, nearest};

@@ -150,7 +150,7 @@ impl Study for Particles {
                    of the peers is 10,000 steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the \
                    mean energy may drift by 1 % at most. The preset has no orbit; its hard cases are that in 600 \
                    frames nothing is below the floor and nothing is faster than its limit of 3 heights a second.",
-            parameter: "steps a second",
+            parameter: "steps per second",
             unit: Unit::Scene,
             error: "of the way gone",
         }

@@ -97,14 +97,14 @@ fn result(method: &str) -> &'static str {
 
 /// A resting picture.
 #[derive(Clone, Debug)]
-pub struct Rest {
+pub struct Still {
     pub picture: Picture,
     /// Root mean square over all pixels of the deviation in time, over a round of the jitter.
     pub flicker: f64,
 }
 
 /// The star at rest, after [`REST`] frames and a round more.
-pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Rest, LabError> {
+pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Still, LabError> {
     let mut running = rig.open(&scene(method, setting, SIDE as u32, false))?;
     running.frames(REST + 1)?;
     let mut frames = Vec::new();
@@ -119,7 +119,7 @@ pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Rest, LabError> {
         mean(&all.iter().map(|v| (v - middle).powi(2)).collect::<Vec<f64>>())
     };
     let variances: Vec<f64> = (0..values[0].len()).map(deviation).collect();
-    Ok(Rest { picture: frames.swap_remove(0), flicker: mean(&variances).sqrt() })
+    Ok(Still { picture: frames.swap_remove(0), flicker: mean(&variances).sqrt() })
 }
 
 /// Holds what a moving disc leaves.

@@ -231,6 +231,6 @@ impl Study for Torus {
             let ((r, u), (exact_r, exact_u)) = (peak(&solver, n, after), peak(&solver, n, &exact));
             measured = measured.value("r_peak", r / exact_r).value("u_peak", u / exact_u);
         }
-        Ok(watched.told(measured).hard(HardCase::at_most("energy over that at first", kept, 1.001)))
+        Ok(watched.add_to(measured).hard(HardCase::at_most("energy over that at first", kept, 1.001)))
     }
 }

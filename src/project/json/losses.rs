@@ -75,7 +75,7 @@ fn picture(input: &Input) -> Option<String> {
         Media::File(path) | Media::Picked(path) => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Some(format!(
-                "the image file {name}; the channel is empty on Shadertoy, and Eddy looks for the file beside the JSON."
+                "the image file {name}; the channel is empty on Shadertoy, and Eddy looks for the file next to the JSON."
             ))
         }
         Media::Site { .. } => None,

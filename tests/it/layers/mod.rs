@@ -6,6 +6,7 @@
 //! shown a violation.
 
 mod docs;
+mod pages;
 mod paths;
 mod texts;
 

@@ -4,7 +4,7 @@
 use super::{
     buffer::{Buffer, Unchanged},
     nesting::Nesting,
-    pieces::{self, Cut, Known, Piece},
+    pieces::{self, Cut, Piece, Reusable},
     wrap::{self, Breaks},
 };
 use crate::glsl::services::lines::{self, Inside, LexState, Scanner, Token};
@@ -79,8 +79,8 @@ impl Highlight {
             }
             let old = std::mem::take(&mut self.lines[line].cut);
             let text = buffer.line(line);
-            let tail = (Known { pieces: &old.pieces, bytes: text.len() + 1 }, old.end);
-            let cut = pieces::cut(text, state, Known::default(), tail, width, &mut scanned);
+            let tail = (Reusable { pieces: &old.pieces, bytes: text.len() + 1 }, old.end);
+            let cut = pieces::cut(text, state, Reusable::default(), tail, width, &mut scanned);
             (self.lines[line].state, self.lines[line].cut) = (state, cut);
             last = line + 1;
         }
@@ -108,13 +108,13 @@ impl Highlight {
         let mut state = if first == 0 { LexState::default() } else { self.state_after(buffer, first - 1) };
         for line in first..count - kept {
             let range = buffer.line_range(line);
-            let (mut head, mut tail) = (Known::default(), (Known::default(), LexState::default()));
+            let (mut head, mut tail) = (Reusable::default(), (Reusable::default(), LexState::default()));
             if let Some(old) = old.first().filter(|_| line == first) {
-                head = Known { pieces: &old.cut.pieces, bytes: (unchanged.head - range.start).min(range.len()) };
+                head = Reusable { pieces: &old.cut.pieces, bytes: (unchanged.head - range.start).min(range.len()) };
             }
             if let Some(old) = old.last().filter(|_| line + 1 == count - kept) {
                 let bytes = (range.end + unchanged.tail).saturating_sub(length);
-                tail = (Known { pieces: &old.cut.pieces, bytes }, old.cut.end);
+                tail = (Reusable { pieces: &old.cut.pieces, bytes }, old.cut.end);
             }
             let text = &buffer.text()[range];
             let cut = pieces::cut(text, state, head, tail, width, scanned);
@@ -166,7 +166,7 @@ impl Highlight {
                 continue;
             }
             let text = buffer.line(line);
-            let cut = pieces::cut(text, state, Known::default(), Default::default(), width, scanned);
+            let cut = pieces::cut(text, state, Reusable::default(), Default::default(), width, scanned);
             let columns = cut.pieces.iter().map(|p| p.columns).sum();
             let beginning = &text[..text.floor_char_boundary(pieces::PIECE)];
             let defines = lines::defined_name(beginning).map(Box::from);

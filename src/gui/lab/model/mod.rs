@@ -10,7 +10,7 @@ use egui::Pos2;
 
 /// Results of one extent, which those of the other are not mixed with.
 #[derive(Default)]
-pub struct Known {
+pub struct ExtentResults {
     pub results: Results,
     /// Points whose cost is only estimated: milliseconds a frame.
     pub estimates: Vec<(Point, f64)>,
@@ -23,9 +23,9 @@ pub struct Known {
 pub struct Dot {
     /// log10 of milliseconds and of the error.
     pub at: [f64; 2],
-    /// The index in [`Shown::table`].
+    /// The index in [`PlotData::table`].
     pub row: usize,
-    /// The index in [`Shown::methods`].
+    /// The index in [`PlotData::methods`].
     pub method: usize,
     pub look: Look,
     /// The cost is one turn's, by itself: it moves yet.
@@ -33,7 +33,7 @@ pub struct Dot {
 }
 
 /// A study's results, ready to be drawn.
-pub struct Shown {
+pub struct PlotData {
     pub table: Table,
     pub methods: Vec<&'static Method>,
     pub dots: Vec<Dot>,
@@ -43,11 +43,11 @@ pub struct Shown {
     pub bounds: Option<[(f64, f64); 2]>,
 }
 
-impl Known {
+impl ExtentResults {
     /// Takes in what a run says; whether there is something new to draw.
     pub fn take(&mut self, event: &Event) -> bool {
         match event {
-            Event::Known(results) => {
+            Event::Resumed(results) => {
                 // A folder that was written by another run has more than this window has seen.
                 self.results = results.clone();
                 self.estimates.retain(|(point, _)| self.results.error(point).is_some());
@@ -82,14 +82,14 @@ impl Known {
     }
 
     /// `None` where nothing of the study is known.
-    pub fn shown(&self, study: &dyn Study) -> Option<Shown> {
+    pub fn shown(&self, study: &dyn Study) -> Option<PlotData> {
         let estimate = |point: &Point| self.estimates.iter().find(|(p, _)| p == point).map(|(_, millis)| *millis);
-        Some(Shown::new(Table::with_estimates(study, &self.results, estimate)?))
+        Some(PlotData::new(Table::with_estimates(study, &self.results, estimate)?))
     }
 }
 
-impl Shown {
-    fn new(table: Table) -> Shown {
+impl PlotData {
+    fn new(table: Table) -> PlotData {
         let methods = table.methods();
         let dot = |(row, r): (usize, &Row)| {
             let (x, y) = r.place()?;
@@ -112,7 +112,7 @@ impl Shown {
             Some((a.log10(), b.log10()))
         };
         let bounds = around(0).zip(around(1)).map(|(x, y)| [x, y]);
-        Shown { methods, frontier: stairs, bounds, dots, table }
+        PlotData { methods, frontier: stairs, bounds, dots, table }
     }
 
     pub fn row(&self, dot: &Dot) -> &Row {
@@ -139,7 +139,7 @@ pub fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f3
 }
 
 /// Returns where a run stands, from 0 to 1, and in words.
-pub fn told(progress: &Progress) -> (f32, String) {
+pub fn progress_text(progress: &Progress) -> (f32, String) {
     match progress {
         Progress::Begins => (0.0, "opening a device".into()),
         Progress::Error { point, done, all } => {

@@ -8,7 +8,7 @@ use crate::lab::{
 use egui::pos2;
 
 /// The first study, its points on the main grid, and a run that begins.
-fn begun() -> (&'static dyn Study, Vec<Point>, Known) {
+fn begun() -> (&'static dyn Study, Vec<Point>, ExtentResults) {
     let study = studies::all()[0];
     let main = study.main_grid(Extent::Quick);
     let points = study.points(Extent::Quick).into_iter().filter(|p| p.grid == main).collect();
@@ -23,8 +23,8 @@ fn begun() -> (&'static dyn Study, Vec<Point>, Known) {
         seed: 1,
         beside_window: true,
     }));
-    let mut known = Known::default();
-    assert!(known.take(&Event::Known(results)));
+    let mut known = ExtentResults::default();
+    assert!(known.take(&Event::Resumed(results)));
     (study, points, known)
 }
 

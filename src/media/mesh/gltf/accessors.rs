@@ -221,7 +221,7 @@ impl<'a> Source<'a> {
     fn elements(&self, index: Index, view: Index, offset: u64, count: u64, size: usize) -> Result<Bytes<'a>, Trouble> {
         let stride = self.root.buffer_views[view as usize].byte_stride.unwrap_or(size as u64);
         if stride < size as u64 {
-            let why = format!("accessor {index} has elements of {size} bytes that lie {stride} apart");
+            let why = format!("accessor {index} has elements of {size} bytes with a stride of {stride}");
             return Err(Trouble::broken(why));
         }
         let view = self.buffers.view(self.root, view)?;

@@ -111,5 +111,5 @@ fn is_data(uri: &str) -> bool {
 
 fn data(uri: &str) -> Result<Vec<u8>, &'static str> {
     let url = DataUrl::process(uri).map_err(|_| "has no comma before its data")?;
-    url.decode_to_vec().map(|(bytes, _)| bytes).map_err(|_| "is not the base64 that it says it is")
+    url.decode_to_vec().map(|(bytes, _)| bytes).map_err(|_| "is not valid base64")
 }

@@ -23,11 +23,11 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, Trouble> {
         // The container of the extension KHR_binary_glTF.
         1 => return Err(Trouble::Version("1.0".into())),
         other => {
-            return Err(Trouble::broken(format!("its header says version {other} of the .glb container, not 2")));
+            return Err(Trouble::broken(format!("its header gives version {other} of the .glb container, not 2")));
         }
     }
     if (length as usize) < HEADER {
-        return Err(Trouble::broken("its header says a length shorter than the header"));
+        return Err(Trouble::broken("its header gives a length below that of the header"));
     }
     let Some(mut rest) = bytes.get(HEADER..length as usize) else {
         let there = bytes.len();

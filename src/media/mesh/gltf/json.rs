@@ -126,9 +126,9 @@ fn check_indices(root: &Root<'_>) -> Result<(), String> {
         }
     }
     for (n, node) in root.nodes.iter().enumerate() {
-        node.children.iter().try_for_each(|i| within(*i, nodes, &|| format!("node {n} has for a child node")))?;
-        node.mesh.map_or(Ok(()), |i| within(i, root.meshes.len(), &|| format!("node {n} shows mesh")))?;
-        node.skin.map_or(Ok(()), |i| within(i, root.skins.len(), &|| format!("node {n} wears skin")))?;
+        node.children.iter().try_for_each(|i| within(*i, nodes, &|| format!("node {n} has the child node")))?;
+        node.mesh.map_or(Ok(()), |i| within(i, root.meshes.len(), &|| format!("node {n} uses mesh")))?;
+        node.skin.map_or(Ok(()), |i| within(i, root.skins.len(), &|| format!("node {n} uses skin")))?;
         let instances = node.extensions.instancing.iter().flat_map(|one| one.attributes.all());
         for (name, index) in instances {
             within(index, accessors, &|| format!("node {n} has the {name} of its instances in accessor"))?;
@@ -138,7 +138,7 @@ fn check_indices(root: &Root<'_>) -> Result<(), String> {
         scene.nodes.iter().try_for_each(|i| within(*i, nodes, &|| format!("scene {s} has node")))?;
     }
     for (s, skin) in root.skins.iter().enumerate() {
-        skin.joints.iter().try_for_each(|i| within(*i, nodes, &|| format!("skin {s} has for a joint node")))?;
+        skin.joints.iter().try_for_each(|i| within(*i, nodes, &|| format!("skin {s} has the joint node")))?;
         let bind = skin.inverse_bind_matrices;
         bind.map_or(Ok(()), |i| within(i, accessors, &|| format!("skin {s} has its inverseBindMatrices in accessor")))?;
     }

@@ -86,7 +86,7 @@ fn accessors_that_the_crate_would_stumble_over_are_errors() {
     let gone = model(NODE, TRIANGLE).replace(r#""POSITION":0"#, r#""POSITION":77"#);
     says(&error("m.gltf", gone), "m.gltf is broken", "in accessor 77, but there are 1");
     let other = model(NODE, TRIANGLE).replace(r#""mesh":0"#, r#""mesh":5"#);
-    says(&error("m.gltf", other), "m.gltf is broken", "node 0 shows mesh 5, but there are 1");
+    says(&error("m.gltf", other), "m.gltf is broken", "node 0 uses mesh 5, but there are 1");
     for (from, to, what) in [
         ("VEC3", "VEC2", "accessor 0 has Vec2 of F32, which positions cannot have"),
         ("5126", "5123", "accessor 0 has Vec3 of U16, which positions cannot have"),
@@ -99,13 +99,13 @@ fn accessors_that_the_crate_would_stumble_over_are_errors() {
         says(&error("m.gltf", model(NODE, &accessor)), "m.gltf is broken", what);
     }
     let narrow = model(NODE, TRIANGLE).replace(r#""byteLength":36"#, r#""byteLength":36,"byteStride":4"#);
-    says(&error("m.gltf", narrow), "m.gltf is broken", "elements of 12 bytes that lie 4 apart");
+    says(&error("m.gltf", narrow), "m.gltf is broken", "elements of 12 bytes with a stride of 4");
     let beyond = sparse(9).replace(r#""bufferView":1"#, r#""bufferView":0,"byteOffset":14"#);
     says(&error("m.gltf", model(NODE, &beyond)), "m.gltf is broken", "out of order or beyond its end");
     let more = sparse(9).replace(r#""sparse":{"count":1"#, r#""sparse":{"count":10"#);
     says(&error("m.gltf", model(NODE, &more)), "m.gltf is broken", "has 9 elements and replaces 10");
     let header = [b"glTF", &2u32.to_le_bytes()[..], &4u32.to_le_bytes(), b"xxxxxxxx"].concat();
-    says(&error("m.glb", header), "m.glb is broken", "a length shorter than the header");
+    says(&error("m.glb", header), "m.glb is broken", "a length below that of the header");
 }
 
 #[test]

@@ -120,7 +120,7 @@ impl Renderer {
     fn rewind(&mut self, is_size_coming: bool) {
         // A device that is lost is told of by what is asked of it next.
         if let Err(e) = self.history.rewind(&mut self.engine, is_size_coming) {
-            log::error!("a frame is not drawn again: {e}");
+            log::error!("cannot draw a frame again: {e}");
         }
     }
 

@@ -31,7 +31,7 @@ pub trait Content: Default {
 
 /// A file in the folder for settings, and its content as it was read last.
 #[derive(Debug)]
-pub struct WatchedFile<T> {
+pub struct ConfigFile<T> {
     /// `None` where the system has no place for settings.
     path: Option<PathBuf>,
     /// The text that was read last.
@@ -43,7 +43,7 @@ pub struct WatchedFile<T> {
     is_unreadable: bool,
 }
 
-impl<T: Content> WatchedFile<T> {
+impl<T: Content> ConfigFile<T> {
     /// Names the file in the platform's folder for settings. It is not read yet.
     pub fn new() -> Self {
         Self::at(dirs::config_dir().map(|folder| folder.join("eddy").join(T::NAME)))
@@ -78,12 +78,12 @@ impl<T: Content> WatchedFile<T> {
         }
         let (content, mistakes) = text.as_deref().map(T::read).unwrap_or_default();
         (self.content, self.text) = (content, text);
-        self.mistakes = mistakes.iter().map(|mistake| told(path, mistake)).collect();
+        self.mistakes = mistakes.iter().map(|mistake| with_place(path, mistake)).collect();
         self.mistakes.clone()
     }
 
     /// Returns whether a text was said of the file and is true no more.
-    pub fn is_mended(&self, said: &str) -> bool {
+    pub fn is_fixed(&self, said: &str) -> bool {
         let path = self.path.as_ref().map(|path| path.display().to_string());
         path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.mistakes.iter().any(|m| m == said)
     }
@@ -95,11 +95,11 @@ impl<T: Content> WatchedFile<T> {
         let failed = |error: io::Error| format!("{}: {error}. {otherwise}", path.display());
         let there = read(path).map_err(failed)?;
         let is_known = there == self.text;
-        let text = edit(&there.unwrap_or_else(T::template)).map_err(|mistake| told(path, &mistake))?;
+        let text = edit(&there.unwrap_or_else(T::template)).map_err(|mistake| with_place(path, &mistake))?;
         write(path, &text).map_err(failed)?;
         // Another program may have written it meanwhile: then it is read as a whole once more, and mistakes are told.
         let (content, mistakes) = T::read(&text);
-        self.mistakes = mistakes.iter().map(|mistake| told(path, mistake)).collect();
+        self.mistakes = mistakes.iter().map(|mistake| with_place(path, mistake)).collect();
         (self.content, self.text) = (content, is_known.then_some(text));
         Ok(())
     }
@@ -142,7 +142,7 @@ fn read(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-fn told(path: &Path, mistake: &Mistake) -> String {
+fn with_place(path: &Path, mistake: &Mistake) -> String {
     format!("{}:{}: {}", path.display(), mistake.line, mistake.text)
 }
 

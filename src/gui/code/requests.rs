@@ -48,7 +48,7 @@ impl CodePanel {
                 }
                 Err(text) => out.ask(Command::Notify { level: Level::Info, text, path: None }),
             },
-            (Ask::Paste, _) => out.wishes.push(ShellCommand::PasteCode),
+            (Ask::Paste, _) => out.shell_commands.push(ShellCommand::PasteCode),
             (Ask::GoTo(_) | Ask::ListUses(_), None) => {}
         }
     }
@@ -63,7 +63,7 @@ impl CodePanel {
         match chosen {
             Chosen::Nothing => return,
             Chosen::Closed => {}
-            Chosen::Fix(fix) => out.wishes.push(ShellCommand::Fix(fix)),
+            Chosen::Fix(fix) => out.shell_commands.push(ShellCommand::Fix(fix)),
         }
         self.fixes = None;
     }

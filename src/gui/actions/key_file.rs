@@ -1,11 +1,11 @@
 //! `keybindings.toml` gives actions other keys.
 
 use super::{Keymap, file};
-use crate::gui::watched_file::{Content, Mistake, WatchedFile};
+use crate::gui::config_file::{ConfigFile, Content, Mistake};
 use std::sync::Arc;
 
 /// The keys as the file says, if there is one.
-pub type KeyFile = WatchedFile<Arc<Keymap>>;
+pub type KeyFile = ConfigFile<Arc<Keymap>>;
 
 impl Content for Arc<Keymap> {
     const NAME: &str = "keybindings.toml";
@@ -43,8 +43,11 @@ mod tests {
         assert_eq!(keys.refresh(), [""; 0]);
         assert_eq!(keys.keymap().hint(Action::Help), "F1");
         fs::write(&path, "help = \"F9\"\nhelp-me = \"F1\"\n").unwrap();
-        let told = keys.refresh();
-        assert!(told.len() == 1 && told[0].starts_with(&format!("{}:2: unknown action", path.display())), "{told:?}");
+        let messages = keys.refresh();
+        assert!(
+            messages.len() == 1 && messages[0].starts_with(&format!("{}:2: unknown action", path.display())),
+            "{messages:?}"
+        );
         assert_eq!(keys.keymap().hint(Action::Help), "F9");
         assert_eq!(keys.refresh(), [""; 0], "told once");
         keys.write_if_missing().unwrap();

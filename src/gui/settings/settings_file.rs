@@ -4,10 +4,10 @@ use super::{
     file,
     keys::{Change, Settings},
 };
-use crate::gui::watched_file::{Content, Mistake, WatchedFile};
+use crate::gui::config_file::{ConfigFile, Content, Mistake};
 
 /// The settings as the file says, if there is one.
-pub type SettingsFile = WatchedFile<Settings>;
+pub type SettingsFile = ConfigFile<Settings>;
 
 impl Content for Settings {
     const NAME: &str = "settings.toml";
@@ -58,8 +58,11 @@ mod tests {
         assert_eq!(next.refresh(), [""; 0]);
         assert_eq!(next.settings().theme, Theme::Light);
         fs::write(&path, "zoom = 2.0 # mine\nthem = 1\n").unwrap();
-        let told = file.refresh();
-        assert!(told.len() == 1 && told[0].starts_with(&format!("{}:2: unknown setting", path.display())), "{told:?}");
+        let messages = file.refresh();
+        assert!(
+            messages.len() == 1 && messages[0].starts_with(&format!("{}:2: unknown setting", path.display())),
+            "{messages:?}"
+        );
         assert_eq!((file.settings().zoom, file.settings().theme), (2.0, Theme::System));
         assert_eq!(file.refresh(), [""; 0], "told once");
         assert_eq!((file.trouble(), file.mistakes().len()), (None, 1));

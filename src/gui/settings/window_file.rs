@@ -1,8 +1,8 @@
 //! `window.toml`: where the window was, and its layout, from one start to the next.
 
 use crate::gui::{
+    config_file::write,
     dock::{Node, Panel},
-    watched_file::write,
 };
 use std::{collections::BTreeSet, fs, io, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
@@ -13,7 +13,7 @@ const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layo
 
 /// Says where the window is, in points of the system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct WindowPlace {
     pub size: Option<(f64, f64)>,
     /// The corner of its frame, where the system tells; physical pixels.
     pub corner: Option<(i32, i32)>,
@@ -26,12 +26,12 @@ pub struct Place {
 /// be the screen's.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct UsualSizes {
-    newest: Option<Place>,
-    before: Option<Place>,
+    newest: Option<WindowPlace>,
+    before: Option<WindowPlace>,
 }
 
 impl UsualSizes {
-    pub fn note(&mut self, place: Place) {
+    pub fn note(&mut self, place: WindowPlace) {
         if self.newest.is_none_or(|newest| newest.size != place.size) {
             self.before = self.newest;
         }
@@ -39,7 +39,7 @@ impl UsualSizes {
     }
 
     /// Returns the newest that is not of a size.
-    pub fn other_than(&self, size: (f64, f64)) -> Option<Place> {
+    pub fn other_than(&self, size: (f64, f64)) -> Option<WindowPlace> {
         [self.newest, self.before].into_iter().flatten().find(|place| place.size != Some(size))
     }
 }
@@ -47,7 +47,7 @@ impl UsualSizes {
 /// Holds what is remembered of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remembered {
-    pub place: Place,
+    pub place: WindowPlace,
     /// The panels that are open.
     pub open: Option<BTreeSet<Panel>>,
     /// As a person has made it.
@@ -79,8 +79,8 @@ impl WindowFile {
         };
         let (remembered, mistakes) = read(&text);
         self.known = remembered.clone();
-        let told = |(line, what): (usize, String)| format!("{}:{line}: {what}", path.display());
-        (remembered, mistakes.into_iter().map(told).collect())
+        let with_place = |(line, what): (usize, String)| format!("{}:{line}: {what}", path.display());
+        (remembered, mistakes.into_iter().map(with_place).collect())
     }
 
     pub fn known(&self) -> &Remembered {
@@ -153,7 +153,7 @@ fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
     if let Some(list) = value("open") {
         let names = list.as_array().map(|list| list.iter().filter_map(Value::as_str).collect::<Vec<_>>());
         for name in names.iter().flatten().filter(|name| Panel::named(name).is_none()) {
-            let all = Panel::ALL.map(Panel::name).join(", ");
+            let all = Panel::names();
             wrong("open", format!("unknown panel \"{name}\"; the panels are {all}"));
         }
         remembered.open = names.map(|names| names.into_iter().filter_map(Panel::named).collect());
@@ -176,7 +176,7 @@ mod tests {
             (Node::Tabs(vec![Node::Panel(Panel::Uniforms), Node::Panel(Panel::Costs)], 1), 0.25),
         ];
         Remembered {
-            place: Place { size: Some((1300.0, 800.0)), corner: Some((-10, 20)), is_maximized: true },
+            place: WindowPlace { size: Some((1300.0, 800.0)), corner: Some((-10, 20)), is_maximized: true },
             open: Some(BTreeSet::from([Panel::Picture, Panel::Code, Panel::Costs])),
             layout: Some(Node::Row(vec![(Node::Column(left), 0.5), (Node::Panel(Panel::Code), 0.5)])),
         }
@@ -184,7 +184,8 @@ mod tests {
 
     #[test]
     fn a_window_as_large_as_the_screen_goes_back_to_the_size_before() {
-        let place = |width: f64, x| Place { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
+        let place =
+            |width: f64, x| WindowPlace { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
         let mut sizes = UsualSizes::default();
         assert_eq!(sizes.other_than((1920.0, 600.0)), None);
         sizes.note(place(900.0, 5));
@@ -213,7 +214,7 @@ mod tests {
         let text = "width = 900.0\nheight = 600\nwidht = 3\nopen = [\"code\", \"cdoe\"]\n\
                     layout = { row = [\"code\", \"code\"] }\nx = 1\n";
         let (remembered, mistakes) = read(text);
-        assert_eq!(remembered.place, Place { size: Some((900.0, 600.0)), ..Place::default() });
+        assert_eq!(remembered.place, WindowPlace { size: Some((900.0, 600.0)), ..WindowPlace::default() });
         assert_eq!(remembered.open, Some(BTreeSet::from([Panel::Code])));
         assert_eq!(remembered.layout, None);
         let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();

@@ -81,7 +81,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
         let row = ui.selectable_label(false, words.color(color)).on_hover_text(tip);
         if out.clicked(&format!("audit:worst:{index}"), &row) {
             let part = |at: u32, of: u32| (at as f32 + 0.5) / of.max(1) as f32;
-            out.wishes.push(ShellCommand::Trace([part(*x, map.size.0), part(*y, map.size.1)]));
+            out.shell_commands.push(ShellCommand::Trace([part(*x, map.size.0), part(*y, map.size.1)]));
         }
     }
 }
