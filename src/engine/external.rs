@@ -34,10 +34,7 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
         InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
             Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
-        InputKind::Video
-        | InputKind::Music
-        | InputKind::Microphone
-        | InputKind::Webcam => None,
+        InputKind::Video | InputKind::Music | InputKind::Microphone | InputKind::Webcam => None,
     }
 }
 

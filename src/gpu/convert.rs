@@ -32,12 +32,7 @@ impl FloatConverter {
     }
 
     /// Does the same as [`FloatConverter::convert`] for any layer and level of a texture.
-    pub fn convert_level(
-        &self,
-        gpu: &Gpu,
-        picture: &Texture,
-        (layer, level): (u32, u32),
-    ) -> Result<Texture, GpuError> {
+    pub fn convert_level(&self, gpu: &Gpu, picture: &Texture, (layer, level): (u32, u32)) -> Result<Texture, GpuError> {
         let side = |texels: u32| (texels >> level).max(1);
         let (width, height) = (side(picture.width()), side(picture.height()));
         let descriptor =

@@ -112,11 +112,7 @@ impl Texture {
     }
 
     /// Returns the same of a layer.
-    pub fn layer_attachment(
-        &self,
-        layer: u32,
-        load: wgpu::LoadOp<wgpu::Color>,
-    ) -> wgpu::RenderPassColorAttachment<'_> {
+    pub fn layer_attachment(&self, layer: u32, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
         wgpu::RenderPassColorAttachment {
             view: self.layer(layer),
             depth_slice: None,

@@ -3,7 +3,7 @@
 use super::Texels;
 use eddy_texture::{Dimension, TextureShape};
 
-/// Where the faces lie in a cross of 4:3, in cells from its top left.
+/// The cells of the faces in a cross of 4:3, from its top left.
 const CROSS: [(usize, usize); 6] = [(2, 1), (0, 1), (1, 0), (1, 2), (1, 1), (3, 1)];
 
 impl Texels {

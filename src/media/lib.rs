@@ -186,7 +186,7 @@ pub struct MediaKey {
 }
 
 impl MediaKey {
-    /// What a channel reads; `None` where it reads nothing that is loaded.
+    /// Returns the key of a channel; `None` where it reads nothing that is loaded.
     pub fn of_channel(channel: &Channel) -> Option<MediaKey> {
         let Channel { input, sampler } = channel;
         let vflip = sampler.vflip && input.row().has_vflip;

@@ -87,7 +87,7 @@ pub(super) const CUBEMAP: PassRow = PassRow {
     format: Some(TexelFormat::Rgba16f),
     refused: &[
         (&["size", "format"], "a cubemap has six faces of 1024x1024 texels of 16-bit floats"),
-        (&["region"], "a part of the picture is no part of a cube: all six faces are drawn"),
+        (&["region"], "all six faces of a cubemap are drawn whole"),
         (&["initial", "boundary"], "only buffers have it: a cubemap begins as zeros, and its faces have no boundary"),
         NO_MESHES,
     ],

@@ -155,7 +155,8 @@ fn derivatives_where_neighbours_part_are_listed() {
     let listed = |code: &str, filter: Filter| {
         let project = Project::of_image("Untitled".into(), code.into());
         let mut inputs = inputs();
-        let level = |width| TextureLevel { width, height: width, depth: 1, texels: vec![[0.5; 4]; (width * width) as usize] };
+        let level =
+            |width| TextureLevel { width, height: width, depth: 1, texels: vec![[0.5; 4]; (width * width) as usize] };
         (inputs.channels[0].levels, inputs.channels[0].filter) = (vec![level(2), level(1)], filter);
         let pixels: Vec<(u32, u32)> = (0..8).map(|x| (x, 1)).collect();
         let audit = audit(&Sources::new(&project), 0, &inputs, &pixels, STEPS).unwrap();

@@ -1,7 +1,9 @@
 //! Reads back what a draw is about to read.
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
-use crate::{EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared};
+use crate::{
+    EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
+};
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{TexelSource, When};
 use eddy_media::Texels;

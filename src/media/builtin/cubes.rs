@@ -3,10 +3,7 @@
 //! Each is a function of the direction, seen from where the camera stands.
 
 use super::noise::hash2;
-use crate::{
-    Texels,
-    load::cube::of_directions,
-};
+use crate::{Texels, load::cube::of_directions};
 use eddy_texture::{Face, TexelFormat};
 
 /// Texels along a face of the sharp and of the blurred ones.
@@ -237,7 +234,8 @@ fn forest_color([x, y, z]: [f32; 3]) -> Color {
     let sky = mixed([0.85, 0.9, 0.95], [0.4, 0.6, 0.9], up);
     let mut color = mixed(sky, [0.16, 0.24, 0.1], 3.0 * (0.75 - up - 0.5 * leaves(6.0, 61)));
     // Far trunks first, near ones over them.
-    for (layer, (count, width, dark)) in [(6.0, 0.16, 0.55), (3.0, 0.2, 0.4), (1.5, 0.17, 0.28)].into_iter().enumerate() {
+    for (layer, (count, width, dark)) in [(6.0, 0.16, 0.55), (3.0, 0.2, 0.4), (1.5, 0.17, 0.28)].into_iter().enumerate()
+    {
         let (n, s) = cell(around * count);
         let seed = 71 + layer as u32;
         let center = 0.25 + 0.5 * random(n, 0, seed);

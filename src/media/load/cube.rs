@@ -73,7 +73,7 @@ pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
         Ok(if vflip { turned(cube) } else { cube })
     } else {
         Err(format!(
-            "the image has {width}x{height} texels, which is no layout of a cubemap: a cross is 4:3 or 3:4, a strip \
+            "the image has {width}x{height} texels, which is not a layout of a cubemap: a cross is 4:3 or 3:4, a strip \
              6:1 or 1:6, a panorama 2:1"
         ))
     }

@@ -4,9 +4,9 @@ mod apng;
 pub(crate) mod cube;
 mod kinds;
 mod radiance;
-mod volume;
 #[cfg(test)]
 mod tests;
+mod volume;
 
 use super::{MediaError, MediaKey, Texels, builtin, error::Excess, npy, played::Played, site};
 use eddy_project::{FileError, Media, confine, limits, nearest};
@@ -50,8 +50,7 @@ pub(super) fn load_within(
             let file = site::site_file(id, path);
             let name = path.rsplit('/').next().unwrap_or_default();
             if let Some(found) = media_dir.map(|d| d.join(name)).filter(|p| !name.is_empty() && p.is_file()) {
-                let texels =
-                    Source { path: &found, shown: &found, read: &read_own, room }.load(dimension, vflip)?;
+                let texels = Source { path: &found, shown: &found, read: &read_own, room }.load(dimension, vflip)?;
                 return Ok(if file.is_some_and(|t| t.is_grey) { red_only(texels) } else { texels });
             }
             file.and_then(|t| builtin::make(t.fallback, dimension, vflip))

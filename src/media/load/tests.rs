@@ -1,12 +1,7 @@
 use super::*;
 use image::{ImageBuffer, Luma, Rgb, Rgba};
 
-fn picture(
-    media: &Media,
-    vflip: bool,
-    base: Option<&Path>,
-    media_dir: Option<&Path>,
-) -> Result<Texels, MediaError> {
+fn picture(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
     load(&MediaKey { media: media.clone(), dimension: Dimension::D2, vflip }, base, media_dir)
 }
 

@@ -53,7 +53,10 @@ fn checked(width: u32, height: u32, depth: u32, format: TexelFormat, room: u64) 
     if sides.contains(&0) {
         return Err(format!("it has {width}x{height}x{depth} texels: none"));
     } else if sides.iter().any(|side| *side > limits::VOLUME_SIDE) {
-        return Err(format!("it has {width}x{height}x{depth} texels, and the limit per side is {}", limits::VOLUME_SIDE));
+        return Err(format!(
+            "it has {width}x{height}x{depth} texels, and the limit per side is {}",
+            limits::VOLUME_SIDE
+        ));
     }
     let shape = TextureShape::volume(width, height, depth, format);
     if shape.bytes() > room.min(limits::PICTURE_BYTES) {
@@ -78,11 +81,17 @@ mod tests {
     #[test]
     fn the_sites_files_are_read() {
         let texels = read(&file([2, 1, 3], 1, 0, &[1, 2, 3, 4, 5, 6]), 100).unwrap();
-        assert_eq!(texels, Texels { shape: TextureShape::volume(2, 1, 3, TexelFormat::R8), bytes: vec![1, 2, 3, 4, 5, 6] });
+        assert_eq!(
+            texels,
+            Texels { shape: TextureShape::volume(2, 1, 3, TexelFormat::R8), bytes: vec![1, 2, 3, 4, 5, 6] }
+        );
         let color = read(&file([1, 1, 1], 4, 0, &[1, 2, 3, 4]), 100).unwrap();
         assert_eq!(color.shape.format, TexelFormat::Rgba8);
         let float = read(&file([1, 1, 1], 1, 10, &1.5f32.to_le_bytes()), 100).unwrap();
-        assert_eq!((float.shape.format, float.bytes), (TexelFormat::R16f, half::f16::from_f32(1.5).to_le_bytes().to_vec()));
+        assert_eq!(
+            (float.shape.format, float.bytes),
+            (TexelFormat::R16f, half::f16::from_f32(1.5).to_le_bytes().to_vec())
+        );
     }
 
     #[test]
