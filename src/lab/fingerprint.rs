@@ -1,6 +1,6 @@
 //! A number for what is measured: what was measured of other texts says nothing about these.
 
-use eddy_project::Project;
+use eddy_project::{Channel, Input, InputKind, PassId, Project};
 
 /// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
 pub(super) struct Fingerprint(u64);
@@ -14,7 +14,8 @@ impl Fingerprint {
         }
         print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
         for pass in &project.passes {
-            print.eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
+            let channels = pass.channels.each_ref().map(|channel| channel.as_ref().map_or("None".into(), channel_text));
+            print.eat(format!("[{}] {:?}", channels.join(", "), pass.settings).as_bytes());
         }
         print
     }
@@ -29,4 +30,18 @@ impl Fingerprint {
     pub fn text(&self) -> String {
         format!("{:016x}", self.0)
     }
+}
+
+/// Spells a channel. Results on disk are known by numbers of these texts, so the words never change, whatever the types
+/// are called.
+fn channel_text(channel: &Channel) -> String {
+    let input = match &channel.input {
+        Input::Pass { id: PassId::Buffer(name), target: 0 } => format!("Buffer({name:?})"),
+        Input::Pass { id: PassId::Buffer(name), target } => format!("Target {{ buffer: {name:?}, index: {target} }}"),
+        Input::Pass { .. } => "CubemapPass".into(),
+        Input::Media { kind: InputKind::Texture, media } => format!("Texture({media:?})"),
+        Input::Media { kind, media } => format!("{kind:?}({media:?})"),
+        Input::Device(kind) => format!("{kind:?}"),
+    };
+    format!("Some(Channel {{ input: {input}, sampler: {:?} }})", channel.sampler)
 }
