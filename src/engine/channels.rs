@@ -1,7 +1,7 @@
 //! The textures that the channels of a pass are bound to, and the way they are read on a device.
 
 use super::{
-    external::{self, External, ExternalKey, ExternalTexture, Picture},
+    external::{self, ChannelClock, External, ExternalKey, ExternalTexture, Picture},
     program::{BoundChannel, BoundExternal, FilterMode},
     sources::dimension,
     uploads::Uploads,
@@ -59,6 +59,7 @@ impl ChannelBinder<'_> {
     ) -> Result<BoundChannel, GpuError> {
         let source = channel.and_then(|c| Some((c, external::of_channel(self.media, c)?)));
         let resolution = source.as_ref().map_or([0.0; 3], |(_, source)| resolution(source.shape()));
+        let clock = source.as_ref().map_or(ChannelClock::Stopped, |(_, source)| source.clock());
         let external = match source.filter(|_| used.texture || used.sampler) {
             Some((Channel { input, sampler }, source)) => {
                 let key = ExternalKey { input: input.clone(), vflip: sampler.vflip, mips };
@@ -73,6 +74,7 @@ impl ChannelBinder<'_> {
             filter_mode,
             external,
             resolution,
+            clock,
             buffer: channel.and_then(|c| settings_of(self.project, c)).map(|s| s.size),
         })
     }

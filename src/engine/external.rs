@@ -1,10 +1,11 @@
 //! Textures whose texels come from outside of the passes, and the table of what fills them.
 
 use super::{FrameInputs, uploads::Uploads};
+use eddy_audio::{Analyser, BINS, SAMPLE_RATE, Sound, Spectrum, synthetic};
 use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
 use eddy_media::{Keyboard, MediaKey, MediaSet, Texels};
 use eddy_project::{Channel, Input, InputKind};
-use eddy_texture::TextureShape;
+use eddy_texture::{TexelFormat, TextureShape};
 use std::sync::Arc;
 
 /// A source of texels that is no pass.
@@ -18,6 +19,11 @@ pub(super) trait ExternalTexture: Send {
     /// Returns the texels as [`Texture::write`] takes them. They are zeros before the first call of
     /// [`ExternalTexture::advance`] that returns true.
     fn bytes(&self) -> &[u8];
+
+    /// Returns what `iChannelTime` follows.
+    fn clock(&self) -> ChannelClock {
+        ChannelClock::Stopped
+    }
 
     /// Returns texels that are the same in every frame: programs share their texture.
     fn constant(&self) -> Option<&Arc<Texels>> {
@@ -34,7 +40,8 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
         InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
             Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
-        InputKind::Video | InputKind::Music | InputKind::Microphone | InputKind::Webcam => None,
+        InputKind::Music => Some(Box::new(Music::new(media.sound(channel.input.media()?).cloned()))),
+        InputKind::Video | InputKind::Microphone | InputKind::Webcam => None,
     }
 }
 
@@ -51,6 +58,71 @@ impl ExternalTexture for Keyboard {
 
     fn bytes(&self) -> &[u8] {
         Self::bytes(self)
+    }
+}
+
+/// Says what `iChannelTime` of a channel is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum ChannelClock {
+    /// Zero.
+    #[default]
+    Stopped,
+    /// The position in media that are played in a loop of so many seconds.
+    Looped(f64),
+    /// What the site has for music that it may not play: 10 s more than `iTime`.
+    Synthetic,
+}
+
+impl ChannelClock {
+    pub fn at(self, time_secs: f64) -> f32 {
+        match self {
+            ChannelClock::Stopped => 0.0,
+            ChannelClock::Looped(seconds) => time_secs.rem_euclid(seconds) as f32,
+            ChannelClock::Synthetic => (10.0 + time_secs) as f32,
+        }
+    }
+}
+
+/// The spectrum and the wave of music that plays from `iTime` 0 on in a loop; without a file what the site makes up.
+struct Music {
+    sound: Option<Arc<Sound>>,
+    analyser: Analyser,
+    texture: Spectrum,
+    time_secs: Option<f64>,
+}
+
+impl Music {
+    fn new(sound: Option<Arc<Sound>>) -> Self {
+        Self { sound, analyser: Analyser::default(), texture: [0; 2 * BINS], time_secs: None }
+    }
+}
+
+impl ExternalTexture for Music {
+    fn shape(&self) -> TextureShape {
+        TextureShape::flat(BINS as u32, 2, TexelFormat::R8)
+    }
+
+    fn advance(&mut self, inputs: &FrameInputs) -> bool {
+        let FrameInputs { time_secs, time_delta_secs, .. } = *inputs;
+        // A frame that is drawn again while time stands still asks the analyser for nothing.
+        if self.time_secs.replace(time_secs) == Some(time_secs) {
+            return false;
+        }
+        let step = f64::from(time_delta_secs).max(1e-4);
+        let sample = |frames: u32| ((time_secs - f64::from(frames) * step) * f64::from(SAMPLE_RATE)).round() as i64;
+        let texture = match &self.sound {
+            Some(sound) => self.analyser.texture((0..).map(sample), |n| sound.looped(n)),
+            None => synthetic(time_secs),
+        };
+        std::mem::replace(&mut self.texture, texture) != texture
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.texture
+    }
+
+    fn clock(&self) -> ChannelClock {
+        self.sound.as_ref().map_or(ChannelClock::Synthetic, |sound| ChannelClock::Looped(sound.seconds()))
     }
 }
 

@@ -1,6 +1,10 @@
 //! A program: compiled passes, their pipelines, and the plan of a frame. It does not change from frame to frame.
 
-use super::{external::External, pipelines::StagePipeline, placed::PlacedMesh};
+use super::{
+    external::{ChannelClock, External},
+    pipelines::StagePipeline,
+    placed::PlacedMesh,
+};
 use eddy_glsl::{CustomUniformSet, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
@@ -100,6 +104,8 @@ pub(super) struct BoundChannel {
     pub external: Option<BoundExternal>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.
     pub resolution: [f32; 3],
+    /// What `iChannelTime` follows.
+    pub clock: ChannelClock,
     /// The size of the buffer the channel names, if it names one.
     pub buffer: Option<PassSize>,
 }

@@ -1,6 +1,7 @@
 //! Errors of loading a picture, with how to mend them.
 
 use super::{builtin, played::Played};
+use eddy_audio::AudioError;
 use eddy_project::{FileError, limits, listed};
 use eddy_texture::Dimension;
 use image::ImageError;
@@ -25,6 +26,8 @@ pub enum MediaError {
     Cubemap { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
     Volume { path: PathBuf, reason: String },
+    #[error("{}: {source}", path.display())]
+    Sound { path: PathBuf, source: AudioError },
     #[error("{}: the image has no texels", path.display())]
     Empty { path: PathBuf },
     #[error("{}: the image has {width}x{height} texels, {excess}", path.display())]
@@ -95,7 +98,8 @@ impl MediaError {
                  zero, the format (u16: 0 for bytes, 10 for floats))"
                     .into()
             }
-            MediaError::NoFolder { .. } => "save the project first, and put the image into its folder".into(),
+            MediaError::Sound { source, .. } => source.hint().into(),
+            MediaError::NoFolder { .. } => "save the project first, and put the file into its folder".into(),
             MediaError::UnknownBuiltin { dimension, .. } => {
                 format!("available: {}", listed(&builtin::names(*dimension).collect::<Vec<_>>()))
             }

@@ -1,8 +1,9 @@
 //! All the pictures of a project at once.
 
-use super::{MediaKey, MediaSet, MeshKey, load::load_within};
+use super::{MediaKey, MediaSet, MeshKey, load::load_within, sound};
+use eddy_audio::{SAMPLE_RATE, Sound};
 use eddy_diag::Diagnostic;
-use eddy_project::{Channel, FillValue, Input, Media, Pass, Project, limits};
+use eddy_project::{Channel, FillValue, Input, InputKind, Media, Pass, Project, limits};
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
@@ -42,22 +43,25 @@ fn pictures(
             continue;
         }
         let Some(key) = MediaKey::of_channel(channel) else { continue };
+        let is_music = channel.input.kind() == InputKind::Music;
         if let Some((message, hint)) = failed.get(&key) {
             warn(message.clone(), hint.clone());
             continue;
         }
-        if set.get(&key).is_some() {
+        if set.get(&key).is_some() || is_music && set.sound(&key.media).is_some() {
             continue;
         }
-        match load_within(&key, base, media_dir, set.room()) {
-            Ok(texels) => {
-                set.insert(key, Arc::new(texels));
-            }
-            Err(error) => {
-                let message = format!("{error}; the channel is black and of size 0");
-                warn(message.clone(), error.hint());
-                failed.insert(key, (message, error.hint()));
-            }
+        let (loaded, instead) = if is_music {
+            let sound = sound::load(&key.media, base, media_dir, set.room());
+            (sound.map(|sound| set.insert_sound(key.media.clone(), sound, &mut warn)), "a synthetic spectrum is shown")
+        } else {
+            let texels = load_within(&key, base, media_dir, set.room());
+            (texels.map(|texels| set.insert(key.clone(), Arc::new(texels))), "the channel is black and of size 0")
+        };
+        if let Err(error) = loaded {
+            let message = format!("{error}; {instead}");
+            warn(message.clone(), error.hint());
+            failed.insert(key, (message, error.hint()));
         }
     }
     warnings
@@ -92,12 +96,29 @@ pub fn meshes(project: &Project, set: &mut MediaSet) {
     }
 }
 
+/// Bytes of a frame of sound, left and right.
+const SOUND_BYTES: u64 = 8;
+
+/// Seconds of sound for which there is room. While it is resampled there are two of it.
+pub(super) fn room_of(bytes: u64) -> u64 {
+    bytes / (2 * SOUND_BYTES * u64::from(SAMPLE_RATE))
+}
+
 impl MediaSet {
     /// Bytes that more pictures and models may take.
     fn room(&self) -> u64 {
         let pictures = self.pictures.values().map(|texels| texels.bytes.len() as u64).sum::<u64>();
+        let sounds = self.sounds.values().map(|sound| sound.frames.len() as u64 * SOUND_BYTES).sum::<u64>();
         let meshes = self.meshes.values().flatten().map(|mesh| mesh.bytes()).sum::<u64>();
-        limits::MEDIA_BYTES.saturating_sub(pictures + meshes)
+        limits::MEDIA_BYTES.saturating_sub(pictures + sounds + meshes)
+    }
+
+    fn insert_sound(&mut self, media: Media, sound: Sound, warn: &mut impl FnMut(String, String)) {
+        if sound.truncated {
+            let message = format!("only the first {:.0} s of the music are played", sound.seconds());
+            warn(message, "cut the file: ffmpeg -i FILE -t 1200 music.ogg".into());
+        }
+        self.sounds.insert(media, Arc::new(sound));
     }
 }
 
@@ -115,7 +136,7 @@ fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{InputKind, Origin, PassId, Source};
+    use eddy_project::{Origin, PassId, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(Channel::new));

@@ -14,6 +14,7 @@ pub mod mesh;
 mod npy;
 mod played;
 mod site;
+mod sound;
 
 pub use error::MediaError;
 pub use gather::{files, fills, gather, meshes};
@@ -21,6 +22,7 @@ pub use keyboard::Keyboard;
 pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
 
+use eddy_audio::Sound;
 use eddy_diag::Diagnostic;
 use eddy_project::{Channel, Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
@@ -61,6 +63,7 @@ impl Texels {
 pub struct MediaSet {
     /// By what the channel names and whether it is flipped.
     pictures: HashMap<MediaKey, Arc<Texels>>,
+    sounds: HashMap<Media, Arc<Sound>>,
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshKey, Result<Arc<Mesh>, MeshError>>,
@@ -78,6 +81,11 @@ impl MediaSet {
 
     pub fn insert(&mut self, key: MediaKey, texels: Arc<Texels>) {
         self.pictures.insert(key, texels);
+    }
+
+    /// The sound that a channel of music names.
+    pub fn sound(&self, media: &Media) -> Option<&Arc<Sound>> {
+        self.sounds.get(media)
     }
 
     /// The texels of a file that fills a pass, as [`fills`] loaded it.

@@ -171,7 +171,6 @@ static ROWS: [InputRow; 10] = [
         json_stream_type: Some("musicstream"),
         has_fixed_sampler: true,
         has_vflip: false,
-        undrawn: Some("music cannot be read yet"),
         ..PICTURE
     },
     InputRow {

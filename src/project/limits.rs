@@ -51,7 +51,9 @@ pub const PICTURE_SIDE: u32 = 32_768;
 pub const PICTURE_BYTES: u64 = 512 << 20;
 /// Texels along each side of a volume, and slices of one: what the devices of today take.
 pub const VOLUME_SIDE: u32 = 2048;
-/// All pictures and models of a project together, as Eddy holds them.
+/// Seconds of a sound file that are decoded; 8 bytes a sample are kept of them.
+pub const SOUND_SECONDS: u32 = 20 * 60;
+/// All pictures, sounds and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 
 /// Vertices of a model; a mesh that several nodes place counts for each. 64 bytes each.

@@ -7,7 +7,7 @@ use crate::{
         thumbnails::{Subject, Thumbnail, Thumbnails},
     },
     media::MediaKey,
-    project::{Input, Origin, PassId},
+    project::{Input, InputKind, Origin, PassId},
     session::Session,
     texture::Dimension,
 };
@@ -48,7 +48,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
     let painter = ui.painter();
     painter.rect_filled(place, 3.0, theme::of(ui).surround);
     let letter = match input {
-        Input::Media { media, .. } if input.row().undrawn.is_none() => {
+        Input::Media { kind: InputKind::Texture | InputKind::Cubemap | InputKind::Volume, media } => {
             let dimension = input.row().dimension;
             let key = MediaKey { media: media.clone(), dimension, vflip: dimension == Dimension::D2 };
             match thumbnails.get(Subject::Texture(key, folder(session))) {

@@ -1,0 +1,284 @@
+//! Sound files of all common kinds, decoded as a whole.
+
+use crate::{SAMPLE_RATE, Sound};
+use rubato::{Fft, FixedSync, Resampler, WindowFunction, audioadapter_buffers::direct::InterleavedSlice};
+use std::{io::Cursor, sync::Arc};
+use symphonia::core::{
+    codecs::audio::{AudioDecoder, AudioDecoderOptions},
+    errors::Error,
+    formats::{FormatOptions, FormatReader, TrackType, probe::Hint},
+    io::{MediaSourceStream, MediaSourceStreamOptions},
+    meta::MetadataOptions,
+};
+
+/// Bounds of one file, held before memory is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Length that is decoded; the rest of a longer file is left out.
+    pub seconds: u32,
+    pub channels: usize,
+    /// Lowest and highest number of samples a second.
+    pub rate: (u32, u32),
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { seconds: 20 * 60, channels: 8, rate: (4_000, 384_000) }
+    }
+}
+
+/// Reason why a file gives no sound.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AudioError {
+    #[error("no sound file that Eddy reads ({0})")]
+    Unknown(String),
+    #[error("no sound in the file")]
+    NoTrack,
+    #[error("{0} channels; at most {1} are read")]
+    Channels(usize, usize),
+    #[error("{0} samples a second; {1} to {2} are read")]
+    Rate(u32, u32, u32),
+    #[error("damaged: {0}")]
+    Damaged(String),
+    #[error("decoding took too long")]
+    GivenUp,
+}
+
+impl AudioError {
+    /// Returns what to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            AudioError::Unknown(_) => "wav, mp3, ogg, flac, m4a and aac are read; convert it: ffmpeg -i FILE music.ogg",
+            AudioError::NoTrack => "choose a file with sound in it",
+            AudioError::Channels(..) => "mix it down: ffmpeg -i FILE -ac 2 music.ogg",
+            AudioError::Rate(..) => "resample it: ffmpeg -i FILE -ar 44100 music.ogg",
+            AudioError::Damaged(_) | AudioError::GivenUp => "write it again: ffmpeg -i FILE music.ogg",
+        }
+    }
+}
+
+/// Decodes a file. `extension` helps where the content does not tell its kind; `go_on` is asked after every packet.
+pub fn decode(
+    file: Arc<[u8]>,
+    extension: Option<&str>,
+    limits: &Limits,
+    mut go_on: impl FnMut() -> bool,
+) -> Result<Sound, AudioError> {
+    let mut format = open(file, extension)?;
+    let (track, mut decoder) = decoder(&*format)?;
+    let mut stereo = Stereo::new(limits);
+    loop {
+        if !go_on() {
+            return Err(AudioError::GivenUp);
+        }
+        let packet = match format.next_packet() {
+            Ok(Some(packet)) => packet,
+            // A file that was cut off plays up to there, as in browsers.
+            Ok(None) | Err(Error::IoError(_)) => break,
+            Err(Error::ResetRequired) => break,
+            Err(Error::DecodeError(_)) => continue,
+            Err(error) => return Err(AudioError::Damaged(error.to_string())),
+        };
+        if packet.track_id != track {
+            continue;
+        }
+        match decoder.decode(&packet) {
+            Ok(audio) => {
+                let (rate, channels) = (audio.spec().rate(), audio.spec().channels().count());
+                let mut samples = Vec::new();
+                stereo.expect(rate, channels, audio.frames())?;
+                audio.copy_to_vec_interleaved::<f32>(&mut samples);
+                if !stereo.push(&samples) {
+                    break;
+                }
+            }
+            Err(Error::DecodeError(_)) => {}
+            Err(Error::IoError(_)) => break,
+            Err(error) => return Err(AudioError::Damaged(error.to_string())),
+        }
+    }
+    stereo.finish()
+}
+
+fn open(file: Arc<[u8]>, extension: Option<&str>) -> Result<Box<dyn FormatReader>, AudioError> {
+    let mut hint = Hint::new();
+    if let Some(extension) = extension {
+        hint.with_extension(extension);
+    }
+    let source = MediaSourceStream::new(Box::new(Cursor::new(file)), MediaSourceStreamOptions::default());
+    symphonia::default::get_probe()
+        .probe(&hint, source, FormatOptions::default(), MetadataOptions::default())
+        .map_err(|error| AudioError::Unknown(error.to_string()))
+}
+
+fn decoder(format: &dyn FormatReader) -> Result<(u32, Box<dyn AudioDecoder>), AudioError> {
+    let track = format.default_track(TrackType::Audio).ok_or(AudioError::NoTrack)?;
+    let parameters = track.codec_params.as_ref().and_then(|p| p.audio()).ok_or(AudioError::NoTrack)?;
+    let decoder = symphonia::default::get_codecs()
+        .make_audio_decoder(parameters, &AudioDecoderOptions::default())
+        .map_err(|error| AudioError::Unknown(error.to_string()))?;
+    Ok((track.id, decoder))
+}
+
+/// Frames that have been decoded, mixed to two channels, at the file's rate.
+struct Stereo<'a> {
+    limits: &'a Limits,
+    rate: u32,
+    channels: usize,
+    frames: Vec<f32>,
+    truncated: bool,
+}
+
+impl<'a> Stereo<'a> {
+    fn new(limits: &'a Limits) -> Self {
+        Stereo { limits, rate: 0, channels: 0, frames: Vec::new(), truncated: false }
+    }
+
+    /// Checks what a packet holds. A stream that changes its rate or channels within is damaged.
+    fn expect(&mut self, rate: u32, channels: usize, frames: usize) -> Result<(), AudioError> {
+        if frames == 0 {
+            return Ok(());
+        }
+        if channels == 0 || channels > self.limits.channels {
+            return Err(AudioError::Channels(channels, self.limits.channels));
+        }
+        let (lowest, highest) = self.limits.rate;
+        if !(lowest..=highest).contains(&rate) {
+            return Err(AudioError::Rate(rate, lowest, highest));
+        }
+        if self.channels != 0 && (self.rate, self.channels) != (rate, channels) {
+            return Err(AudioError::Damaged("the number of channels or the sample rate changes within".into()));
+        }
+        (self.rate, self.channels) = (rate, channels);
+        Ok(())
+    }
+
+    /// Takes a packet's interleaved samples; whether more are wanted.
+    fn push(&mut self, samples: &[f32]) -> bool {
+        if self.channels == 0 {
+            return true;
+        }
+        let room = (self.limits.seconds as usize * self.rate as usize).saturating_sub(self.frames.len() / 2);
+        let frames = samples.len() / self.channels;
+        self.truncated |= frames > room;
+        self.frames.extend(samples.chunks_exact(self.channels).take(room).flat_map(mix));
+        !self.truncated
+    }
+
+    fn finish(self) -> Result<Sound, AudioError> {
+        if self.frames.is_empty() {
+            return Err(AudioError::NoTrack);
+        }
+        let frames = if self.rate == SAMPLE_RATE { self.frames } else { resample(&self.frames, self.rate)? };
+        let frames = frames.chunks_exact(2).map(|f| [f[0], f[1]]).collect();
+        Ok(Sound { frames, truncated: self.truncated })
+    }
+}
+
+/// Left and right of a frame in the channel order of WAV files, mixed as the Web Audio API does ("Up-mixing and
+/// down-mixing": mono to both, 4 and 5.1 channels by their rules, of all else the first two).
+fn mix(frame: &[f32]) -> [f32; 2] {
+    const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
+    match *frame {
+        [mono] => [mono, mono],
+        [left, right, back_left, back_right] => [0.5 * (left + back_left), 0.5 * (right + back_right)],
+        [left, right, center, _, side_left, side_right] => {
+            [left + HALF * (center + side_left), right + HALF * (center + side_right)]
+        }
+        [left, right, ..] => [left, right],
+        [] => [0.0; 2],
+    }
+}
+
+/// Interleaved stereo at [`SAMPLE_RATE`].
+fn resample(frames: &[f32], rate: u32) -> Result<Vec<f32>, AudioError> {
+    let damaged = |error: &dyn std::fmt::Display| AudioError::Damaged(format!("cannot be resampled: {error}"));
+    let count = frames.len() / 2;
+    let input = InterleavedSlice::new(frames, 2, count).map_err(|e| damaged(&e))?;
+    // Blocks of an even number of output frames: half of one is the delay that is cut off, and half a frame is not.
+    let period = 2 * (rate / gcd(rate, SAMPLE_RATE)) as usize;
+    let block = 1024usize.next_multiple_of(period);
+    let window = WindowFunction::BlackmanHarris2;
+    let rates = (rate as usize, SAMPLE_RATE as usize);
+    let mut resampler =
+        Fft::<f32>::new_custom(rates.0, rates.1, block, 1, 2, window, FixedSync::Both).map_err(|e| damaged(&e))?;
+    Ok(resampler.process_all(&input, count, None).map_err(|e| damaged(&e))?.take_data())
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wav;
+
+    fn read(file: &[u8]) -> Result<Sound, AudioError> {
+        decode(file.into(), None, &Limits::default(), || true)
+    }
+
+    fn sine(count: usize, rate: f64) -> Vec<[i16; 2]> {
+        let value = |n: usize| (20_000.0 * (std::f64::consts::TAU * 440.0 * n as f64 / rate).sin()) as i16;
+        (0..count).map(|n| [value(n), -value(n)]).collect()
+    }
+
+    #[test]
+    fn a_wav_file_comes_back() {
+        let frames = sine(5000, 44_100.0);
+        let sound = read(&wav(&frames)).unwrap();
+        assert_eq!(sound.frames.len(), 5000);
+        for (got, wrote) in sound.frames.iter().zip(&frames) {
+            assert_eq!(got[0], f32::from(wrote[0]) / 32768.0);
+            assert_eq!(got[1], f32::from(wrote[1]) / 32768.0);
+        }
+    }
+
+    /// The header says another rate, so the sound is resampled: a 440 Hz sine stays one.
+    #[test]
+    fn another_rate_is_resampled() {
+        let mut file = wav(&sine(48_000, 48_000.0));
+        file[24..28].copy_from_slice(&48_000u32.to_le_bytes());
+        let sound = read(&file).unwrap();
+        assert!((sound.frames.len() as i64 - 44_100).abs() < 8, "{}", sound.frames.len());
+        let worst = (2000..42_000)
+            .map(|n| {
+                let exact = 20_000.0 / 32_768.0 * (std::f64::consts::TAU * 440.0 * n as f64 / 44_100.0).sin();
+                (f64::from(sound.frames[n][0]) - exact).abs()
+            })
+            .fold(0.0, f64::max);
+        assert!(worst < 2e-4, "{worst}");
+    }
+
+    #[test]
+    fn a_long_file_is_cut_and_says_so() {
+        let limits = Limits { seconds: 1, ..Limits::default() };
+        let sound = decode(wav(&sine(50_000, 44_100.0)).into(), None, &limits, || true).unwrap();
+        assert_eq!((sound.frames.len(), sound.truncated), (44_100, true));
+    }
+
+    #[test]
+    fn what_is_no_sound_is_refused() {
+        assert!(matches!(read(b"\x89PNG\r\n\x1a\n0000000000"), Err(AudioError::Unknown(_))));
+        assert!(matches!(read(b""), Err(AudioError::Unknown(_))));
+        assert_eq!(read(&wav(&[])), Err(AudioError::NoTrack));
+        let mut file = wav(&sine(100, 44_100.0));
+        file[24..28].copy_from_slice(&1u32.to_le_bytes());
+        assert_eq!(read(&file), Err(AudioError::Rate(1, 4_000, 384_000)));
+        assert_eq!(decode(wav(&sine(9, 1.0)).into(), None, &Limits::default(), || false), Err(AudioError::GivenUp));
+    }
+
+    #[test]
+    fn a_file_that_was_cut_off_plays_up_to_there() {
+        let file = wav(&sine(50_000, 44_100.0));
+        let sound = read(&file[..file.len() / 2]).unwrap();
+        assert!((20_000..=25_000).contains(&sound.frames.len()), "{}", sound.frames.len());
+    }
+
+    #[test]
+    fn channels_are_mixed() {
+        assert_eq!(mix(&[0.5]), [0.5, 0.5]);
+        assert_eq!(mix(&[1.0, 0.0, 0.5, 0.25]), [0.75, 0.125]);
+        assert_eq!(mix(&[0.1, 0.2, 0.0, 9.0, 0.0, 0.0]), [0.1, 0.2]);
+    }
+}

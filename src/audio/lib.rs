@@ -1,0 +1,42 @@
+//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, and WAV files.
+//!
+//! Nothing here reads a file or a clock: bytes come in, and time is a number of samples. Browsers smooth a spectrum once
+//! for each frame that asks for it; here the frames before are those that lie a frame's step apart, so that a frame does not
+//! depend on how it was reached.
+
+mod analyser;
+mod decode;
+mod synthetic;
+mod wav;
+
+pub use analyser::{Analyser, BINS, SILENCE, Spectrum};
+pub use decode::{AudioError, Limits, decode};
+pub use synthetic::synthetic;
+pub use wav::wav;
+
+/// Samples a second of everything behind the decoder; `iSampleRate`.
+pub const SAMPLE_RATE: u32 = 44_100;
+
+/// A decoded file: stereo frames at [`SAMPLE_RATE`], in -1 to 1 unless the file goes beyond.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sound {
+    pub frames: Vec<[f32; 2]>,
+    /// The file is longer than [`Limits::seconds`], and the rest was left out.
+    pub truncated: bool,
+}
+
+impl Sound {
+    /// Length in seconds.
+    pub fn seconds(&self) -> f64 {
+        self.frames.len() as f64 / f64::from(SAMPLE_RATE)
+    }
+
+    /// The mono sample `n` of the sound played in a loop from sample 0 on; silence before.
+    pub fn looped(&self, n: i64) -> f32 {
+        if n < 0 || self.frames.is_empty() {
+            return 0.0;
+        }
+        let [left, right] = self.frames[(n % self.frames.len() as i64) as usize];
+        0.5 * (left + right)
+    }
+}

@@ -1,0 +1,35 @@
+//! The spectrum and wave that the site shows in place of music that it may not play.
+
+use crate::{BINS, Spectrum};
+
+/// The texture at time `t` in seconds: formulas of the time alone, as the site's script has them.
+pub fn synthetic(t: f64) -> Spectrum {
+    let mut texture = [0; 2 * BINS];
+    let (spectrum, wave) = texture.split_at_mut(BINS);
+    for (j, (bin, sample)) in spectrum.iter_mut().zip(wave).enumerate() {
+        let x = j as f64 / BINS as f64;
+        let level = if j < 3 {
+            (0.5 + 0.5 * (6.2831 * t).sin()).powi(4) * (1.0 - j as f64 / 3.0)
+        } else {
+            (0.75 + 0.25 * (10.0 * j as f64 + 13.0 * t).sin()) * (-3.0 * x).exp()
+        };
+        *bin = (255.0 * level) as u8;
+        *sample = (255.0 * (0.5 + 0.15 * (17.0 * t + 62.831 * x).sin() * (23.0 * t + 1.9 * x).sin())) as u8;
+    }
+    texture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn at_the_start_and_a_quarter_of_a_second_later() {
+        let start = synthetic(0.0);
+        // (.5)^4 of the first bin, and two thirds of that; the wave rests.
+        assert_eq!((start[0], start[1], start[BINS]), (15, 10, 127));
+        let beat = synthetic(0.25);
+        assert_eq!(beat[0], 254);
+        assert!((0..BINS).all(|j| beat[j] >= synthetic(0.25)[BINS - 1] / 2));
+    }
+}
