@@ -27,12 +27,12 @@ pub struct Swatches<'a> {
 impl Swatches<'_> {
     /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
     pub fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
-        if let Some((pass, index)) = input.target().filter(|(pass, _)| pass.is_drawn()) {
-            if let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index) {
-                let shown = fitting(place, aspect);
-                ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
-                return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
-            }
+        if let Some((pass, index)) = input.target().filter(|(pass, _)| pass.is_drawn())
+            && let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index)
+        {
+            let shown = fitting(place, aspect);
+            ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
+            return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
         }
         swatch(ui, self.session, place, input, self.thumbnails);
     }
