@@ -51,6 +51,7 @@ mod lab_shapes;
 mod lab_stability;
 mod layers;
 mod long_arrays;
+mod music;
 mod next_project;
 mod pass_edits;
 mod passes;

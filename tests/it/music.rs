@@ -1,0 +1,86 @@
+//! Music as a texture: the analyser's rows, the same whichever frames were drawn, and what stands in for a missing file.
+
+use crate::support::{gpu, program::Bench};
+use std::f64::consts::TAU;
+
+/// A WAV file of a sine, 16 bits, stereo, 44.1 kHz.
+fn wav(hertz: f64, seconds: f64) -> Vec<u8> {
+    let count = (seconds * 44_100.0) as u32;
+    let mut file = b"RIFF".to_vec();
+    file.extend((36 + 4 * count).to_le_bytes());
+    file.extend(b"WAVEfmt \x10\0\0\0\x01\0\x02\0");
+    file.extend(44_100u32.to_le_bytes());
+    file.extend(176_400u32.to_le_bytes());
+    file.extend(b"\x04\0\x10\0data");
+    file.extend((4 * count).to_le_bytes());
+    for n in 0..count {
+        let value = (600.0 * (TAU * hertz * f64::from(n) / 44_100.0).sin()) as i16;
+        file.extend(value.to_le_bytes().repeat(2));
+    }
+    file
+}
+
+/// A project whose Image shows the texture, texel for texel, and in its third row what the uniforms say.
+fn project(b: &Bench, channel: &str) {
+    b.write("p/eddy.toml", format!("[passes.image]\nchannels.0 = {channel}\n"));
+    b.image(
+        "p/image.glsl",
+        "fragColor = fragCoord.y < 2. ? texelFetch(iChannel0, ivec2(fragCoord), 0) : \
+         vec4(iChannelTime[0], iChannelResolution[0]);",
+    );
+}
+
+fn texels(b: &Bench, at: &str) -> crate::support::program::Npy {
+    b.line(&format!("render p --size 512x3 --fps 60 --at {at} --out p.npy")).expect(0);
+    b.npy("p.npy")
+}
+
+#[test]
+fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/tone.wav", wav(440.0, 1.0));
+    project(&b, "{ file = \"tone.wav\", kind = \"music\" }");
+    let alone = texels(&b, "50");
+    let peak = (0..512).max_by(|x, y| alone.at(*x, 0)[0].total_cmp(&alone.at(*y, 0)[0])).unwrap();
+    assert!((20..=21).contains(&peak), "440 Hz lies in bin 20.4, not {peak}");
+    // The wave swings by 600 of 32,768 around 128 of 255.
+    let wave: Vec<f32> = (0..512).map(|x| alone.at(x, 1)[0] * 255.0).collect();
+    let (low, high) = wave.iter().fold((255f32, 0f32), |(low, high), v| (low.min(*v), high.max(*v)));
+    assert!((125.0..=126.5).contains(&low) && (129.5..=131.0).contains(&high), "{low} to {high}");
+    assert_eq!(alone.at(9, 2)[1..], [512.0, 2.0, 1.0]);
+    assert!((alone.at(9, 2)[0] - 50.0 / 60.0).abs() < 1e-6);
+    // It loops: a second and a half in, the position is half a second.
+    assert!((texels(&b, "90").at(9, 2)[0] - 0.5).abs() < 1e-6);
+    b.line("render p --size 512x3 --fps 60 --at 10,50 --format npy --out both").expect(0);
+    let names = b.names("both");
+    let run = b.npy(&format!("both/{}", names.iter().find(|n| n.contains("50")).unwrap()));
+    assert_eq!(run.texels, alone.texels);
+}
+
+#[test]
+fn without_a_file_the_spectrum_is_the_sites_own() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    project(&b, "{ file = \"gone.mp3\", kind = \"music\" }");
+    let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
+    assert!(run.err.contains("gone.mp3") && run.err.contains("synthetic spectrum"), "{}", run.err);
+    let shown = b.npy("p.npy");
+    let t: f64 = 30.0 / 60.0;
+    for j in [3usize, 100, 400] {
+        let x = j as f64 / 512.0;
+        let level = (0.75 + 0.25 * (10.0 * j as f64 + 13.0 * t).sin()) * (-3.0 * x).exp();
+        assert!((f64::from(shown.at(j, 0)[0]) - level).abs() < 1.0 / 255.0, "{j}");
+    }
+    assert_eq!(shown.at(0, 2)[0], 10.5);
+}
+
+#[test]
+fn a_damaged_file_is_named_with_the_mend() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/bad.mp3", [7; 4000]);
+    project(&b, "{ file = \"bad.mp3\", kind = \"music\" }");
+    let run = b.line("check p").expect(0);
+    assert!(run.err.contains("bad.mp3") && run.err.contains("ffmpeg"), "{} {}", run.out, run.err);
+}
