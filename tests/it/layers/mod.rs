@@ -20,6 +20,7 @@ use std::{
 
 /// The packages, each in the folder of its name, and the modules of the root package.
 const LAYERS: &[&str] = &[
+    "audio",
     "texture",
     "diag",
     "project",
@@ -67,6 +68,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["SystemTime", "Zoned"],
         &[
+            "audio",
             "texture",
             "diag",
             "project",
@@ -83,9 +85,12 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
-    (&["env"], &["texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
-    (&["fs", "File", "OpenOptions"], &["texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"]),
+    (&["Instant"], &["audio", "texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
+    (&["env"], &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
+    (
+        &["fs", "File", "OpenOptions"],
+        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"],
+    ),
 ];
 
 /// Where a render pass may be begun otherwise than by `Gpu::pass`, which keeps a driver's fault away: there, and where
