@@ -20,7 +20,7 @@ pub(super) trait ExternalTexture: Send {
     /// [`ExternalTexture::advance`] that returns true.
     fn bytes(&self) -> &[u8];
 
-    /// Returns what `iChannelTime` follows.
+    /// Says what `iChannelTime` is.
     fn clock(&self) -> ChannelClock {
         ChannelClock::Stopped
     }
@@ -69,7 +69,7 @@ pub(super) enum ChannelClock {
     Stopped,
     /// The position in media that are played in a loop of so many seconds.
     Looped(f64),
-    /// What the site has for music that it may not play: 10 s more than `iTime`.
+    /// 10 s more than `iTime`, as the site has it for music that it may not play.
     Synthetic,
 }
 

@@ -104,7 +104,7 @@ pub(super) struct BoundChannel {
     pub external: Option<BoundExternal>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.
     pub resolution: [f32; 3],
-    /// What `iChannelTime` follows.
+    /// Says what `iChannelTime` is.
     pub clock: ChannelClock,
     /// The size of the buffer the channel names, if it names one.
     pub buffer: Option<PassSize>,
