@@ -41,7 +41,7 @@ pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
 /// The part of a Shadertoy JSON file that says more of a shader than its passes.
 pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
 /// A picture, a model, or a file that a model names.
-pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image or a model" };
+pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound or a model" };
 /// A model file together with the buffers that it names.
 pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
@@ -52,7 +52,7 @@ pub const PICTURE_BYTES: u64 = 512 << 20;
 /// Texels along each side of a volume, and slices of one: what the devices of today take.
 pub const VOLUME_SIDE: u32 = 2048;
 /// Seconds of a sound file that are decoded; 8 bytes a sample are kept of them.
-pub const SOUND_SECONDS: u32 = 20 * 60;
+pub const SOUND_SECONDS: u32 = 1_200;
 /// All pictures, sounds and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 
