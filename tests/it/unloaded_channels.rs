@@ -29,14 +29,14 @@ const DEEP_READS: &[&str] = &[
     "textureGrad(iChannel0, vec3(p, 1.0), vec3(1.0), vec3(0.5))",
 ];
 
-/// Inputs that Eddy has no texture for. The engine is given no media here, so that a file is missing too.
+/// Inputs that Eddy has no texture for. The engine is given no media here, so that a file is missing too; without a file
+/// music has a spectrum all the same.
 fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
     let inputs = [
         Input::Device(InputKind::Webcam),
         Input::Device(InputKind::Microphone),
         Input::Media { kind: InputKind::Video, media: file() },
-        Input::Media { kind: InputKind::Music, media: file() },
         Input::texture(file()),
     ];
     [None].into_iter().chain(inputs.map(Some)).collect()
