@@ -3,6 +3,7 @@
 use crate::{BINS, Spectrum};
 
 /// The texture at time `t` in seconds: formulas of the time alone, as the site's script has them.
+#[expect(clippy::approx_constant, reason = "the site has 6.2831 for a full turn")]
 pub fn synthetic(t: f64) -> Spectrum {
     let mut texture = [0; 2 * BINS];
     let (spectrum, wave) = texture.split_at_mut(BINS);
