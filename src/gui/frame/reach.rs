@@ -6,7 +6,21 @@ use crate::{
     project::{PassId, Tab},
     session::Command,
 };
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
+
+/// All that a fast hand types may come in one frame.
+#[test]
+fn letters_and_return_in_one_frame_do_what_the_letters_say() {
+    let Some(mut stage) = open(false) else { return };
+    stage.run_steps(2);
+    press(&mut stage, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    stage.run_steps(2);
+    // The harness draws a frame for each event that it is given; these two are of one.
+    stage.input_mut().events.push(Event::Text("640".into()));
+    stage.key_down(Key::Enter);
+    stage.run_steps(2);
+    assert_eq!(stage.state().session.transport().fixed_size, Some((640, 360)));
+}
 
 #[test]
 fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {

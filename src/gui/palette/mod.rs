@@ -111,6 +111,7 @@ impl Palette {
         open.step(ui, fits.len(), rows);
         let mut chosen = open.keys.enter.then_some(open.selected);
         let mut closes = open.keys.escape;
+        let mut is_retyped = false;
         let area = Area::new(Id::unique("palette"))
             .order(Order::Foreground)
             .fixed_pos(pos2(window.center().x, window.top() + 44.0))
@@ -128,6 +129,7 @@ impl Palette {
                     }
                     if field.changed() {
                         (open.selected, open.top) = (0, 0);
+                        is_retyped = true;
                     }
                     closes |= field.lost_focus() && chosen.is_none();
                     ui.add_space(4.0);
@@ -162,6 +164,11 @@ impl Palette {
                 });
             });
         out.place("palette", area.response.rect);
+        // Letters and Return in one frame: the row is one of those that the letters leave.
+        let (fits, chosen) = match is_retyped && open.keys.enter {
+            true => (self::fits(&open.typed, &self.recent, offers), Some(0)),
+            false => (fits, chosen),
+        };
         let choice = chosen.and_then(|i| fits.get(i)).map(|fit| fit.choice);
         match choice {
             Some(Choice::Action(action)) => {
