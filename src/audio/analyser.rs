@@ -21,7 +21,7 @@ const DECIBELS: (f64, f64) = (-100.0, -30.0);
 pub type Spectrum = [u8; 2 * BINS];
 
 /// The texture of silence: no spectrum, and a wave at rest.
-pub const SILENCE: Spectrum = {
+const SILENCE: Spectrum = {
     let mut bytes = [128; 2 * BINS];
     let mut i = 0;
     while i < BINS {

@@ -212,7 +212,7 @@ fn gcd(a: u32, b: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wav;
+    use crate::wav::wav;
 
     fn read(file: &[u8]) -> Result<Sound, AudioError> {
         decode(file.into(), None, &Limits::default(), || true)

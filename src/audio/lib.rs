@@ -1,4 +1,4 @@
-//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, and WAV files.
+//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them.
 //!
 //! Nothing here reads a file or a clock: bytes come in, and time is a number of samples. Browsers smooth a spectrum once
 //! for each frame that asks for it; here the frames before are those that lie a frame's step apart, so that a frame does not
@@ -7,12 +7,12 @@
 mod analyser;
 mod decode;
 mod synthetic;
+#[cfg(test)]
 mod wav;
 
-pub use analyser::{Analyser, BINS, SILENCE, Spectrum};
+pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
 pub use synthetic::synthetic;
-pub use wav::wav;
 
 /// Samples a second of everything behind the decoder; `iSampleRate`.
 pub const SAMPLE_RATE: u32 = 44_100;

@@ -76,6 +76,9 @@ impl MediaError {
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the image down".into(),
             MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller images".into(),
             MediaError::TooLarge { .. } => "scale the image down".into(),
+            MediaError::NotPlayed { played: Played::Sound, .. } => {
+                "read it as music: add kind = \"music\" beside file in eddy.toml".into()
+            }
             MediaError::NotPlayed { .. } => {
                 "until then the channel reads black; let it read an image file or a buffer".into()
             }

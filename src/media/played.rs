@@ -1,4 +1,4 @@
-//! Sounds and films, which Eddy does not play: known, so that nobody is told to mend a file that is in order.
+//! Sounds and films where an image is wanted: known, so that nobody is told to mend a file that is in order.
 
 use std::{fmt, path::Path};
 
@@ -12,7 +12,7 @@ pub enum Played {
 impl fmt::Display for Played {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Played::Sound => "a sound file, which Eddy does not play yet",
+            Played::Sound => "a sound file, which does not play as an image",
             Played::Film => "a video file, which Eddy does not play yet",
         })
     }
