@@ -7,12 +7,14 @@
 mod analyser;
 mod decode;
 mod synthetic;
+mod track;
 #[cfg(test)]
 mod wav;
 
 pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
 pub use synthetic::synthetic;
+pub use track::Track;
 
 /// Samples a second of everything behind the decoder; `iSampleRate`.
 pub const SAMPLE_RATE: u32 = 44_100;

@@ -1,0 +1,70 @@
+//! A sound that is heard while the rest of it is still being made.
+
+use std::sync::OnceLock;
+
+/// Stereo frames of 16 bits in blocks of equal length. A block is written once, as a whole; blocks may come in any order.
+/// Reading takes no lock, so that a device's callback can do it.
+pub struct Track {
+    blocks: Box<[OnceLock<Box<[[i16; 2]]>>]>,
+    block_frames: usize,
+    frames: usize,
+}
+
+impl Track {
+    /// A track of `frames` frames, none of which are there yet.
+    pub fn new(frames: usize, block_frames: usize) -> Self {
+        assert!(block_frames > 0, "a block has at least one frame");
+        let blocks = (0..frames.div_ceil(block_frames)).map(|_| OnceLock::new()).collect();
+        Self { blocks, block_frames, frames }
+    }
+
+    /// Its length when all is made.
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// The first block that is not made yet.
+    pub fn first_missing(&self) -> Option<usize> {
+        self.blocks.iter().position(|block| block.get().is_none())
+    }
+
+    /// Writes block `index`, whose frames beyond the track's end are dropped. A block that is there stays.
+    pub fn write(&self, index: usize, mut frames: Vec<[i16; 2]>) {
+        let Some(block) = self.blocks.get(index) else { return };
+        frames.resize(self.block_frames.min(self.frames - index * self.block_frames), [0; 2]);
+        let _ = block.set(frames.into());
+    }
+
+    /// Frame `n`: silence before the beginning and after the end, `None` where it is not made yet.
+    pub fn frame(&self, n: i64) -> Option<[i16; 2]> {
+        let Ok(n) = usize::try_from(n) else { return Some([0; 2]) };
+        if n >= self.frames {
+            return Some([0; 2]);
+        }
+        self.blocks[n / self.block_frames].get().map(|block| block[n % self.block_frames])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_come_in_any_order_and_what_is_missing_is_told_from_silence() {
+        let track = Track::new(5, 2);
+        assert_eq!((track.blocks(), track.first_missing(), track.frame(0)), (3, Some(0), None));
+        track.write(2, vec![[5, -5], [9, 9]]);
+        track.write(0, vec![[1, -1], [2, -2]]);
+        track.write(7, vec![[7, 7]]);
+        assert_eq!(track.first_missing(), Some(1));
+        let read: Vec<_> = (-1..7).map(|n| track.frame(n)).collect();
+        let silence = Some([0, 0]);
+        assert_eq!(read, [silence, Some([1, -1]), Some([2, -2]), None, None, Some([5, -5]), silence, silence]);
+        track.write(0, vec![[8, 8]]);
+        assert_eq!(track.frame(0), Some([1, -1]), "what may be playing does not change");
+    }
+}
