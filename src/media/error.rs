@@ -25,6 +25,8 @@ pub enum MediaError {
     #[error("{}: {reason}", path.display())]
     Cubemap { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
+    TextureFile { path: PathBuf, kind: &'static str, reason: String },
+    #[error("{}: {reason}", path.display())]
     Volume { path: PathBuf, reason: String },
     #[error("{}: {source}", path.display())]
     Sound { path: PathBuf, source: AudioError },
@@ -66,7 +68,7 @@ fn reason(error: &ImageError) -> String {
     }
 }
 
-const KNOWN: [&str; 8] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "NPY"];
+const KNOWN: [&str; 11] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "EXR", "NPY", "KTX2", "DDS"];
 
 impl MediaError {
     /// Returns how to mend it.
@@ -95,6 +97,7 @@ impl MediaError {
                  cross of 4:3 or 3:4, a strip of 6:1 or 1:6, or a panorama of 2:1"
                     .into()
             }
+            MediaError::TextureFile { kind, .. } => format!("write the {kind} file anew, or save the texture in another format"),
             MediaError::Volume { .. } => {
                 "give the first of a stack of images of one size (brain_000.png, brain_001.png, ...), or a file of the site's \
                  kind: 20 bytes before the texels (BIN, a zero, three sides (u32), the number of channels (1 or 4), a \

@@ -131,6 +131,7 @@ fn panorama(picture: &Texels) -> Texels {
 pub(super) fn small_floats(texels: Texels) -> Texels {
     let format = match texels.shape.format {
         TexelFormat::Rgba32f => TexelFormat::Rgba16f,
+        TexelFormat::Rg32f => TexelFormat::Rg16f,
         TexelFormat::R32f => TexelFormat::R16f,
         _ => return texels,
     };

@@ -6,6 +6,7 @@ mod kinds;
 mod radiance;
 #[cfg(test)]
 mod tests;
+mod texture_file;
 mod volume;
 
 use super::{MediaError, MediaKey, Texels, builtin, error::Excess, npy, played::Played, site};
@@ -75,6 +76,10 @@ struct Source<'a> {
 impl Source<'_> {
     fn load(&self, dimension: Dimension, vflip: bool) -> Result<Texels, MediaError> {
         let bytes = (self.read)(self.path)?;
+        if let Some(kind) = texture_file::kind(&bytes) {
+            let failed = |reason| MediaError::TextureFile { path: self.shown.to_owned(), kind, reason };
+            return texture_file::read(&bytes, dimension, vflip, self.room).map_err(failed);
+        }
         match dimension {
             Dimension::D2 => decoded(bytes, self.shown, vflip, self.room),
             Dimension::Cube => self.cube(bytes, vflip),

@@ -29,7 +29,7 @@ pub enum FileKind {
 }
 
 /// Endings of pictures that a channel can read.
-pub const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr"];
+pub const PICTURES: [&str; 11] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx2", "dds"];
 /// Endings of models that a pass can draw.
 pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 /// Ending of recordings of input.

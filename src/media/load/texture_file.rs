@@ -1,0 +1,496 @@
+//! Files of textures: KTX2 (Khronos, KTX File Format Specification 2.0) and DDS (Microsoft, Programming Guide for DDS).
+//!
+//! Of the mip levels the first is read. Values are as stored: no colour space is undone.
+
+use super::{cube, flipped, volume};
+use crate::Texels;
+use eddy_project::limits;
+use eddy_texture::{Dimension, TexelFormat};
+use image_dds::{
+    ImageFormat, Surface,
+    ddsfile::{Caps2, Dds},
+};
+use ktx2::{Format, SupercompressionScheme};
+use std::{borrow::Cow, io::Read};
+
+const KTX2: &[u8] = b"\xabKTX 20\xbb";
+const DDS: &[u8] = b"DDS ";
+
+/// Returns the kind of texture file by its first bytes.
+pub fn kind(bytes: &[u8]) -> Option<&'static str> {
+    [(KTX2, "KTX2"), (DDS, "DDS")].iter().find(|(begin, _)| bytes.starts_with(begin)).map(|(_, kind)| *kind)
+}
+
+/// Reads a file as a texture of `dimension`, which may take `room` bytes while it is decoded. Rows of volumes stay in the
+/// file's order; those of pictures and faces begin at the top.
+pub fn read(bytes: &[u8], dimension: Dimension, vflip: bool, room: u64) -> Result<Texels, String> {
+    let file = if bytes.starts_with(KTX2) { File::ktx2(bytes, room)? } else { File::dds(bytes, room)? };
+    let held = file.dimension;
+    let mut layers = file.layers()?;
+    match (dimension, layers.len()) {
+        (Dimension::D2, 1) => {
+            let picture = layers.remove(0);
+            Ok(if vflip { flipped(picture) } else { picture })
+        }
+        (Dimension::Cube, 1) => cube::of_picture(layers.remove(0), vflip),
+        (Dimension::Cube, 6) if held == Dimension::Cube => {
+            cube::of_faces(layers.try_into().expect("there are six"), vflip)
+        }
+        (Dimension::D3, _) if held != Dimension::Cube => volume::of_slices(layers, room),
+        _ => Err(match held {
+            Dimension::Cube => "it has the faces of a cubemap: read it with kind = \"cubemap\"".into(),
+            Dimension::D3 => "it has the slices of a volume: read it with kind = \"volume\"".into(),
+            Dimension::D2 => format!("it has {} layers, and a picture has one", layers.len()),
+        }),
+    }
+}
+
+/// The first level of a file. A layer is a picture: a face of a cubemap, a slice of a volume, or an element of an array.
+struct File {
+    dimension: Dimension,
+    width: u32,
+    height: u32,
+    texels: Stored,
+    layers: Vec<Vec<u8>>,
+}
+
+/// The form of texels in a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stored {
+    /// Three bytes, red first.
+    Rgb8,
+    Other(ImageFormat),
+}
+
+impl Stored {
+    /// Returns the sides of a block of texels and its bytes.
+    fn block(self) -> (u32, u64) {
+        use ImageFormat as F;
+        match self {
+            Stored::Rgb8 | Stored::Other(F::Bgr8Unorm) => (1, 3),
+            Stored::Other(format) => match format {
+                F::BC1RgbaUnorm | F::BC1RgbaUnormSrgb | F::BC4RUnorm | F::BC4RSnorm => (4, 8),
+                F::BC2RgbaUnorm
+                | F::BC2RgbaUnormSrgb
+                | F::BC3RgbaUnorm
+                | F::BC3RgbaUnormSrgb
+                | F::BC5RgUnorm
+                | F::BC5RgSnorm
+                | F::BC6hRgbUfloat
+                | F::BC6hRgbSfloat
+                | F::BC7RgbaUnorm
+                | F::BC7RgbaUnormSrgb => (4, 16),
+                F::R8Unorm | F::R8Snorm => (1, 1),
+                F::Rgba16Float | F::Rgba16Unorm | F::Rgba16Snorm | F::Rg32Float => (1, 8),
+                F::Rgba32Float => (1, 16),
+                F::Rgb32Float => (1, 12),
+                F::Rg8Unorm
+                | F::Rg8Snorm
+                | F::Bgra4Unorm
+                | F::Bgr5A1Unorm
+                | F::R16Unorm
+                | F::R16Snorm
+                | F::R16Float => (1, 2),
+                _ => (1, 4),
+            },
+        }
+    }
+
+    fn layer_bytes(self, width: u32, height: u32) -> u64 {
+        let (side, bytes) = self.block();
+        u64::from(width.div_ceil(side)) * u64::from(height.div_ceil(side)) * bytes
+    }
+
+    /// Returns the format that it is kept in. Formats that no [`TexelFormat`] equals become four bytes, or four floats
+    /// where bytes would lose something.
+    fn kept(self) -> TexelFormat {
+        use ImageFormat as F;
+        match self {
+            Stored::Rgb8 => TexelFormat::Rgba8,
+            Stored::Other(format) => match format {
+                F::R8Unorm | F::BC4RUnorm => TexelFormat::R8,
+                F::Rg8Unorm | F::BC5RgUnorm => TexelFormat::Rg8,
+                F::R16Float => TexelFormat::R16f,
+                F::Rg16Float => TexelFormat::Rg16f,
+                F::Rgba16Float => TexelFormat::Rgba16f,
+                F::R32Float => TexelFormat::R32f,
+                F::Rg32Float => TexelFormat::Rg32f,
+                F::Rgba32Float
+                | F::Rgb32Float
+                | F::BC6hRgbUfloat
+                | F::BC6hRgbSfloat
+                | F::R8Snorm
+                | F::Rg8Snorm
+                | F::Rgba8Snorm
+                | F::BC4RSnorm
+                | F::BC5RgSnorm
+                | F::R16Unorm
+                | F::R16Snorm
+                | F::Rg16Unorm
+                | F::Rg16Snorm
+                | F::Rgba16Unorm
+                | F::Rgba16Snorm => TexelFormat::Rgba32f,
+                _ => TexelFormat::Rgba8,
+            },
+        }
+    }
+}
+
+impl File {
+    fn ktx2(bytes: &[u8], room: u64) -> Result<Self, String> {
+        let damaged = |error: ktx2::ParseError| format!("the KTX2 file is damaged ({error})");
+        let reader = ktx2::Reader::new(bytes).map_err(damaged)?;
+        let header = reader.header();
+        let format = header.format.ok_or(
+            "its texels are in Basis Universal; write them uncompressed, as BC1 to BC7, or with --zcmp (Zstandard)",
+        )?;
+        let texels = of_vulkan(format).ok_or_else(|| format!("its format {format:?} cannot be read; {READ}"))?;
+        let (depth, faces, array) = (header.pixel_depth, header.face_count.max(1), header.layer_count.max(1));
+        let dimension = match (depth, faces) {
+            (0, 6) => Dimension::Cube,
+            (0, _) => Dimension::D2,
+            _ => Dimension::D3,
+        };
+        let (width, height) = (header.pixel_width, header.pixel_height.max(1));
+        let count = u64::from(depth.max(1)) * u64::from(faces) * u64::from(array);
+        let layer = checked(width, height, count, texels, room)?;
+        let level = reader.levels().next().ok_or("it has no level")?;
+        let whole = layer * count as usize;
+        let data: Cow<[u8]> = match header.supercompression_scheme {
+            None => level.data.into(),
+            Some(SupercompressionScheme::Zstandard) => unpacked(level.data, whole)?.into(),
+            Some(other) => {
+                return Err(format!(
+                    "it is packed by {other:?}, which cannot be read; pack it by Zstandard or not at all"
+                ));
+            }
+        };
+        if data.len() < whole {
+            return Err(format!("its first level should have {whole} bytes, and has {}", data.len()));
+        }
+        let layers = data[..whole].chunks_exact(layer).map(<[u8]>::to_vec).collect();
+        Ok(Self { dimension, width, height, texels, layers })
+    }
+
+    fn dds(bytes: &[u8], room: u64) -> Result<Self, String> {
+        let dds = Dds::read(bytes).map_err(|error| format!("the DDS file is damaged ({error})"))?;
+        let mut surface =
+            Surface::from_dds(&dds).map_err(|_| format!("its format {} cannot be read; {READ}", dds_format(&dds)))?;
+        let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP)
+            || dds.header10.as_ref().is_some_and(|h| h.misc_flag == image_dds::ddsfile::MiscFlag::TEXTURECUBE);
+        if is_cube && surface.layers == 1 {
+            surface.layers = 6;
+        }
+        let dimension = match (is_cube, surface.depth) {
+            (true, _) => Dimension::Cube,
+            (false, 0 | 1) => Dimension::D2,
+            (false, _) => Dimension::D3,
+        };
+        let texels = Stored::Other(surface.image_format);
+        let count = u64::from(surface.depth) * u64::from(surface.layers);
+        let layer = checked(surface.width, surface.height, count, texels, room)?;
+        let mut layers = Vec::new();
+        for (n, z) in (0..surface.layers).flat_map(|n| (0..surface.depth).map(move |z| (n, z))) {
+            let data = surface.get(n, z, 0).filter(|data| data.len() >= layer);
+            let data = data.ok_or_else(|| format!("the file ends before layer {}", n * surface.depth + z))?;
+            layers.push(data[..layer].to_vec());
+        }
+        Ok(Self { dimension, width: surface.width, height: surface.height, texels, layers })
+    }
+
+    fn layers(self) -> Result<Vec<Texels>, String> {
+        let (width, height) = (self.width, self.height);
+        let decode = |layer: Vec<u8>| {
+            let bytes = decoded(self.texels, width, height, layer)?;
+            Ok(Texels::flat(width, height, self.texels.kept(), bytes))
+        };
+        self.layers.into_iter().map(decode).collect()
+    }
+}
+
+const READ: &str = "8-bit and float formats and BC1 to BC7 can be";
+
+/// Checks the size of a texture before memory is taken, and returns the bytes of a layer.
+fn checked(width: u32, height: u32, layers: u64, texels: Stored, room: u64) -> Result<usize, String> {
+    if width == 0 || height == 0 || layers == 0 {
+        return Err("it has no texels".into());
+    } else if width.max(height) > limits::PICTURE_SIDE {
+        return Err(format!("it has {width}x{height} texels, and the limit per side is {}", limits::PICTURE_SIDE));
+    }
+    let layer = texels.layer_bytes(width, height);
+    let kept = u64::from(width) * u64::from(height) * texels.kept().bytes().max(4);
+    let needed = (layer + kept).saturating_mul(layers);
+    if needed > room.min(limits::PICTURE_BYTES) {
+        return Err(format!("its {layers} layers of {width}x{height} texels take {needed} bytes, which is too much"));
+    }
+    Ok(layer as usize)
+}
+
+/// Unpacks Zstandard (RFC 8878) to `size` bytes; more are not read.
+fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
+    let damaged = |error: &dyn std::fmt::Display| format!("its Zstandard data are damaged ({error})");
+    let mut decoder = ruzstd::decoding::StreamingDecoder::new(packed).map_err(|e| damaged(&e))?;
+    let mut bytes = Vec::with_capacity(size);
+    decoder.by_ref().take(size as u64).read_to_end(&mut bytes).map_err(|e| damaged(&e))?;
+    Ok(bytes)
+}
+
+fn dds_format(dds: &Dds) -> String {
+    match (dds.get_dxgi_format(), dds.get_d3d_format(), &dds.header.spf.fourcc) {
+        (Some(format), ..) => format!("{format:?}"),
+        (_, Some(format), _) => format!("{format:?}"),
+        (.., Some(code)) => String::from_utf8_lossy(&code.0.to_le_bytes()).into_owned(),
+        _ => "of unknown name".into(),
+    }
+}
+
+fn of_vulkan(format: Format) -> Option<Stored> {
+    use ImageFormat as F;
+    Some(Stored::Other(match format {
+        Format::R8G8B8_UNORM | Format::R8G8B8_SRGB => return Some(Stored::Rgb8),
+        Format::R8_UNORM | Format::R8_SRGB => F::R8Unorm,
+        Format::R8G8_UNORM | Format::R8G8_SRGB => F::Rg8Unorm,
+        Format::R8G8B8A8_UNORM | Format::R8G8B8A8_SRGB => F::Rgba8Unorm,
+        Format::B8G8R8A8_UNORM | Format::B8G8R8A8_SRGB => F::Bgra8Unorm,
+        Format::B8G8R8_UNORM | Format::B8G8R8_SRGB => F::Bgr8Unorm,
+        Format::R16_SFLOAT => F::R16Float,
+        Format::R16G16_SFLOAT => F::Rg16Float,
+        Format::R16G16B16A16_SFLOAT => F::Rgba16Float,
+        Format::R32_SFLOAT => F::R32Float,
+        Format::R32G32_SFLOAT => F::Rg32Float,
+        Format::R32G32B32_SFLOAT => F::Rgb32Float,
+        Format::R32G32B32A32_SFLOAT => F::Rgba32Float,
+        Format::R16_UNORM => F::R16Unorm,
+        Format::R16G16_UNORM => F::Rg16Unorm,
+        Format::R16G16B16A16_UNORM => F::Rgba16Unorm,
+        Format::BC1_RGB_UNORM_BLOCK
+        | Format::BC1_RGB_SRGB_BLOCK
+        | Format::BC1_RGBA_UNORM_BLOCK
+        | Format::BC1_RGBA_SRGB_BLOCK => F::BC1RgbaUnorm,
+        Format::BC2_UNORM_BLOCK | Format::BC2_SRGB_BLOCK => F::BC2RgbaUnorm,
+        Format::BC3_UNORM_BLOCK | Format::BC3_SRGB_BLOCK => F::BC3RgbaUnorm,
+        Format::BC4_UNORM_BLOCK => F::BC4RUnorm,
+        Format::BC4_SNORM_BLOCK => F::BC4RSnorm,
+        Format::BC5_UNORM_BLOCK => F::BC5RgUnorm,
+        Format::BC5_SNORM_BLOCK => F::BC5RgSnorm,
+        Format::BC6H_UFLOAT_BLOCK => F::BC6hRgbUfloat,
+        Format::BC6H_SFLOAT_BLOCK => F::BC6hRgbSfloat,
+        Format::BC7_UNORM_BLOCK | Format::BC7_SRGB_BLOCK => F::BC7RgbaUnorm,
+        _ => return None,
+    }))
+}
+
+/// Makes the texels of a layer of what a file stores.
+fn decoded(stored: Stored, width: u32, height: u32, layer: Vec<u8>) -> Result<Vec<u8>, String> {
+    let kept = stored.kept();
+    let Stored::Other(image_format) = stored else {
+        return Ok(layer.chunks_exact(3).flat_map(|rgb| [rgb[0], rgb[1], rgb[2], 255]).collect());
+    };
+    if stored.block() == (1, kept.bytes()) && !is_reordered(image_format) {
+        return Ok(layer);
+    }
+    let surface = Surface { width, height, depth: 1, layers: 1, mipmaps: 1, image_format, data: &*layer };
+    let failed = |error: image_dds::error::SurfaceError| format!("its texels cannot be decoded ({error})");
+    match kept {
+        TexelFormat::Rgba32f => {
+            let data = surface.decode_rgbaf32().map_err(failed)?.data;
+            // A format of one channel or two is shown as grey by the decoder. OpenGL reads the missing ones as 0.
+            let missing = match image_format {
+                ImageFormat::R8Snorm | ImageFormat::BC4RSnorm | ImageFormat::R16Unorm | ImageFormat::R16Snorm => 2,
+                ImageFormat::Rg8Snorm | ImageFormat::BC5RgSnorm | ImageFormat::Rg16Unorm | ImageFormat::Rg16Snorm => 1,
+                _ => 0,
+            };
+            let value = |i: usize, value: f32| if (3 - missing..3).contains(&(i % 4)) { 0.0 } else { value };
+            Ok(data.iter().enumerate().flat_map(|(i, v)| value(i, *v).to_le_bytes()).collect())
+        }
+        _ => {
+            let data = surface.decode_rgba8().map_err(failed)?.data;
+            let channels = kept.components();
+            Ok(data.chunks_exact(4).flat_map(|texel| &texel[..channels]).copied().collect())
+        }
+    }
+}
+
+/// Says whether a format of a kept one's size has its channels in another order.
+fn is_reordered(format: ImageFormat) -> bool {
+    matches!(format, ImageFormat::Bgra8Unorm | ImageFormat::Bgra8UnormSrgb | ImageFormat::Rgba8Snorm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image_dds::ddsfile::{AlphaMode, D3D10ResourceDimension, DxgiFormat, NewDxgiParams};
+
+    /// A KTX2 file of one level.
+    fn ktx2(format: Format, [width, height, depth]: [u32; 3], faces: u32, packed: u32, level: &[u8]) -> Vec<u8> {
+        let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+        for field in [format.value(), 1, width, height, depth, 0, faces, 1, packed] {
+            file.extend(field.to_le_bytes());
+        }
+        let begin = 104u64;
+        // A descriptor of 4 bytes, no keys, no global data.
+        for field in [begin as u32, 4, 0, 0] {
+            file.extend(field.to_le_bytes());
+        }
+        file.extend([0; 16]);
+        for field in [begin + 4, level.len() as u64, level.len() as u64] {
+            file.extend(field.to_le_bytes());
+        }
+        file.extend(4u32.to_le_bytes());
+        file.extend(level);
+        file
+    }
+
+    fn dds(format: DxgiFormat, [width, height, depth]: [u32; 3], is_cube: bool, data: &[u8]) -> Vec<u8> {
+        let mut dds = Dds::new_dxgi(NewDxgiParams {
+            width,
+            height,
+            depth: (depth > 0).then_some(depth),
+            format,
+            mipmap_levels: None,
+            array_layers: is_cube.then_some(6),
+            caps2: is_cube.then_some(Caps2::CUBEMAP | Caps2::CUBEMAP_ALLFACES),
+            is_cubemap: is_cube,
+            resource_dimension: if depth > 0 {
+                D3D10ResourceDimension::Texture3D
+            } else {
+                D3D10ResourceDimension::Texture2D
+            },
+            alpha_mode: AlphaMode::Straight,
+        })
+        .unwrap();
+        dds.data = data.to_vec();
+        let mut file = Vec::new();
+        dds.write(&mut file).unwrap();
+        file
+    }
+
+    fn read_as(bytes: &[u8], dimension: Dimension) -> Result<Texels, String> {
+        assert!(kind(bytes).is_some());
+        read(bytes, dimension, false, 1 << 20)
+    }
+
+    #[test]
+    fn pictures_cubemaps_and_volumes_come_from_both_kinds_of_files() {
+        let numbers: Vec<u8> = (0..24).collect();
+        let grey = |dimension| match dimension {
+            Dimension::D2 => [
+                ktx2(Format::R8_UNORM, [4, 6, 0], 1, 0, &numbers),
+                dds(DxgiFormat::R8_UNorm, [4, 6, 0], false, &numbers),
+            ],
+            Dimension::Cube => [
+                ktx2(Format::R8_UNORM, [2, 2, 0], 6, 0, &numbers),
+                dds(DxgiFormat::R8_UNorm, [2, 2, 0], true, &numbers),
+            ],
+            Dimension::D3 => [
+                ktx2(Format::R8_UNORM, [2, 3, 4], 1, 0, &numbers),
+                dds(DxgiFormat::R8_UNorm, [2, 3, 4], false, &numbers),
+            ],
+        };
+        for (dimension, level) in [(Dimension::D2, [4, 6, 1]), (Dimension::Cube, [2, 2, 1]), (Dimension::D3, [2, 3, 4])]
+        {
+            for (n, file) in grey(dimension).iter().enumerate() {
+                let texels = read_as(file, dimension).unwrap_or_else(|error| panic!("{dimension:?} {n}: {error}"));
+                assert_eq!((texels.shape.dimension, texels.shape.level(0)), (dimension, level), "{n}");
+                assert_eq!((texels.shape.format, &texels.bytes), (TexelFormat::R8, &numbers), "{dimension:?} {n}");
+            }
+        }
+        let flipped = read(&grey(Dimension::D2)[0], Dimension::D2, true, 1 << 20).unwrap();
+        assert_eq!(flipped.bytes[..4], [20, 21, 22, 23]);
+    }
+
+    #[test]
+    fn channels_keep_their_order_and_floats_their_values() {
+        let of = |format, level: &[u8]| read_as(&ktx2(format, [1, 1, 0], 1, 0, level), Dimension::D2).unwrap();
+        assert_eq!(of(Format::R8G8B8_SRGB, &[1, 2, 3]).bytes, [1, 2, 3, 255]);
+        assert_eq!(of(Format::B8G8R8A8_UNORM, &[1, 2, 3, 4]).bytes, [3, 2, 1, 4]);
+        let float = of(Format::R32G32B32A32_SFLOAT, bytemuck::cast_slice(&[1f32, -2.5, 1e6, 0.0]));
+        assert_eq!(bytemuck::pod_collect_to_vec::<u8, f32>(&float.bytes), [1.0, -2.5, 1e6, 0.0]);
+        let grey = of(Format::R16_UNORM, &[0xff, 0x7f]);
+        let grey: Vec<f32> = bytemuck::pod_collect_to_vec(&grey.bytes);
+        assert_eq!((grey[0], grey[1], grey[2], grey[3]), (32767.0 / 65535.0, 0.0, 0.0, 1.0));
+    }
+
+    /// Blocks by hand (Khronos Data Format Specification 1.3, chapter 18): both colours of BC1 are one, BC4 has one
+    /// value, and all indices are 0.
+    #[test]
+    fn blocks_are_decoded() {
+        let bc1 = [0x00, 0xf8, 0x00, 0xf8, 0, 0, 0, 0];
+        for file in [
+            ktx2(Format::BC1_RGB_UNORM_BLOCK, [4, 4, 0], 1, 0, &bc1),
+            dds(DxgiFormat::BC1_UNorm, [4, 4, 0], false, &bc1),
+        ] {
+            let texels = read_as(&file, Dimension::D2).unwrap();
+            assert_eq!((texels.shape.format, texels.bytes), (TexelFormat::Rgba8, [255, 0, 0, 255].repeat(16)));
+        }
+        let bc4 = [77, 77, 0, 0, 0, 0, 0, 0];
+        let texels = read_as(&ktx2(Format::BC4_UNORM_BLOCK, [4, 4, 0], 1, 0, &bc4), Dimension::D2).unwrap();
+        assert_eq!((texels.shape.format, texels.bytes), (TexelFormat::R8, vec![77; 16]));
+    }
+
+    #[test]
+    fn packed_levels_are_unpacked() {
+        let level = vec![9u8; 64 * 64];
+        let packed = ruzstd::encoding::compress_to_vec(&*level, ruzstd::encoding::CompressionLevel::Fastest);
+        assert!(packed.len() < 100);
+        let texels = read_as(&ktx2(Format::R8_UNORM, [64, 64, 0], 1, 2, &packed), Dimension::D2).unwrap();
+        assert_eq!(texels.bytes, level);
+        let short = read_as(&ktx2(Format::R8_UNORM, [64, 65, 0], 1, 2, &packed), Dimension::D2).unwrap_err();
+        assert!(short.contains("4160 bytes, and has 4096"), "{short}");
+    }
+
+    #[test]
+    fn what_cannot_be_read_says_why() {
+        let red = [1u8; 24];
+        for (file, dimension, says) in [
+            (ktx2(Format::R8_UNORM, [2, 2, 0], 6, 0, &red), Dimension::D2, "kind = \"cubemap\""),
+            (ktx2(Format::R8_UNORM, [2, 3, 4], 1, 0, &red), Dimension::D2, "kind = \"volume\""),
+            (ktx2(Format::R8_UNORM, [2, 2, 0], 6, 0, &red[..20]), Dimension::Cube, "24 bytes, and has 20"),
+            (ktx2(Format::R8_UNORM, [2, 2, 0], 1, 3, &red), Dimension::D2, "ZLIB"),
+            (ktx2(Format::ASTC_4x4_UNORM_BLOCK, [4, 4, 0], 1, 0, &red), Dimension::D2, "ASTC_4x4"),
+            (ktx2(Format::R8_UNORM, [1 << 20, 2, 0], 1, 0, &red), Dimension::D2, "limit per side"),
+            (ktx2(Format::R8_UNORM, [4096, 4096, 0], 1, 0, &red), Dimension::D2, "too much"),
+            (ktx2(Format::R8_UNORM, [0, 2, 0], 1, 0, &red), Dimension::D2, "zero pixel width"),
+            (dds(DxgiFormat::R8_UNorm, [2, 2, 0], true, &red[..20]), Dimension::Cube, "ends before layer 5"),
+            (dds(DxgiFormat::NV12, [2, 2, 0], false, &red), Dimension::D2, "NV12"),
+            (b"DDS ".to_vec(), Dimension::D2, "damaged"),
+            (KTX2.to_vec(), Dimension::D2, "damaged"),
+        ] {
+            let error = read_as(&file, dimension).unwrap_err();
+            assert!(error.contains(says), "{error}");
+        }
+    }
+
+    /// Cut short and with bytes changed, a file gives texels or an error.
+    #[test]
+    fn damaged_files_are_no_danger() {
+        let numbers: Vec<u8> = (0..96).collect();
+        let files = [
+            ktx2(Format::R8G8B8A8_UNORM, [2, 2, 0], 6, 0, &numbers),
+            ktx2(Format::BC7_UNORM_BLOCK, [8, 8, 0], 1, 0, &numbers),
+            dds(DxgiFormat::R8G8B8A8_UNorm, [2, 3, 4], false, &numbers),
+            dds(DxgiFormat::BC3_UNorm, [8, 8, 0], false, &numbers),
+        ];
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize
+        };
+        for file in &files {
+            for n in 0..500 {
+                let mut file = file.clone();
+                if n < file.len() {
+                    file.truncate(n);
+                } else {
+                    for _ in 0..1 + random() % 4 {
+                        let at = random() % file.len();
+                        file[at] = random() as u8;
+                    }
+                }
+                for dimension in [Dimension::D2, Dimension::Cube, Dimension::D3] {
+                    let _ = read(&file, dimension, true, 1 << 20);
+                }
+            }
+        }
+    }
+}
