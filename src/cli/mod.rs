@@ -86,11 +86,11 @@ fn run(command: &Command) -> u8 {
             }
             render::run(args, &targets, &inputs)
         }
-        Command::Probe(args) => match args.run.inputs_of(args.frame + 1) {
+        Command::Probe(args) => match args.face().and_then(|_| args.run.inputs_of(args.frame + 1)) {
             Ok(inputs) => probe::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
-        Command::Trace(args) => match args.run.inputs_of(args.frame + 1) {
+        Command::Trace(args) => match args.face().and_then(|_| args.run.inputs_of(args.frame + 1)) {
             Ok(inputs) => trace::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },

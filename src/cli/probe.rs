@@ -11,7 +11,7 @@ use crate::{
     engine::{BuildOptions, Pixels},
     glsl::Probe,
     playback::script::ScriptedInputs,
-    project::{PassId, Project, Tab},
+    project::Project,
 };
 use serde::Serialize;
 use std::{fmt::Write, io, path::PathBuf};
@@ -65,11 +65,8 @@ fn probed(
     args: &ProbeArgs,
     inputs: ScriptedInputs,
 ) -> Result<Probed, Trouble> {
-    let pass = match (&args.pass, &args.at.tab) {
-        (Some(pass), _) => pass.pass.clone(),
-        (None, Tab::Pass(pass)) => pass.clone(),
-        (None, _) => PassId::Image,
-    };
+    let pass = args.pass();
+    let face = args.face().map_err(anyhow::Error::msg)?;
     let out = args.file();
     // A file that nobody named is written over nothing.
     if let Some(path) = out.as_ref().filter(|path| args.out.is_none() && path.exists()) {
@@ -85,7 +82,7 @@ fn probed(
         offline.draw()?;
         report.frames += 1;
     }
-    let pixels = offline.read(&BuildOptions::probed(), 0)?;
+    let pixels = offline.read(&BuildOptions::probed(), face)?;
     if let Some((x, y)) = args.pixel.filter(|&(x, y)| x >= pixels.width || y >= pixels.height) {
         let (width, height) = (pixels.width, pixels.height);
         return Err(anyhow::anyhow!("pixel {x},{y} is outside the pass, which has {width} x {height} texels").into());

@@ -2,13 +2,13 @@
 //! so that no picture of a call is written over another one of it.
 
 use super::{
-    args::{RenderArgs, format_of},
+    args::{RenderArgs, face_of, format_of},
     sweep,
 };
 use crate::{
     engine::Pixels,
     playback::capture::{self, Format},
-    project::{self, PassId},
+    project,
 };
 use anyhow::Context;
 use std::{
@@ -46,9 +46,7 @@ enum Output {
 impl Targets {
     /// Err: what was asked for cannot be meant.
     pub fn of(args: &RenderArgs) -> Result<Targets, String> {
-        if args.face.is_some() && args.pass.pass != PassId::Cubemap {
-            return Err("--face: only a cubemap has faces; add --pass cube_a".into());
-        }
+        face_of(&args.pass.pass, args.face)?;
         let (at, frames) = frames(args)?;
         let sweep = sweep::combinations(&args.sweep)?;
         let Some(out) = &args.out else {

@@ -12,9 +12,10 @@ use super::{
 use crate::{
     debugger::trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
     diag::{SourceMap, Span},
-    engine,
+    engine::{self, PassInputs},
     playback::script::ScriptedInputs,
-    project::{FillKind, Project, TexelFormat},
+    project::{FillKind, PassId, Project, TexelFormat},
+    texture::Face,
 };
 use serde::Serialize;
 use std::{fmt::Write, io};
@@ -39,6 +40,9 @@ struct Sought<'a> {
 #[derive(Serialize)]
 struct Traced {
     pass: String,
+    /// The face of a cubemap pass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    face: Option<&'static str>,
     pixel: [u32; 2],
     frame: u32,
     /// The triangle whose fragment the texel holds, of a pass that draws meshes.
@@ -142,9 +146,10 @@ fn traced(
         offline.draw()?;
     }
     let before = (args.probes > 0).then(|| Ok::<_, Trouble>(offline.engine()?.snapshot()?)).transpose()?;
-    let read = offline.draw_inspected(pass)?;
+    let face = args.face().map_err(anyhow::Error::msg)?;
+    let read = PassInputs { face: face as u32, ..offline.draw_inspected(pass)? };
     report.frames = args.frame + 1;
-    let device = offline.read(pass, 0)?;
+    let device = offline.read(pass, face)?;
     let index = project.passes.iter().position(|p| p.id == *pass).unwrap_or_default();
     let texts = engine::Sources::new(&project);
     let extent = Extent { statements: args.max_statements, steps: args.max_steps.unwrap_or(usize::MAX) };
@@ -165,16 +170,21 @@ fn traced(
     Ok(Traced { divergence, ..placed(&project, args, texel, trace, printed) })
 }
 
+/// The format of a pass's first target.
+fn format_of(project: &Project, pass: &PassId) -> TexelFormat {
+    project.pass(pass).and_then(|pass| pass.formats().first().copied()).unwrap_or_default()
+}
+
 /// The walker's value is not the texel that the device has stored, bit for bit.
 fn parts(project: &Project, args: &TraceArgs, device: [f32; 4], trace: &Trace) -> bool {
-    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
+    let format = format_of(project, &args.pass.pass);
     let is_apart = |value: [f32; 4]| (0..format.components()).any(|i| ulps(value[i], device[i]) > 0);
     format.is_32_bit() && trace.origin == Origin::Screen && trace.value.is_some_and(is_apart)
 }
 
 fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, printed: Vec<Printed>) -> Traced {
     let sources = project.sources();
-    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
+    let format = format_of(project, &args.pass.pass);
     let apart = |value: [f32; 4]| (0..format.components()).map(|i| ulps(value[i], device[i])).collect();
     let floats = |values: [f32; 4]| values.map(Number::Float);
     let steps = trace.steps.into_iter().map(|step| {
@@ -214,6 +224,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         boundary: (trace.origin == Origin::Boundary).then(|| fill(FillKind::Boundary)).flatten(),
         clear: trace.origin == Origin::Clear,
         pass: args.pass.pass.key(),
+        face: (args.pass.pass == PassId::Cubemap).then(|| Face::ALL[args.face.unwrap_or_default()].name()),
         pixel: args.pixel.map_or([0, 0], |(x, y)| [x, y]),
         frame: args.frame,
         value: trace.value.map(floats),
@@ -257,7 +268,8 @@ fn words(spec: &str, traced: &Traced) -> String {
     }
     out.push_str(&printed::words(&traced.printed));
     let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
-    let _ = writeln!(out, "{spec}: {pass} at {x},{y} in frame {frame}, {statements} statements");
+    let face = traced.face.map_or_else(String::new, |face| format!(" {face}"));
+    let _ = writeln!(out, "{spec}: {pass}{face} at {x},{y} in frame {frame}, {statements} statements");
     if let Some(MeshSaid { draw, name, triangle, front }) = &traced.mesh {
         let side = if *front { "front" } else { "back" };
         let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, {side} side");

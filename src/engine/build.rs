@@ -147,7 +147,9 @@ impl Builder {
             }
         }
         let facts: Vec<PassFacts> = passes.iter().map(|p| facts(&p.compiled)).collect();
-        let mut plan = FramePlan::new(&drawable, &facts, &wanted, options.skip);
+        // What Image's probe reads has been drawn by then, as for Image.
+        let last = BuildOptions::probed();
+        let mut plan = FramePlan::ending_with(&drawable, &facts, &wanted, options.skip, Some(&last));
         if let Some(pass) = drawable.passes.iter().position(|pass| Some(&pass.id) == beside) {
             plan.draw_beside(pass, BuildOptions::probed());
         }

@@ -72,8 +72,8 @@ impl Display {
         {
             self.target = i;
             let painter = self.painter.as_ref().filter(|_| self.has_look);
-            let bind = |texture| match painter {
-                Some(painter) => painter.bind(gpu, texture),
+            let bind = |texture: &Texture| match painter {
+                Some(painter) => painter.bind(gpu, &texture.level_0),
                 None => self.presenter.bind(gpu, texture),
             };
             self.bound = targets[i].textures.iter().map(bind).collect();

@@ -14,7 +14,7 @@ use super::{
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
 use eddy_project::{CustomUniformValues, PassId};
-use eddy_texture::{Dimension, TexelFormat};
+use eddy_texture::{TexelFormat, TextureShape};
 
 /// A device, and the program that runs on it.
 pub struct Engine {
@@ -326,12 +326,12 @@ impl Engine {
     pub fn miniature(&mut self, pass: &PassId, index: usize) -> Result<Miniature, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
-        let newest = running.target(pass, index)?.newest();
+        let (newest, layer) = running.layer(pass, index)?;
         let (miniatures, readback) = match &mut self.miniatures {
             Some(made) => made,
             none => none.insert((Miniatures::new(gpu)?, Readback::default())),
         };
-        let bytes = readback.rgba8(gpu, miniatures.draw(gpu, newest))?;
+        let bytes = readback.rgba8(gpu, miniatures.draw(gpu, newest.layer(layer)))?;
         let (width, height) = MINIATURE_SIZE;
         let of = (newest.width(), newest.height());
         Ok(Miniature::new(Picture { width, height, bytes }, of))
@@ -341,8 +341,8 @@ impl Engine {
     pub fn picture_of_values(&mut self, pass: &PassId, index: usize, look: &ValueLook) -> Result<Picture, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
-        let newest = running.target(pass, index)?.newest();
-        Ok(self.viewer.get_or_insert_with(|| Viewer::new(gpu)).paint(gpu, newest, look)?)
+        let (newest, layer) = running.layer(pass, index)?;
+        Ok(self.viewer.get_or_insert_with(|| Viewer::new(gpu)).paint(gpu, newest, layer, look)?)
     }
 
     /// Reads the texel of each target that is drawn at a place, from 0 to 1 across and up; waits for the device once.
@@ -351,15 +351,19 @@ impl Engine {
         let Some(running) = &self.running else { return Ok(Vec::new()) };
         let plan = &running.program.plan;
         let is_drawn = |(index, _): &(usize, &Target)| plan.is_drawn(*index);
-        let targets: Vec<(usize, &Target)> = running.targets.iter().enumerate().filter(is_drawn).collect();
-        let textures: Vec<_> = targets.iter().map(|(_, target)| target.newest()).collect();
-        let texels = self.viewer.get_or_insert_with(|| Viewer::new(gpu)).texels(gpu, &textures, at)?;
-        let told = targets.iter().zip(texels).map(|((index, target), value)| {
+        let layers = |(index, target): (usize, &'_ Target)| {
+            (0..target.newest().shape.layers()).map(move |layer| (index, layer)).collect::<Vec<_>>()
+        };
+        let places: Vec<(usize, u32)> = running.targets.iter().enumerate().filter(is_drawn).flat_map(layers).collect();
+        let views: Vec<_> = places.iter().map(|(i, layer)| running.targets[*i].newest().layer(*layer)).collect();
+        let texels = self.viewer.get_or_insert_with(|| Viewer::new(gpu)).texels(gpu, &views, at)?;
+        let told = places.iter().zip(texels).map(|((index, layer), value)| {
+            let target = &running.targets[*index];
             let (width, height) = target.size();
             let texel = |part: f32, size: u32| ((part * size as f32) as u32).min(size.saturating_sub(1));
             TexelAt {
                 pass: target.id.clone(),
-                index: target.index,
+                index: target.index.max(*layer as usize),
                 texel: (texel(at[0], width), texel(at[1], height)),
                 components: plan.targets[*index].format.components() as u8,
                 value,
@@ -368,10 +372,9 @@ impl Engine {
         Ok(told.collect())
     }
 
-    /// Returns the format of one of a pass's targets, while the running program has it.
+    /// Returns the format of one of a pass's targets or of a face of its cubemap, while the running program has it.
     pub fn format(&self, pass: &PassId, index: usize) -> Option<TexelFormat> {
-        let plan = &self.running.as_ref()?.program.plan;
-        plan.targets.iter().find(|target| target.id == *pass && target.index == index).map(|target| target.format)
+        self.running.as_ref()?.layer(pass, index).ok().map(|(texture, _)| texture.shape.format)
     }
 
     /// Reads a pass's newest texels back; waits for the device.
@@ -384,18 +387,13 @@ impl Engine {
     pub fn read_target(&mut self, pass: &PassId, index: usize) -> Result<Pixels, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
-        let is_cube = running.target(pass, 0)?.newest().shape.dimension == Dimension::Cube;
-        let (index, face) = if is_cube { (0, index as u32) } else { (index, 0) };
-        let newest = running.target(pass, index)?.newest();
-        if face >= newest.shape.layers() {
-            return Err(EngineError::NoSuchTarget { pass: pass.title(), index: face as usize });
-        }
+        let (newest, layer) = running.layer(pass, index)?;
         let (width, height) = (newest.width(), newest.height());
-        let texels = if newest.shape.format == TexelFormat::Rgba32f {
+        let texels = if newest.shape == TextureShape::flat(width, height, TexelFormat::Rgba32f) {
             Readback::default().rgba32float(gpu, newest)?
         } else {
             let converter = self.converter.get_or_insert_with(|| FloatConverter::new(gpu));
-            Readback::default().rgba32float(gpu, &converter.convert_level(gpu, newest, (face, 0))?)?
+            Readback::default().rgba32float(gpu, &converter.convert_level(gpu, newest, (layer, 0))?)?
         };
         Ok(Pixels { width, height, texels })
     }

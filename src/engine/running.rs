@@ -10,7 +10,7 @@ use super::{
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
 };
-use eddy_gpu::{PassTimer, depth_buffer};
+use eddy_gpu::{PassTimer, Texture, depth_buffer};
 use eddy_graph::Changes;
 use eddy_project::{CustomUniformValues, PassId};
 
@@ -199,5 +199,17 @@ impl Running {
             return Err(EngineError::NoSuchPass(pass.title()));
         }
         own().find(|t| t.index == index).ok_or_else(|| EngineError::NoSuchTarget { pass: pass.title(), index })
+    }
+
+    /// Returns the newest texture of one of a pass's targets, and layer 0 of it; of a cubemap its one target, and face
+    /// `index` in the order of [`eddy_texture::Face::ALL`].
+    pub fn layer(&self, pass: &PassId, index: usize) -> Result<(&Texture, u32), EngineError> {
+        let first = self.target(pass, 0)?.newest();
+        if first.shape.layers() == 1 {
+            return Ok((self.target(pass, index)?.newest(), 0));
+        }
+        let face = u32::try_from(index).ok().filter(|face| *face < first.shape.layers());
+        let face = face.ok_or_else(|| EngineError::NoSuchTarget { pass: pass.title(), index })?;
+        Ok((first, face))
     }
 }

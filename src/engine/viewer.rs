@@ -21,8 +21,8 @@ impl Viewer {
         }
     }
 
-    /// Returns a picture of a texture's size.
-    pub fn paint(&mut self, gpu: &Gpu, values: &Texture, look: &ValueLook) -> Result<Picture, GpuError> {
+    /// Returns a picture of a layer of a texture, of its size.
+    pub fn paint(&mut self, gpu: &Gpu, values: &Texture, layer: u32, look: &ValueLook) -> Result<Picture, GpuError> {
         let (width, height) = (values.width(), values.height());
         let has_size = |texture: &Texture| (texture.width(), texture.height()) == (width, height);
         let texture = match self.texture.take().filter(has_size) {
@@ -31,7 +31,7 @@ impl Viewer {
         };
         let texture = self.texture.insert(texture);
         self.painter.set(gpu, look);
-        let bound = self.painter.bind(gpu, values);
+        let bound = self.painter.bind(gpu, values.layer(layer));
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("picture of values") };
         let mut encoder = gpu.device.create_command_encoder(&descriptor);
         self.painter.present(gpu, &mut encoder, &bound, texture);
@@ -39,8 +39,8 @@ impl Viewer {
         Ok(Picture { width, height, bytes: self.readback.rgba8(gpu, texture)? })
     }
 
-    /// Returns the texel of each texture at a place, from 0 to 1 across and up.
-    pub fn texels(&mut self, gpu: &Gpu, textures: &[&Texture], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
-        self.picker.pick(gpu, textures, at)
+    /// Returns the texel of each picture at a place, from 0 to 1 across and up.
+    pub fn texels(&mut self, gpu: &Gpu, views: &[&wgpu::TextureView], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
+        self.picker.pick(gpu, views, at)
     }
 }

@@ -1,6 +1,6 @@
 //! One triangle over the whole target.
 
-use super::{Binding, Gpu, Texture, bindings};
+use super::{Binding, Gpu, bindings};
 use bindings::pipeline_layout;
 
 /// The triangle's corners lie at (-1, -1), (3, -1) and (-1, 3).
@@ -92,12 +92,12 @@ impl ValuesShader {
     }
 
     /// Binds the values that are read.
-    pub fn bind(&self, gpu: &Gpu, values: &Texture) -> wgpu::BindGroup {
+    pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.label),
             layout: &self.layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&values.level_0) },
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(values) },
                 wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
             ],
         })

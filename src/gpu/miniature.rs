@@ -67,8 +67,8 @@ impl Miniatures {
     }
 
     /// Draws one, its first row the top. The next takes its place.
-    pub fn draw(&self, gpu: &Gpu, picture: &Texture) -> &Texture {
-        let bound = self.shader.bind(gpu, &picture.level_0);
+    pub fn draw(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> &Texture {
+        let bound = self.shader.bind(gpu, picture);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("miniature") });
         let target = self.texture.attachment(gpu.load_what_is_overwritten());

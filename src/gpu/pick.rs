@@ -30,10 +30,10 @@ impl TexelPicker {
         Self { shader: ValuesShader::new(gpu, LABEL, SHADER, texture_format(FORMAT)), readback: Readback::default() }
     }
 
-    /// Returns the texel of each texture at a place, from 0 to 1 across and up: missing components as 0, alpha as 1.
+    /// Returns the texel of each picture at a place, from 0 to 1 across and up: missing components as 0, alpha as 1.
     /// Waits for the device once.
-    pub fn pick(&mut self, gpu: &Gpu, textures: &[&Texture], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
-        if textures.is_empty() {
+    pub fn pick(&mut self, gpu: &Gpu, views: &[&wgpu::TextureView], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
+        if views.is_empty() {
             return Ok(Vec::new());
         }
         self.shader.set(gpu, [at[0], at[1], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
@@ -41,11 +41,11 @@ impl TexelPicker {
             gpu,
             &TextureDescriptor {
                 label: LABEL,
-                shape: TextureShape::flat(textures.len() as u32, 1, FORMAT),
+                shape: TextureShape::flat(views.len() as u32, 1, FORMAT),
                 is_target: true,
             },
         )?;
-        let bound: Vec<_> = textures.iter().map(|texture| self.shader.bind(gpu, texture)).collect();
+        let bound: Vec<_> = views.iter().map(|view| self.shader.bind(gpu, view)).collect();
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some(LABEL) };
         let mut encoder = gpu.device.create_command_encoder(&descriptor);
         let target = row.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));

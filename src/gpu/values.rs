@@ -123,8 +123,8 @@ impl ValuePainter {
         self.0.set(gpu, words);
     }
 
-    /// Makes what [`ValuePainter::present`] needs to show one texture again and again.
-    pub fn bind(&self, gpu: &Gpu, values: &Texture) -> wgpu::BindGroup {
+    /// Makes what [`ValuePainter::present`] needs to show one picture again and again.
+    pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
         self.0.bind(gpu, values)
     }
 

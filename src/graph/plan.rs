@@ -158,8 +158,20 @@ impl FramePlan {
     /// # Panics
     /// If `facts` and the project's passes differ in length.
     pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassId], skip: bool) -> FramePlan {
+        Self::ending_with(project, facts, wanted, skip, None)
+    }
+
+    /// Does the same as [`FramePlan::new`], with the buffer `last` drawn after all other passes.
+    pub fn ending_with(
+        project: &Project,
+        facts: &[PassFacts],
+        wanted: &[PassId],
+        skip: bool,
+        last: Option<&PassId>,
+    ) -> FramePlan {
         assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
-        let order = drawing_order(project);
+        let mut order = drawing_order(project);
+        order.sort_by_key(|&pass| Some(&project.passes[pass].id) == last);
         let reached = if skip { reached_from(project, facts, wanted) } else { order.iter().copied().collect() };
         let mut plan = FramePlan {
             skipped: order.iter().copied().filter(|i| !reached.contains(i)).collect(),

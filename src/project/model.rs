@@ -1,6 +1,7 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
 use super::{CustomUniformValues, Group, Included, Input, PassId, PassSettings, Source};
+use eddy_texture::{Dimension, Face, TexelFormat};
 use std::{collections::BTreeSet, path::PathBuf};
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
@@ -67,6 +68,29 @@ impl Pass {
     /// Returns a pass that reads nothing and is drawn as on the site.
     pub fn new(id: PassId, source: Source) -> Pass {
         Pass { id, source, channels: Default::default(), settings: Default::default() }
+    }
+
+    /// Returns the format of each of its targets.
+    pub fn formats(&self) -> Vec<TexelFormat> {
+        self.id.formats(&self.settings)
+    }
+
+    /// Returns how many pictures it draws: its targets, or the faces of a cubemap.
+    pub fn layers(&self) -> usize {
+        match self.id.row().target {
+            Some(Dimension::Cube) => Face::ALL.len(),
+            _ => self.formats().len(),
+        }
+    }
+
+    /// Returns what tells picture `index` from the pass's others: the number of a target, the name of a face; empty for
+    /// one alone.
+    pub fn layer_name(&self, index: usize) -> String {
+        match (self.id.row().target, self.layers()) {
+            (Some(Dimension::Cube), _) => Face::ALL.get(index).map_or_else(String::new, |face| face.name().to_owned()),
+            (_, 0 | 1) => String::new(),
+            _ => index.to_string(),
+        }
     }
 }
 

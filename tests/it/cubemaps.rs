@@ -162,3 +162,37 @@ fn a_face_is_rendered_by_name() {
     let unknown = b.line("render p --size 16x16 --pass cube_a --face up --out f.png").expect(2);
     assert!(unknown.err.contains("+x"), "{}", unknown.err);
 }
+
+/// A cubemap pass is traced and probed by the face, and Image's probe reads the cubemap of its own frame.
+#[test]
+fn a_face_is_traced_and_probed() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/cube_a.glsl", format!("{CUBE} {{ vec3 d = .5 + .5 * rayDir; o = vec4(d, 1.); }}\n"));
+    b.write("p/eddy.toml", "[passes.cube_a]\n[passes.image]\nchannels.0 = { cube_a = true }\n");
+    b.image("p/image.glsl", "vec4 t = texture(iChannel0, vec3(1., 2., 3.)); fragColor = t;");
+    let numbers = |value: &serde_json::Value| -> Vec<f64> {
+        value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    // The middle of a face, half a texel off.
+    for (face, expected) in [("+x", [1.0, 0.5, 0.5]), ("-y", [0.5, 0.0, 0.5]), ("-z", [0.5, 0.5, 0.0])] {
+        let close = |values: &[f64]| values.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-3);
+        let traced =
+            b.line(&format!("trace p --size 16x16 --pass cube_a --face {face} --pixel 512,512 --json")).expect(0);
+        let traced: serde_json::Value = serde_json::from_str(&traced.out).unwrap();
+        assert_eq!((&traced["face"], &traced["format"]), (&face.into(), &"rgba16f".into()));
+        assert!(close(&numbers(&traced["value"])[..3]) && close(&numbers(&traced["device"])[..3]), "{traced}");
+        let probed =
+            b.line(&format!("probe p cube_a:1:80 --size 16x16 --face {face} --pixel 512,512 --json")).expect(0);
+        let probed: serde_json::Value = serde_json::from_str(&probed.out).unwrap();
+        assert!(close(&numbers(&probed["value"])[..3]), "{probed}");
+    }
+    let image = b.line("probe p image:2:6 --size 16x16 --pixel 8,8 --json").expect(0);
+    let image: serde_json::Value = serde_json::from_str(&image.out).unwrap();
+    let length = 14f64.sqrt();
+    let direction = [1.0, 2.0, 3.0].map(|c| 0.5 + 0.5 * c / length);
+    let read = numbers(&image["value"]);
+    assert!(read.iter().zip(&direction).all(|(a, b)| (a - b).abs() < 2e-3), "{image}");
+    b.line("trace p --size 16x16 --face +x --pixel 1,1").expect(2);
+    b.line("probe p image:2:6 --size 16x16 --face +x").expect(2);
+}

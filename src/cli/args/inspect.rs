@@ -2,13 +2,13 @@
 
 use super::{
     run::RunArgs,
-    values::{PROJECT, Picture, format, picture, pixel},
+    values::{PROJECT, Picture, face, face_of, format, picture, pixel},
 };
 use crate::{
     cli::text_place::TextPlace,
     debugger::{divergence::MOST, trace::STEPS},
     playback::capture::Format,
-    project::{self, PassId},
+    project::{self, PassId, Tab},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -24,6 +24,9 @@ pub struct ProbeArgs {
     /// The pass to draw [default: the pass of the tab; for Common: image]
     #[arg(long, value_name = "NAME", value_parser = picture)]
     pub pass: Option<Picture>,
+    /// The face of a cubemap to draw, with --pass cube_a: +x, -x, +y, -y, +z or -z [default: +x]
+    #[arg(long, value_name = "FACE", value_parser = face, allow_hyphen_values = true)]
+    pub face: Option<usize>,
     /// Which evaluation in a pixel to read: 0 is the first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 31))]
     pub visit: u32,
@@ -50,6 +53,20 @@ pub struct ProbeArgs {
 }
 
 impl ProbeArgs {
+    /// Returns the pass that is drawn.
+    pub fn pass(&self) -> PassId {
+        match (&self.pass, &self.at.tab) {
+            (Some(pass), _) => pass.pass.clone(),
+            (None, Tab::Pass(pass)) => pass.clone(),
+            (None, _) => PassId::Image,
+        }
+    }
+
+    /// Returns the face of a cubemap that is drawn; of another pass 0.
+    pub fn face(&self) -> Result<usize, String> {
+        face_of(&self.pass(), self.face)
+    }
+
     /// The file of the values, if one is asked for.
     pub fn file(&self) -> Option<PathBuf> {
         let TextPlace { tab, line, column } = &self.at;
@@ -87,6 +104,9 @@ pub struct TraceArgs {
     /// The pass to trace: image, buffer_a, a further buffer's name …
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
+    /// The face of a cubemap to trace, with --pass cube_a: +x, -x, +y, -y, +z or -z [default: +x]
+    #[arg(long, value_name = "FACE", value_parser = face, allow_hyphen_values = true)]
+    pub face: Option<usize>,
     #[command(flatten)]
     pub run: RunArgs,
     /// Stop after this number of statements
@@ -102,6 +122,13 @@ pub struct TraceArgs {
     /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
+}
+
+impl TraceArgs {
+    /// Returns the face of a cubemap that is traced; of another pass 0.
+    pub fn face(&self) -> Result<usize, String> {
+        face_of(&self.pass.pass, self.face)
+    }
 }
 
 #[derive(Debug, Args)]

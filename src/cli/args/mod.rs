@@ -23,6 +23,7 @@ use crate::{
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
 use std::{path::PathBuf, time::Duration};
+pub use values::face_of;
 use values::{PROJECT, face, format, picture, seconds, size};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.

@@ -49,6 +49,14 @@ pub fn picture(text: &str) -> Result<Picture, String> {
     Ok(Picture { pass: pass(name)?, target })
 }
 
+/// Returns the number of a cubemap's face, or says that the pass has none.
+pub fn face_of(pass: &PassId, face: Option<usize>) -> Result<usize, String> {
+    match face {
+        Some(_) if *pass != PassId::Cubemap => Err("--face: only a cubemap has faces; add --pass cube_a".into()),
+        face => Ok(face.unwrap_or_default()),
+    }
+}
+
 /// The number of a cubemap's face.
 pub fn face(text: &str) -> Result<usize, String> {
     let face = Face::ALL.iter().position(|face| face.name().eq_ignore_ascii_case(text));

@@ -10,7 +10,7 @@ use eddy_project::{Filter, Project};
 fn inputs() -> PassInputs {
     let uniforms = UniformBlock { resolution: [8.0, 4.0, 1.0], time: 0.5, ..UniformBlock::zeroed() };
     let channels = std::array::from_fn(|_| TextureCopy::black());
-    PassInputs { uniforms, custom_uniforms: Vec::new(), channels, size: (8, 4), meshes: Vec::new() }
+    PassInputs { uniforms, custom_uniforms: Vec::new(), channels, size: (8, 4), face: 0, meshes: Vec::new() }
 }
 
 fn audited(code: &str) -> Audit {

@@ -5,7 +5,7 @@ use crate::{
     trace::TraceError,
 };
 use eddy_engine::{PassInputs, Pixels, Sources};
-use eddy_project::{PassId, Project, TexelFormat};
+use eddy_project::{PassId, Project};
 
 /// Texels of a picture of which a stored component is NaN or infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ pub fn drawn(project: &Project) -> Vec<PassId> {
 
 /// The number of components that a pass stores.
 pub fn stored(project: &Project, pass: &PassId) -> usize {
-    project.pass(pass).map_or_else(TexelFormat::default, |p| p.settings.format).components()
+    project.pass(pass).and_then(|p| p.formats().first().copied()).unwrap_or_default().components()
 }
 
 /// Walks through a pass for a texel of its first target. `None`: no operation makes it: it is too large for the pass's

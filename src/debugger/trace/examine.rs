@@ -126,7 +126,7 @@ impl Traced {
             value,
             double,
             device,
-            format: settings.format,
+            format: project.passes[index].formats().first().copied().unwrap_or_default(),
             is_endless,
             inputs,
             entry,

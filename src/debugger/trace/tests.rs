@@ -37,6 +37,7 @@ fn traced(code: &str) -> Traced {
 
 fn inputs() -> PassInputs {
     PassInputs {
+        face: 0,
         uniforms: bytemuck::Zeroable::zeroed(),
         custom_uniforms: Vec::new(),
         channels: std::array::from_fn(|_| TextureCopy::black()),

@@ -50,6 +50,7 @@ impl<'a> Capture<'a> {
             each.map(of).collect()
         });
         self.taken = Some(PassInputs {
+            face: 0,
             uniforms: running.uniforms.uniform_block(index),
             custom_uniforms: running.uniforms.custom_uniforms().to_vec(),
             channels: channels.map(|copy| copy.unwrap_or_else(TextureCopy::black)),

@@ -18,6 +18,8 @@ pub struct PassInputs {
     pub channels: [TextureCopy; 4],
     /// The texels that are drawn, across and up.
     pub size: (u32, u32),
+    /// The face of a cubemap that is walked, in the order of [`eddy_texture::Face::ALL`]; 0 for any other pass.
+    pub face: u32,
     /// The further inputs of each draw of a pass that draws meshes, in drawing order; empty for any other pass.
     pub meshes: Vec<MeshInputs>,
 }
@@ -66,7 +68,7 @@ impl World for DrawInputs<'_> {
     }
 
     fn cube_face(&self) -> u32 {
-        0
+        self.pass.face
     }
 
     fn size(&self, channel: u8, level: i32) -> [i32; 3] {

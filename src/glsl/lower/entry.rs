@@ -36,7 +36,9 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
             let at = b.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
             let origin = b.zero(TypeId::VEC3);
             let direction = b.cube_direction(at);
-            b.call_with_colour(author, vec![at, origin, direction])
+            let colour = b.call_with_colour(author, vec![at, origin, direction]);
+            beside = b.probed_value();
+            colour
         }
         PassKind::Sound => b.sound(author, position),
         PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {

@@ -76,7 +76,9 @@ fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chos
             }
             _ => {
                 let pass = session.project().pass(&target.0);
-                let format = pass.and_then(|pass| pass.settings.formats().get(target.1).map(|format| format.name()));
+                let format = pass.and_then(|pass| {
+                    pass.formats().get(target.1.min(pass.formats().len().saturating_sub(1))).map(|format| format.name())
+                });
                 let size = live.size(session, &target.0, target.1);
                 let size = size.map_or("not drawn".to_owned(), |(width, height)| format!("{width}×{height}"));
                 cut(text.min + vec2(0.0, 20.0), &size, FontId::proportional(11.0), weak);

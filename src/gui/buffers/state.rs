@@ -90,7 +90,7 @@ impl Default for Buffers {
 impl Buffers {
     /// Every target that the project's passes have, in the order in which they are drawn.
     pub(super) fn targets(project: &Project) -> Vec<Target> {
-        let count = |pass: &PassId| project.pass(pass).map_or(1, |p| p.settings.formats().len().max(1));
+        let count = |pass: &PassId| project.pass(pass).map_or(1, |p| p.layers().max(1));
         drawn(project).into_iter().flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index))).collect()
     }
 
@@ -179,8 +179,10 @@ impl Buffers {
 
 /// Returns what a target is called.
 pub(super) fn title(project: &Project, (pass, index): &Target) -> String {
-    let count = project.pass(pass).map_or(1, |p| p.settings.formats().len());
-    if count > 1 { format!("{} · {index}", pass.title()) } else { pass.title() }
+    match project.pass(pass).map(|p| p.layer_name(*index)).filter(|name| !name.is_empty()) {
+        Some(name) => format!("{} · {name}", pass.title()),
+        None => pass.title(),
+    }
 }
 
 /// The components of a texel in words.

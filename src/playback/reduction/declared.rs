@@ -50,7 +50,7 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
         let mend = format!("the project's passes are {}", project::listed(&keys));
         return Err(Unmeasured { why: format!("there is no pass {key}"), mend });
     };
-    let formats = pass.settings.formats();
+    let formats = pass.formats();
     let Some(format) = formats.get(quantity.target) else {
         let why = format!("{key} has no target {}", quantity.target);
         let mend = match formats.len() {
@@ -70,6 +70,6 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
 
 /// Returns how many components a target of a pass stores.
 pub fn stored(project: &Project, pass: &PassId, target: usize) -> usize {
-    let formats = project.pass(pass).map(|pass| pass.settings.formats()).unwrap_or_default();
+    let formats = project.pass(pass).map(|pass| pass.formats()).unwrap_or_default();
     formats.get(target).copied().unwrap_or_default().components()
 }

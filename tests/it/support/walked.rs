@@ -15,6 +15,7 @@ pub type Pixel = (u32, u32);
 /// What a pass reads whose program asks for no uniform and no channel.
 pub fn nothing_read(size: (u32, u32)) -> PassInputs {
     PassInputs {
+        face: 0,
         uniforms: UniformBlock::zeroed(),
         custom_uniforms: Vec::new(),
         channels: std::array::from_fn(|_| TextureCopy::black()),
