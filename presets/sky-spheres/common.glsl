@@ -21,45 +21,32 @@ vec3 sunDirection() {
 }
 
 // F of Perez: five numbers by the angles from the zenith (its cosine) and from the sun.
-float perez(float a, float b, float c, float d, float e, float cosZenith, float sunAngle) {
+float perez(vec4 abcd, float e, float cosZenith, float sunAngle) {
     float cosSun = cos(sunAngle);
-    return (1.0 + a * exp(b / cosZenith)) * (1.0 + c * exp(d * sunAngle) + e * cosSun * cosSun);
+    return (1.0 + abcd.x * exp(abcd.y / cosZenith)) * (1.0 + abcd.z * exp(abcd.w * sunAngle) + e * cosSun * cosSun);
 }
 
-float zenithChromaticity(vec4 cubed, vec4 squared, vec4 plain, float t) {
-    float s = radians(90.0 - sunHeight);
-    vec4 powers = vec4(s * s * s, s * s, s, 1.0);
-    return t * t * dot(powers, cubed) + t * dot(powers, squared) + dot(powers, plain);
-}
+// What Buffer A holds of the sky: of luminance and of the chromaticities x and y each a, b, c and d of Perez, then e and the
+// value at the zenith over F there.
+struct Sky {
+    vec4 abcd[3];
+    vec2 rest[3];
+};
 
 // Radiance of the clear sky from a direction above the horizon, in linear sRGB.
-vec3 clearSky(vec3 direction) {
-    vec3 sun = sunDirection();
-    float t = turbidity, s = radians(90.0 - sunHeight);
-    float up = max(direction.y, 0.01);
-    float angle = acos(clamp(dot(direction, sun), -1.0, 1.0));
-    float chi = (4.0 / 9.0 - t / 120.0) * (PI - 2.0 * s);
-    float zenith = (4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192;
-    float luminance = zenith
-        * perez(0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-                -0.0670 * t + 0.3703, up, angle)
-        / perez(0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-                -0.0670 * t + 0.3703, 1.0, s);
-    float x = zenithChromaticity(vec4(0.00166, -0.00375, 0.00209, 0.0), vec4(-0.02903, 0.06377, -0.03202, 0.00394),
-                                 vec4(0.11693, -0.21196, 0.06052, 0.25886), t)
-        * perez(-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-                -0.0033 * t + 0.0452, up, angle)
-        / perez(-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-                -0.0033 * t + 0.0452, 1.0, s);
-    float y = zenithChromaticity(vec4(0.00275, -0.00610, 0.00317, 0.0), vec4(-0.04214, 0.08970, -0.04153, 0.00516),
-                                 vec4(0.15346, -0.26756, 0.06670, 0.26688), t)
-        * perez(-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-                -0.0109 * t + 0.0529, up, angle)
-        / perez(-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-                -0.0109 * t + 0.0529, 1.0, s);
-    vec3 xyz = max(luminance, 0.0) * EXPOSED * vec3(x / y, 1.0, (1.0 - x - y) / y);
+vec3 clearSky(Sky sky, vec3 direction) {
+    float up = max(direction.y, 0.01), angle = acos(clamp(dot(direction, sunDirection()), -1.0, 1.0));
+    vec3 yxy;
+    for (int i = 0; i < 3; i++) yxy[i] = sky.rest[i].y * perez(sky.abcd[i], sky.rest[i].x, up, angle);
+    vec3 xyz = max(yxy.x, 0.0) * EXPOSED * vec3(yxy.y / yxy.z, 1.0, (1.0 - yxy.y - yxy.z) / yxy.z);
     // IEC 61966-2-1: CIE XYZ to linear sRGB.
     return max(mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570) * xyz, 0.0);
+}
+
+// Light that a cloud sends: of the sky, and of the sun that shines through it.
+vec3 cloudLight(Sky sky, vec3 direction) {
+    float towardsSun = max(dot(direction, sunDirection()), 0.0);
+    return clearSky(sky, vec3(0.0, 1.0, 0.0)) * 1.6 + vec3(0.42, 0.36, 0.3) * (0.35 + pow(towardsSun, 6.0));
 }
 
 uint hash(uvec3 p) {

@@ -3,7 +3,8 @@
 //! Arguments of calls and constructors are evaluated from left to right (section 6.1.1), the left side of an assignment
 //! before the right (5.8), and what stands before a comma, `&&`, `||` or `?` before what stands behind it (5.9). No
 //! section gives an order for the operands of the other operators, and `out` arguments are written back in any (6.1.1).
-//! Eddy goes from left to right everywhere, as ANGLE does.
+//! Eddy goes from left to right everywhere, as ANGLE does, and like ANGLE reads operands and arguments that are variables, or
+//! parts of them, when all others have been evaluated.
 
 use super::{
     ast::{List, Loc},

@@ -37,7 +37,11 @@ mod tests {
         let listed: Vec<&str> = categories().iter().flat_map(|c| c.names.iter().copied()).collect();
         assert_eq!(listed, names());
         let titles: Vec<&str> = categories().iter().map(|c| c.title.as_str()).collect();
-        assert_eq!(titles, ["Fluids", "Light", "Meshes", "Filters", "Games", "Tricks"], "others means a forgotten one");
+        assert_eq!(
+            titles,
+            ["Fluids", "Light", "Meshes", "Filters", "Sound", "Games", "Tricks"],
+            "others means a forgotten one"
+        );
     }
 
     #[test]

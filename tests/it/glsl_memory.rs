@@ -103,8 +103,8 @@ fn globals_handed_over_keep_the_value_they_had() {
                 "G[I] = 4.0; r = vec4(last(G, I), last(H, I + 2), both(G, H, I), both(H, G, I));",
                 [4., 3., 42., 10.],
             ),
-            // The copy is made before a later argument, or the function itself, writes the global.
-            with(calls, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [9., 5., 0., 0.]),
+            // The copy is made after a later argument writes the global, and before the function itself does.
+            with(calls, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [10., 5., 0., 0.]),
             with(calls, "G[0] = 4.0; r.x = within(G, I); r.y = G[I]; r.zw = vec2(0);", [4., 9., 0., 0.]),
             with(calls, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
             with(

@@ -13,9 +13,8 @@
 //!   (`Convert`) per link: walk these with a loop.
 //! - No implicit conversion is left: operand types fit exactly as each kind says. ANGLE's leniency, where we share
 //!   it, shows as explicit [`ExprKind::Convert`].
-//! - Operands are evaluated left to right, each once: arguments by section 6.1.1, those of operators as ANGLE does, since
-//!   the language leaves it open ([`super::unsequenced`]). Lowering keeps that order visible wherever
-//!   [`ExprFlags::EFFECTS`] is set in a sibling.
+//! - Operands are evaluated left to right, each once, and variables among them are read behind the effects of all, as ANGLE
+//!   does ([`super::unsequenced`]). Lowering keeps that order visible wherever [`ExprFlags::EFFECTS`] is set in a sibling.
 //! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out`
 //!   parameter is zero at entry, a non-void function that ends without `return` returns zero. No expression stands for
 //!   it; lowering does it.

@@ -1,6 +1,7 @@
 //! Parts of variables and values: members, components, elements; places that are assigned to; clamped indices.
 
 use super::{
+    arguments::last_effect,
     context::const_id,
     function::{Builder, Slot},
     names::Precondition,
@@ -46,6 +47,64 @@ impl Builder<'_, '_> {
             place = self.part_of_place(place, link);
         }
         Ok(self.load_place(place))
+    }
+
+    /// Finds the variable or the part of one that an operand names, where what is evaluated after it may change it.
+    ///
+    /// GLSL ES 3.00 gives operands no order. In ANGLE's code for SPIR-V (`OutputSPIRV.cpp`) an operand that is a chain of
+    /// members, swizzles and indices stays one, with its indices evaluated, until its operator is applied; only then is
+    /// it read. So `g * f()` multiplies by what `f` has made of `g`, arguments and constructors likewise. Any other operand
+    /// is a value at once: `(g + 1.0) * f()` adds before.
+    pub fn read_late(&mut self, operand: ExprId, has_effects_behind: bool) -> Option<Place> {
+        if !has_effects_behind {
+            return None;
+        }
+        let (root, links) = self.chain(operand);
+        if !matches!(self.cx.hir[root].kind, ExprKind::Local(_) | ExprKind::Global(_)) {
+            return None;
+        }
+        let mut place = self.root(root, &links)?;
+        for link in links.into_iter().rev() {
+            place = self.part_of_place(place, link);
+        }
+        Some(place)
+    }
+
+    /// Returns the values of operands that are evaluated from left to right; see [`Builder::read_late`].
+    pub fn values(&mut self, operands: &[ExprId]) -> Vec<Value> {
+        let last_effect = last_effect(self.cx.hir, operands);
+        let mut late = Vec::new();
+        let mut values = Vec::with_capacity(operands.len());
+        for (i, &operand) in operands.iter().enumerate() {
+            match self.read_late(self.written(operand), Some(i) < last_effect) {
+                Some(place) => {
+                    late.push((i, operand, place));
+                    // In its place stands any value until it is read.
+                    values.push(place.pointer);
+                }
+                None => values.push(self.value(operand)),
+            }
+        }
+        for (i, operand, place) in late {
+            let (written, read) = (self.written(operand), self.load_place(place));
+            self.probe(written, read);
+            values[i] = read;
+            if written != operand {
+                values[i] = self.convert(read, self.cx.hir[operand].ty);
+                self.probe(operand, values[i]);
+            }
+        }
+        values
+    }
+
+    /// Returns the operand that a constructor was given, where its components are converted: `n` of `vec2(n, 1)`.
+    fn written(&self, operand: ExprId) -> ExprId {
+        let hir = self.cx.hir;
+        match hir[operand].kind {
+            // One that is written as `float(n)` begins before `n`.
+            ExprKind::Convert(inner) if hir[inner].loc == hir[operand].loc => inner,
+            _ => operand,
+        }
     }
 
     /// Returns the base of members, swizzles and indices, and these from the outermost inwards.

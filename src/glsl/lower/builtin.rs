@@ -35,11 +35,9 @@ impl Builder<'_, '_> {
             operation if builtin.is_texture() => return Some(self.texture(operation, ty, args)),
             _ => {}
         }
-        let mut values = [self.typed(args[0]); 3];
-        for (value, &arg) in values.iter_mut().zip(args).skip(1) {
-            *value = self.typed(arg);
-        }
-        let values = &values[..args.len()];
+        let types = args.iter().map(|&arg| self.cx.hir[arg].ty);
+        let values: Vec<Typed> = types.zip(self.values(args)).collect();
+        let values = &values[..];
         self.builtin = Some(builtin);
         let value = self.operation(builtin.operation, ty, values);
         self.builtin = None;
@@ -47,10 +45,6 @@ impl Builder<'_, '_> {
             self.note(value, || Precondition::Call(builtin, values.iter().map(|arg| arg.1).collect()));
         }
         Some(value)
-    }
-
-    fn typed(&mut self, expr: ExprId) -> Typed {
-        (self.cx.hir[expr].ty, self.value(expr))
     }
 
     /// `ty` is the result's.

@@ -15,11 +15,19 @@ use crate::{
     ir::Value,
 };
 
+/// The receiver of what an argument's place holds when all arguments have been evaluated.
+enum Copy {
+    /// An argument of the call, by its index.
+    Argument(usize),
+    /// The callee's own memory.
+    Memory(Value),
+}
+
 impl Builder<'_, '_> {
     /// Calls a function; `None` if it is void.
     ///
-    /// Section 6.1.1: arguments are evaluated in order, each once; `inout` ones are copied in; after the call `out` and
-    /// `inout` ones are copied back, in order. Where nobody can see the difference, the function works on the caller's
+    /// Section 6.1.1: arguments are evaluated in order, each once, and variables among them are read behind all others
+    /// ([`Builder::read_late`]); `inout` ones are copied in; after the call `out` and `inout` ones are copied back, in order. Where nobody can see the difference, the function works on the caller's
     /// variable itself.
     pub fn call(&mut self, func: FuncId, args: &[ExprId]) -> Option<Value> {
         let hir = self.cx.hir;
@@ -33,6 +41,7 @@ impl Builder<'_, '_> {
             .map(|passed| self.resolved(passed))
             .collect();
         let mut next_specialization = specializations.iter();
+        let mut copies_in: Vec<(Copy, Place)> = Vec::new();
         let mut copies_out: Vec<(Place, Value)> = Vec::new();
         let last_effect = last_effect(hir, args);
         let outs = self.out_locals(params, args);
@@ -46,8 +55,15 @@ impl Builder<'_, '_> {
             let in_place = self.cx.arguments.reads_in_place(hir, local);
             // A copy that becomes the callee's own variable.
             let is_moved = !param.kind.copies_out() && !in_place && self.cx.is_long(param.ty);
+            let late = self.read_late(arg, Some(i) < last_effect);
             if !param.kind.copies_out() && !in_place && !is_moved {
-                arguments.push(self.value(arg));
+                match late {
+                    Some(place) => {
+                        copies_in.push((Copy::Argument(arguments.len()), place));
+                        arguments.push(place.pointer);
+                    }
+                    None => arguments.push(self.value(arg)),
+                }
                 continue;
             }
             // Passed by no other `out` or `inout` parameter, and changed by no later argument, the copy and the
@@ -63,21 +79,33 @@ impl Builder<'_, '_> {
                 arguments.push(pointer);
                 continue;
             }
-            if in_place || is_moved {
-                let value = self.value(arg);
-                let copy = self.temporary(param.ty);
-                self.store(copy, value);
-                arguments.push(copy);
+            let copy = self.temporary(param.ty);
+            arguments.push(copy);
+            if !param.kind.copies_out() {
+                match late {
+                    Some(place) => copies_in.push((Copy::Memory(copy), place)),
+                    None => {
+                        let value = self.value(arg);
+                        self.store(copy, value);
+                    }
+                }
                 continue;
             }
-            let place = self.place(arg);
-            let copy = self.temporary(param.ty);
+            let place = match late {
+                Some(place) => place,
+                None => self.place(arg),
+            };
             if param.kind == LocalKind::Inout {
-                let value = self.load_place(place);
-                self.store(copy, value);
+                copies_in.push((Copy::Memory(copy), place));
             }
-            arguments.push(copy);
             copies_out.push((place, copy));
+        }
+        for (into, place) in copies_in {
+            let value = self.load_place(place);
+            match into {
+                Copy::Argument(index) => arguments[index] = value,
+                Copy::Memory(copy) => self.store(copy, value),
+            }
         }
         let result = self.call_instance(Instance { func, specializations }, arguments);
         for (place, copy) in copies_out {

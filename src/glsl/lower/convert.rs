@@ -18,7 +18,7 @@ impl Builder<'_, '_> {
     pub fn vector(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
         let hir = self.cx.hir;
         let size = self.extent(ty) as usize;
-        let values: Vec<_> = args.iter().map(|&arg| (self.value(arg), hir[arg].ty)).collect();
+        let values: Vec<_> = self.values(args).into_iter().zip(args.iter().map(|&arg| hir[arg].ty)).collect();
         let mut parts = Vec::with_capacity(size);
         let mut filled = 0;
         for (value, ty) in values {
@@ -49,7 +49,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let Type::Matrix { columns, rows } = hir.types.get(ty) else { unreachable!("a matrix type") };
         let column_ty = TypeId::vector(Scalar::Float, rows);
-        let values: Vec<_> = args.iter().map(|&arg| (self.value(arg), hir[arg].ty)).collect();
+        let values: Vec<_> = self.values(args).into_iter().zip(args.iter().map(|&arg| hir[arg].ty)).collect();
         if values.len() == usize::from(columns) && values.iter().all(|(_, ty)| *ty == column_ty) {
             return self.compose(ty, values.into_iter().map(|(value, _)| value).collect());
         }

@@ -34,9 +34,19 @@ impl Builder<'_, '_> {
                         };
                     }
                 },
-                ExprKind::Binary { lhs: inner, .. } => {
+                ExprKind::Binary { op, shape, lhs, rhs } => {
+                    let has_effects = hir[rhs].flags.contains(ExprFlags::EFFECTS);
+                    if let Some(place) = self.read_late(lhs, has_effects) {
+                        let right = self.value(rhs);
+                        let left = self.load_place(place);
+                        self.probe(lhs, left);
+                        self.loc = hir[at].loc;
+                        let value = self.binary(op, shape, (hir[lhs].ty, left), (hir[rhs].ty, right));
+                        self.probe(at, value);
+                        break value;
+                    }
                     spine.push(at);
-                    at = inner;
+                    at = lhs;
                 }
                 ExprKind::Logical { lhs: inner, .. } | ExprKind::Convert(inner) => {
                     spine.push(at);
@@ -105,7 +115,7 @@ impl Builder<'_, '_> {
             ExprKind::MatrixResize(of) => self.matrix_resize(ty, of),
             ExprKind::Matrix(args) => self.matrix(ty, &hir[args]),
             ExprKind::Struct(args) | ExprKind::Array(args) => {
-                let parts = hir[args].iter().map(|&arg| self.value(arg)).collect();
+                let parts = self.values(&hir[args]);
                 self.compose(ty, parts)
             }
             ExprKind::Call { func, args } => self.call(func, &hir[args]).expect("a call with a value"),

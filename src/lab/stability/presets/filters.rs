@@ -23,6 +23,23 @@ fn neon(s: &Situation) -> f64 {
     (tubes * s.slider("neon") + 0.05).max(s.slider("constant"))
 }
 
+pub fn denoise() -> Vec<Check> {
+    // Of 2^24 numbers the farthest is 5.9 deviations out.
+    let noisy = |s: &Situation| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise"));
+    vec![
+        by("a", Quantity::Colour, Area::All, noisy, "a picture from 0 to 1, and noise"),
+        by("b", Quantity::Colour, Area::All, noisy, MEAN),
+        picture_by(
+            |s| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise")),
+            "what came, and its means",
+        ),
+    ]
+}
+
+pub fn sky_spheres() -> Vec<Check> {
+    vec![picture(1.0, "the film's curve ends at 1")]
+}
+
 pub fn bloom() -> Vec<Check> {
     let light = |s: &Situation| Allowed::new(0.0, neon(s));
     let spread = |s: &Situation| Allowed::new(0.0, neon(s).min(s.slider("brightest")) * 1.0001);

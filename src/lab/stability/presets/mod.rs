@@ -47,6 +47,10 @@ pub fn declared(name: &str) -> Option<Declared> {
         "gbuffer-edges" => (filters::gbuffer_edges(), None),
         "gbuffer-ssao-ssr" => (filters::gbuffer_ssao_ssr(), None),
         "toon-outline" => (filters::toon_outline(), None),
+        "spectrum" => (others::spectrum(), None),
+        "nocturne" => (others::nocturne(), None),
+        "denoise" => (filters::denoise(), None),
+        "sky-spheres" => (filters::sky_spheres(), None),
         _ => return None,
     };
     let extras = match name {
@@ -58,7 +62,7 @@ pub fn declared(name: &str) -> Option<Declared> {
 }
 
 /// All presets in the order in which they are measured: those that have a state, then those that have none.
-pub const NAMES: [&str; 21] = [
+pub const NAMES: [&str; 25] = [
     "fluid",
     "fluid-dye",
     "fluid-lit",
@@ -71,6 +75,7 @@ pub const NAMES: [&str; 21] = [
     "gallery-of-tricks",
     "mouse-state",
     "feedback",
+    "spectrum",
     "taa",
     "scene-bloom-taa",
     "ssao",
@@ -78,6 +83,9 @@ pub const NAMES: [&str; 21] = [
     "bloom-sized",
     "gaussian-blur",
     "gbuffer-edges",
+    "denoise",
+    "sky-spheres",
+    "nocturne",
     "gbuffer-ssao-ssr",
     "toon-outline",
 ];

@@ -44,6 +44,19 @@ pub fn feedback() -> Vec<Check> {
     ]
 }
 
+pub fn spectrum() -> Vec<Check> {
+    let tilted = "a byte of the analyser from 0 to 1, and up to 0.32 more for high notes; or it falls below 0 by less than a step";
+    vec![
+        always("a", Quantity::Component(0), Area::All, (-0.2, 1.33), tilted),
+        always("a", Quantity::Component(1), Area::All, (-1.001, 1.001), "a wave of 8 bits"),
+        picture(1.6, "ink of 1 on a line of 1.5, the wave beside it, to the power 1/2.2"),
+    ]
+}
+
+pub fn nocturne() -> Vec<Check> {
+    vec![picture(1.5, "x / (1 + x / 2) is below 2, to the power 1/2.2")]
+}
+
 pub fn brick_breaker() -> Vec<Check> {
     const CUT: &str = "a canvas of fewer than 16 x 7 pixels has no room for the game's state";
     // A canvas that has room for the state.

@@ -1,0 +1,8 @@
+#define NAIVE 0
+#define BLEP 1
+#define CLOSED 2
+#define ADDITIVE 3
+#define METHOD NAIVE
+
+#iUniform int periods = 461          // in the whole field
+#iUniform float setting = 1.0
