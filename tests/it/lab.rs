@@ -225,9 +225,9 @@ fn a_normalised_blur_keeps_what_there_is_and_nine_taps_do_not() {
     for (method, expected) in
         [("nine-normalised", 0.0), ("gaussian", 0.0), ("nine", 0.98 * 0.98 - 1.0), ("tent-pyramid", 0.0)]
     {
-        let setting = blur.methods().iter().find(|m| m.name == method).unwrap().usual;
+        let setting = blur.methods.iter().find(|m| m.name == method).unwrap().usual;
         let point = eddy::lab::Point { study: "blur".into(), method: method.into(), setting, grid };
-        let drift = blur.measure(&rig, &point).unwrap().values["mass_drift"].0;
+        let drift = (blur.measure)(&rig, &point).unwrap().values["mass_drift"].0;
         assert!((drift - expected).abs() < 1e-6, "{method}: {drift}");
     }
 }

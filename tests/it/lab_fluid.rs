@@ -3,7 +3,7 @@
 
 use crate::support::gpu;
 use eddy::lab::{
-    Point, Rig, Study,
+    Point, Rig,
     metrics::{Norms, order, square_drift, viscosity_ratio},
     reference::{
         cavity::{REYNOLDS, extrema},
@@ -40,7 +40,7 @@ fn advection_errs_and_converges_as_is_known() {
     for (method, gaussian, disk) in TURNED {
         let measured = [64, 128].map(|grid| {
             let point = Point { study: "advection".into(), method: method.into(), setting: 1.0, grid };
-            let measured = study.measure(&rig, &point).unwrap();
+            let measured = (study.measure)(&rig, &point).unwrap();
             (measured.norms.l2, measured.values["zalesak_l2"].0)
         });
         let observed = order(measured[0].0, measured[1].0, 2.0);

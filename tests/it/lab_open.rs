@@ -55,11 +55,11 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
     for study in studies::all() {
         let grid = study.grids(Extent::Quick)[0];
         let points = study.points(Extent::Quick);
-        for method in study.methods() {
+        for method in study.methods {
             let named = |p: &&eddy::lab::Point| p.method == method.name;
             let point =
                 points.iter().filter(named).min_by_key(|p| (p.grid != grid, p.setting != method.usual)).unwrap();
-            let setup = study.setup(point);
+            let setup = (study.setup)(point);
             let Opened { project: opened, size, pass } = open::project(study, point).unwrap();
             assert_eq!((size, &opened.origin), (setup.size(), &Origin::Unsaved), "{point:?}");
             held += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
