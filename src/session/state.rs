@@ -82,6 +82,7 @@ pub(super) struct Dialog {
 }
 
 /// The picture that is shown.
+#[derive(Default)]
 pub(super) struct Picture {
     pub shown: PassId,
     /// The newest program has not drawn a frame.
@@ -99,22 +100,6 @@ pub(super) struct Picture {
     pub programs_drawn: u64,
     /// Counts the pictures of frames that the engine has drawn.
     pub frames_drawn: u64,
-}
-
-impl Default for Picture {
-    fn default() -> Self {
-        Self {
-            shown: PassId::Image,
-            is_program_new: false,
-            is_new: false,
-            waits_for_painting: false,
-            has_drawn: false,
-            generation: 0,
-            shown_count: 0,
-            programs_drawn: 0,
-            frames_drawn: 0,
-        }
-    }
 }
 
 impl Session {

@@ -6,24 +6,18 @@ use eddy_project::{confine::FileError, limits};
 /// An error of a model before the model's name is added.
 #[derive(Debug)]
 pub(super) enum Trouble {
+    /// It is not what its format says.
     Broken(String),
     /// An error in a line of a text, counted from 1, and how to mend it.
-    Line {
-        line: usize,
-        reason: String,
-        mend: String,
-    },
+    Line { line: usize, reason: String, mend: String },
+    /// It is beyond a limit.
     TooLarge(String),
     /// An error of a file that the model names.
     Named(FileError),
     /// It is glTF of a version that is not read.
     Version(String),
     /// It needs what is not read. `because` says why it is needed, and may be empty; `mend` what to do.
-    Needs {
-        what: String,
-        because: String,
-        mend: String,
-    },
+    Needs { what: String, because: String, mend: String },
     /// It holds no triangles; the words behind that say what else.
     Empty(String),
 }

@@ -15,17 +15,14 @@ use std::path::Path;
 pub enum PassEdit {
     /// Gives a buffer another name, as a person writes it: see [`PassId::buffer_named`]. What reads it reads it under
     /// the new one.
-    Rename {
-        pass: PassId,
-        name: String,
-    },
+    Rename { pass: PassId, name: String },
     /// Puts a buffer at a place among the buffers, which are counted from 0 in drawing order.
-    Move {
-        pass: PassId,
-        to: usize,
-    },
+    Move { pass: PassId, to: usize },
+    /// Sets the size of a buffer's texture.
     Size(PassId, PassSize),
+    /// Sets the format of its texels.
     Format(PassId, TexelFormat),
+    /// Sets the part of it that is drawn; `None`: all.
     Region(PassId, Option<Region>),
     /// Sets what a buffer holds before frame 0; `None`: zeros.
     Initial(PassId, Option<FillValue>),
