@@ -35,8 +35,7 @@ fn an_error_in_an_included_file_is_shown_there() {
 
 #[test]
 fn line_numbers_count_through_included_lines_as_in_the_export() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(float(FIRST), float(__LINE__), 0.0, 1.0); }\n";
     b.write("p/image.glsl", format!("int x;\n#include \"two.glsl\"\n#include \"two.glsl\"\n{main}"));
     b.write("p/two.glsl", "\n#ifndef FIRST\n#define FIRST __LINE__\n#endif\n");

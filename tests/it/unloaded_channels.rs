@@ -112,8 +112,7 @@ fn vertices_read_the_same_of_a_channel_without_a_texture() {
 
 #[test]
 fn trace_and_render_agree_about_a_picture_that_is_missing() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("w/eddy.toml", "[passes.image]\nchannels.0 = { file = \"gone.png\" }\nchannels.1 = { webcam = true }\n");
     b.image(
         "w/image.glsl",

@@ -131,8 +131,7 @@ fn code_point(window: &mut Window, line: i64, column: i64) -> (i64, i64) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn film() {
-    let Some(display) = Display::of_size(SCREEN.0, SCREEN.1) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(SCREEN.0, SCREEN.1) else { return };
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[]);
     std::thread::sleep(Duration::from_secs(3));
     let mut film = Film::new(&display, folder().join("film"));
@@ -259,8 +258,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn editor() {
-    let Some(display) = Display::of_size(1100, 480) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 480) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
     let mut window = Window::open_as(&display, home.path(), Some("1100x480"), &[], &[folder.to_str().unwrap()]);
     window.compiled();
@@ -284,8 +282,7 @@ fn replace(window: &mut Window, text: &str, by: &str) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn trace() {
-    let Some(display) = Display::of_size(1100, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 900) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
     let mut window = Window::open_as(&display, home.path(), Some("1100x900"), &[], &[folder.to_str().unwrap()]);
     window.compiled();
@@ -305,8 +302,7 @@ fn trace() {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn buffers() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
     window.compiled();
     paint(&mut window);
@@ -338,8 +334,7 @@ fn paint(window: &mut Window) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn measurements() {
-    let Some(display) = Display::of_size(1100, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 900) else { return };
     let manifest = "[passes.buffer_a]\nsize = [256, 144]\nchannels.0 = { buffer = \"A\", filter = \"nearest\" }\n\
                     [passes.image]\nchannels.0 = { buffer = \"A\" }\n";
     let files = [("eddy.toml", manifest), ("buffer_a.glsl", WAVES), ("image.glsl", SHOWN_WAVES)];
@@ -380,8 +375,7 @@ const SHOWN_WAVES: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn compare() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
     window.compiled();
@@ -399,8 +393,7 @@ fn compare() {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn lab() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
     window.compiled();
     window.keys(&["ctrl+shift+y"]);

@@ -98,8 +98,7 @@ const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 
 
 #[test]
 fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["fluid"]);
     compiled(&mut window, true);
     // A band around the path of the drag, away from its ends.
@@ -127,8 +126,7 @@ fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() 
 
 #[test]
 fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = one_pass_project(home.path(), GREEN);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window, true);
@@ -170,8 +168,7 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
 
 #[test]
 fn a_file_changed_by_another_program_is_reloaded() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = one_pass_project(home.path(), GREEN);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window, true);
@@ -185,8 +182,7 @@ fn a_file_changed_by_another_program_is_reloaded() {
 
 #[test]
 fn the_screenshot_is_what_render_draws_byte_for_byte() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["feedback"]);
     compiled(&mut window, true);
     // A reset that is asked for before there is a picture leaves frame 0 to the step after it.
@@ -240,8 +236,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
 
 #[test]
 fn dragging_in_brick_breaker_moves_the_paddle() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["brick-breaker"]);
     compiled(&mut window, true);
     let mut paddle_at = |u: f64| {
@@ -264,8 +259,7 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
 
 #[test]
 fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 \
                 at\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red, tint.g, on ? 1.0 : 0.0, 1.0); }";
@@ -298,8 +292,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
 /// The gallery draws its thumbnails on a thread of its own: the device is at work when the surface takes its new size.
 #[test]
 fn a_hundred_sizes_in_a_row_are_followed_without_a_complaint() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     for i in 0..100 {
         window.resize(360 + (i * 97) % 600, 240 + (i * 61) % 440);

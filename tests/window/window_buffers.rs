@@ -86,8 +86,7 @@ fn wheel_to_numbers(window: &mut Window, what: &str) -> Value {
 
 #[test]
 fn a_texel_shows_its_numbers_and_a_nan_its_cause() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+t"]);
     let begun = seen(&mut window, "the panel", |e| e["figures"]["nonfinite"] == 1);
@@ -141,8 +140,7 @@ fn a_texel_shows_its_numbers_and_a_nan_its_cause() {
 
 #[test]
 fn the_graph_says_what_is_read_and_why_a_pass_is_not_drawn() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let settings = home.path().join(".config/eddy");
     fs::create_dir_all(&settings).unwrap();
     fs::write(settings.join("settings.toml"), "theme = \"light\"\n").unwrap();

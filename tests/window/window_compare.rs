@@ -14,8 +14,7 @@ fn near(value: &Value, expected: f64) -> bool {
 
 #[test]
 fn an_edit_is_held_against_its_last_save_and_another_project() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     let text = "void mainImage(out vec4 o, in vec2 p) {\n    float red = 0.25;\n    \
@@ -75,10 +74,7 @@ fn an_edit_is_held_against_its_last_save_and_another_project() {
     window.keys(&["Return"]);
     let wrong = seen(&mut window, "the mistake", |e| e["state"] == "failed");
     assert!(wrong["why"].as_str().unwrap().contains("no-such-preset"), "{wrong}");
-    window.click_on("compare:name");
-    window.keys(&["ctrl+a"]);
-    window.type_text("gallery-of-tricks");
-    window.keys(&["Return"]);
+    window.fill("compare:name", "gallery-of-tricks");
     let other =
         seen(&mut window, "the preset", |e| e["state"] == "ended" && e["figures"]["against"] == "gallery-of-tricks");
     assert!(other["figures"]["flip"].as_f64() > Some(0.0), "{other}");

@@ -29,15 +29,13 @@ fn go_to(window: &mut Window, line: usize, column: usize) {
 /// Saves, and gives a file's text.
 pub fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     fs::read_to_string(home.join("project").join(file)).unwrap()
 }
 
 #[test]
 fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     // In the middle of the third line: lines come below and above it, and it stays whole.
     go_to(&mut window, 3, 8);
@@ -66,8 +64,7 @@ fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
 
 #[test]
 fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 5, 5);
     window.type_text("vec3 n = norm");
@@ -104,8 +101,7 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
 
 #[test]
 fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 4, 25);
     // The list has the declaration in Common and the use here.
@@ -126,8 +122,7 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
 
 #[test]
 fn a_pointer_at_rest_is_told_what_it_is_on() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     let layout = window.newest("layout").unwrap();
     let left = layout["rects"]["editor"][0].as_f64().unwrap();
@@ -143,8 +138,7 @@ fn a_pointer_at_rest_is_told_what_it_is_on() {
 /// The strip under the editor offers each target of a pass that draws meshes.
 #[test]
 fn a_channel_is_given_a_further_target_by_the_mouse() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir_all(&folder).unwrap();
     let toml = "[passes.buffer_scene]\ntargets = [\"rgba8\", \"rgba16f\"]\n\

@@ -56,8 +56,7 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 
 #[test]
 fn a_paused_window_draws_nothing_and_takes_no_time() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
@@ -227,8 +226,7 @@ fn kept(home: &Path) -> Vec<Value> {
 
 #[test]
 fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let (secs, seed) = (number("EDDY_ENDURANCE_SECS", 20), number("EDDY_SEED", 7));
     let mut window = open(&display, home.path());
     let mut random = Random(seed);
@@ -272,9 +270,7 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
         if !is_there {
             // What was pasted beside the code, or a preset, took the project's place, and lies nowhere yet.
             window.shows("field:path");
-            window.keys(&["ctrl+a"]);
-            window.type_text(folder.to_str().unwrap());
-            window.keys(&["Return"]);
+            window.enter(folder.to_str().unwrap());
         }
         window.wait_until("the save", "dirty", |e| e["dirty"] == false);
         let saved = fs::read_to_string(folder.join("image.glsl")).unwrap();
@@ -288,8 +284,7 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
 #[test]
 #[ignore = "prints times; they mean something on a quiet machine only"]
 fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     // `EDDY_SHADER=FILE` takes another text, whose fourth line ends in a number like that of this one.

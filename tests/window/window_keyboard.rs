@@ -35,8 +35,7 @@ fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
 
 #[test]
 fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     // A preset of the gallery.
     go_to(&mut window, "Tab", "preset:feedback");
@@ -79,8 +78,7 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
 
 #[test]
 fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     let text = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n\

@@ -20,19 +20,15 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 
 fn saved(window: &mut Window, home: &Path) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     fs::read_to_string(home.join("project/image.glsl")).unwrap()
 }
 
 #[test]
 fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
-    window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
-    window.type_text("cost");
+    window.search_palette("cost");
     window.shows("palette:costs");
     window.hides("palette:save");
     display.shot("palette.png");
@@ -41,9 +37,7 @@ fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
     window.wait_until("the table of costs", "layout", |e| e["rects"]["costs:sum"].is_array());
     // What had the keyboard has it again, and the code's own actions are in the list too.
     window.type_text("// ");
-    window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
-    window.type_text("copy down");
+    window.search_palette("copy down");
     window.shows("palette:copy-lines-down");
     window.keys(&["Return"]);
     window.hides("palette");
@@ -59,8 +53,7 @@ fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
 
 #[test]
 fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+h"]);
     window.shows("field:replace");
@@ -95,8 +88,7 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
 
 #[test]
 fn lines_move_copy_and_go_and_f3_finds_on() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "Down", "alt+Down", "shift+alt+Down", "alt+Up", "alt+Up", "ctrl+shift+k"]);
     // The line moved below the next one, was copied there, and the copy went up two lines and away.
@@ -118,8 +110,7 @@ fn lines_move_copy_and_go_and_f3_finds_on() {
 
 #[test]
 fn a_folded_block_is_gone_past_and_long_lines_wrap() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "ctrl+shift+bracketleft", "Down"]);
     display.shot("folded.png");
@@ -137,8 +128,7 @@ fn a_folded_block_is_gone_past_and_long_lines_wrap() {
 
 #[test]
 fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join(".config/eddy");
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("keybindings.toml"), "palette = \"F9\"\npalete = \"F10\"\n").unwrap();

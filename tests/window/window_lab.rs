@@ -12,8 +12,7 @@ fn points(layout: &Value) -> Vec<String> {
 
 #[test]
 fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n").unwrap();
@@ -65,8 +64,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
 
 #[test]
 fn the_table_of_costs_names_every_pass_and_closes_again() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir_all(&folder).unwrap();
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();

@@ -78,8 +78,7 @@ fn every_size_has_room_for_the_picture_and_the_code() {
 
 #[test]
 fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["F9"]);
@@ -115,8 +114,7 @@ fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
 
 #[test]
 fn the_window_comes_back_as_it_was_closed() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
     let size = |e: &Value| e["window"].as_array().map(|s| (s[0].as_u64().unwrap(), s[1].as_u64().unwrap()));
@@ -173,8 +171,7 @@ fn f64_max(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 
 #[test]
 fn what_is_wrong_in_the_settings_is_said_with_its_line() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let settings = home.path().join(".config/eddy");
     fs::create_dir_all(&settings).unwrap();
@@ -190,8 +187,7 @@ fn what_is_wrong_in_the_settings_is_said_with_its_line() {
 /// A hand moves the line between picture and code, and a panel by its title; the next start has them there.
 #[test]
 fn panels_are_dragged_and_stay() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
     let mut moved = [0.0; 4];
@@ -238,8 +234,7 @@ fn panels_are_dragged_and_stay() {
 /// Paused and left alone, a window draws nothing and takes no processor.
 #[test]
 fn a_window_at_rest_takes_no_time() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     let corner = window.picture_point(0.5, 0.5);
@@ -261,8 +256,7 @@ fn a_window_at_rest_takes_no_time() {
 /// A channel that a buffer feeds shows that buffer as it is drawn, and as it is while paused.
 #[test]
 fn a_channel_shows_its_buffer_live() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("live");
     fs::create_dir_all(&folder).unwrap();
     let green = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
@@ -333,8 +327,7 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
 /// The code of Image is in front at the start, however many tabs come before its own.
 #[test]
 fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("twenty");
     fs::create_dir_all(&folder).unwrap();
     let mut manifest = String::new();

@@ -60,8 +60,7 @@ fn pause(window: &mut Window) -> i64 {
 
 #[test]
 fn comments_have_their_numbers_over_time() {
-    let Some(display) = Display::of_size(1280, 1000) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+j"]);
     window.shows("panel:measurements");
@@ -110,8 +109,7 @@ fn comments_have_their_numbers_over_time() {
 
 #[test]
 fn a_closed_panel_measures_nothing_and_leaves_a_gap() {
-    let Some(display) = Display::of_size(1280, 1000) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
     let settings = home.path().join(".config/eddy");
     fs::create_dir_all(&settings).unwrap();
     fs::write(settings.join("settings.toml"), "theme = \"light\"\n").unwrap();

@@ -34,8 +34,7 @@ fn screenshot_size(window: &mut Window) -> (u32, u32) {
 
 #[test]
 fn a_typed_size_is_drawn_shown_whole_and_saved() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = home.path().join("mouse.glsl");
     fs::write(&file, MOUSE).unwrap();
     let mut window = Window::open(&display, home.path(), &["--paused", file.to_str().unwrap()]);
@@ -83,8 +82,7 @@ fn a_typed_size_is_drawn_shown_whole_and_saved() {
 #[test]
 fn what_is_not_a_size_is_said_at_the_field() {
     for is_light in [false, true] {
-        let Some(display) = Display::of_size(1300, 900) else { return };
-        let home = tempfile::tempdir().unwrap();
+        let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
         if is_light {
             light(home.path());
         }
@@ -109,9 +107,7 @@ fn what_is_not_a_size_is_said_at_the_field() {
         }
         assert_eq!(window.newest("layout").unwrap()["canvas"], before);
         // By the palette, whose entry leads into the field.
-        window.keys(&["ctrl+shift+p"]);
-        window.shows("field:palette");
-        window.type_text("portrait");
+        window.search_palette("portrait");
         window.shows("palette:picture-size");
         window.keys(&["Return"]);
         window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");

@@ -24,9 +24,7 @@ fn type_at_start(window: &mut Window, text: &str) {
 /// Types a path into the field for it.
 fn type_path(window: &mut Window, path: &Path) {
     window.wait_until("the field for a path", "layout", |e| e["rects"]["field:path"].is_array());
-    window.keys(&["ctrl+a"]);
-    window.type_text(path.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(path.to_str().unwrap());
 }
 
 fn recovery_files(home: &Path) -> Vec<PathBuf> {
@@ -36,8 +34,7 @@ fn recovery_files(home: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     // From the gallery.
     window.click_on("gallery:new");
@@ -70,8 +67,7 @@ fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
 
 #[test]
 fn save_as_calls_everything_by_the_new_folder() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let old = home.path().join("old");
     fs::create_dir(&old).unwrap();
     fs::write(old.join("image.glsl"), IMAGE).unwrap();
@@ -95,8 +91,7 @@ fn save_as_calls_everything_by_the_new_folder() {
 
 #[test]
 fn a_killed_window_offers_what_was_typed_at_the_next_start() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("image.glsl"), IMAGE).unwrap();
@@ -121,8 +116,7 @@ fn a_killed_window_offers_what_was_typed_at_the_next_start() {
     window.wait_until("the recovered work", "dirty", |e| e["dirty"] == true);
     window.wait_until("a pause", "frame", |e| e["playing"] == false);
     display.shot("recovered.png");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), format!("// typed and never saved {IMAGE}"));
     let end = Instant::now() + Duration::from_secs(20);
     while !recovery_files(home.path()).is_empty() {
@@ -155,8 +149,7 @@ fn kept(home: &Path) -> Option<String> {
 fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     const MORE: &str = "/* and what was being typed */ ";
     let kills = std::env::var("EDDY_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(3);
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("image.glsl"), IMAGE).unwrap();
@@ -197,15 +190,13 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     }
     let mut window = Window::open(&display, home.path(), &[]);
     recover(&mut window);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), expected);
 }
 
 #[test]
 fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("w");
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("edit.glsl"), IMAGE).unwrap();
@@ -226,7 +217,6 @@ fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path(
     }
     assert!(!folder.join("w").exists(), "not in a folder of that name within it");
     window.click_on("editor");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("edit.glsl")).unwrap(), format!("/* mine */ {IMAGE}"));
 }

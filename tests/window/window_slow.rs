@@ -77,8 +77,7 @@ fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
         window.keys(&["alt+Return"]);
         window.wait_until("the picture of the mended code", "compiled", |e| e["ok"] == true && e["compiling"] == false);
         window.wait_until("the end of the halt", "halt", |e| e["kind"].is_null());
-        window.keys(&["ctrl+s"]);
-        window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+        window.save();
         window.keys(&["ctrl+q"]);
         assert_eq!(window.ends(), Some(0), "{}", window.complaints());
     }
@@ -134,8 +133,7 @@ fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
         std::thread::sleep(Duration::from_millis(200));
     }
     display.shot("given-up.png");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("buffer_a.glsl")).unwrap(), endless, "the text is as it was pasted");
     window.keys(&["ctrl+q"]);
     assert_eq!(window.ends(), Some(0), "{}", window.complaints());
@@ -143,8 +141,7 @@ fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
 
 #[test]
 fn a_paused_start_draws_nothing_before_one_says_so() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let file = home.path().join("image.glsl");
     fs::write(&file, GREEN).unwrap();
     let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap(), "--paused"]);
@@ -157,8 +154,7 @@ fn a_paused_start_draws_nothing_before_one_says_so() {
 
 #[test]
 fn a_window_whose_device_is_lost_goes_on_with_another() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let (file, loss) = (home.path().join("image.glsl"), home.path().join("lose-it"));
     fs::write(&file, GREEN).unwrap();
     let arguments = [file.to_str().unwrap(), "--lose-device", loss.to_str().unwrap()];
@@ -204,8 +200,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
 
     window.keys(&["Return"]);
     window.type_text("// and more");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert!(fs::read_to_string(&file).unwrap().ends_with("// not saved\n// and more"));
     window.click_on("button:play");
     window.wait_until("it to play", "frame", |e| e["playing"] == true);

@@ -50,8 +50,7 @@ fn go_to(window: &mut Window, text: &str) {
 
 #[test]
 fn time_is_typed_dragged_and_looped() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     // Frame by frame on the way there, as the state has to.
@@ -109,8 +108,7 @@ fn time_is_typed_dragged_and_looped() {
 
 #[test]
 fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     go_to(&mut window, "1.5");

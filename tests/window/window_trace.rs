@@ -60,8 +60,7 @@ fn number(event: &Value, name: &str) -> f64 {
 
 #[test]
 fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
@@ -170,8 +169,7 @@ channels.0 = { buffer = "scene" }
 
 #[test]
 fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let folder = project(home.path(), image);
     for (name, text) in [("scene.vert.glsl", VERTEX), ("scene.frag.glsl", FRAGMENT), ("eddy.toml", MESHES)] {
@@ -197,8 +195,7 @@ fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
 
 #[test]
 fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
@@ -225,8 +222,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
 
 #[test]
 fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path(), PROBED);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["alt+Up"]);
@@ -287,8 +283,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
 /// Drivers make `atan` of a polynomial; the walker's is the nearest number.
 #[test]
 fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let code = "void mainImage(out vec4 o, in vec2 c) {\n    float s = c.x * 0.5;\n    vec3 t = atan(vec3(0.3, 0.7, 1.9) * c.x / c.y);\n    \
                 o = vec4(t, s);\n}\n";
     let folder = project(home.path(), code);

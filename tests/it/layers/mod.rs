@@ -79,7 +79,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "gpu",
             "engine",
             "background",
-    "controls",
+            "controls",
             "debugger",
             "lab",
             "cli",

@@ -376,6 +376,32 @@ impl<'a> Window<'a> {
         keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
     }
 
+    /// Types over what the field with the keyboard holds, and ends with Return.
+    pub fn enter(&self, text: &str) {
+        self.keys(&["ctrl+a"]);
+        self.type_text(text);
+        self.keys(&["Return"]);
+    }
+
+    /// Clicks on a field and types over what it holds.
+    pub fn fill(&mut self, field: &str, text: &str) {
+        self.click_on(field);
+        self.enter(text);
+    }
+
+    /// Opens the palette and types in it.
+    pub fn search_palette(&mut self, text: &str) {
+        self.keys(&["ctrl+shift+p"]);
+        self.shows("field:palette");
+        self.type_text(text);
+    }
+
+    /// Saves the project, and waits until that is done.
+    pub fn save(&mut self) {
+        self.keys(&["ctrl+s"]);
+        self.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    }
+
     pub fn type_text(&self, text: &str) {
         self.display.tool(&["type", "--delay", "15", text]);
     }
