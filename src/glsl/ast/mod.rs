@@ -18,7 +18,6 @@
 mod arena;
 mod names;
 mod position;
-mod rank;
 
 pub use arena::{List, Pooled};
 pub(crate) use arena::{arenas, ids, with_room};
@@ -119,6 +118,32 @@ impl Ast {
     pub fn expr(&mut self, kind: ExprKind, loc: Loc) -> ExprId {
         self.exprs.push(Expr { kind, loc });
         ExprId::new(self.exprs.len() - 1)
+    }
+
+    /// Calls `visit` for each expression that one consists of, in text order.
+    pub fn parts(&self, expr: ExprId, mut visit: impl FnMut(ExprId)) {
+        match self[expr].kind {
+            ExprKind::Error
+            | ExprKind::Int(_)
+            | ExprKind::Uint(_)
+            | ExprKind::Float(_)
+            | ExprKind::Bool(_)
+            | ExprKind::Name(_) => {}
+            ExprKind::Call { args, .. } => self[args].iter().copied().for_each(visit),
+            ExprKind::Construct { ty, args } => {
+                self[self[ty].dims].iter().filter_map(|dim| dim.size).for_each(&mut visit);
+                self[args].iter().copied().for_each(visit);
+            }
+            ExprKind::Method { base: of, .. }
+            | ExprKind::Member { base: of, .. }
+            | ExprKind::Unary { operand: of, .. }
+            | ExprKind::Postfix { operand: of, .. } => visit(of),
+            ExprKind::Index { base: a, index: b }
+            | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Comma { lhs: a, rhs: b }
+            | ExprKind::Assign { place: a, value: b, .. } => [a, b].into_iter().for_each(visit),
+            ExprKind::Ternary { cond, then, otherwise } => [cond, then, otherwise].into_iter().for_each(visit),
+        }
     }
 
     #[inline]
@@ -400,6 +425,21 @@ pub enum QualifierKind {
     Invariant,
     Precision(Precision),
     Layout(List<LayoutItem>),
+}
+
+impl QualifierKind {
+    /// Position in the order that section 4.7 and the grammar demand.
+    pub fn rank(self) -> u8 {
+        match self {
+            QualifierKind::Layout(_) => 0,
+            QualifierKind::Invariant => 1,
+            QualifierKind::Flat | QualifierKind::Smooth => 2,
+            QualifierKind::Centroid => 3,
+            QualifierKind::Const => 4,
+            QualifierKind::In | QualifierKind::Out | QualifierKind::Inout | QualifierKind::Uniform => 5,
+            QualifierKind::Precision(_) => 6,
+        }
+    }
 }
 
 /// `location = 0` or `std140` in a `layout(..)`.

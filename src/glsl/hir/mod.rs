@@ -154,6 +154,52 @@ impl Module {
         let function = &self[func];
         &self.locals[function.locals.start as usize..][..function.param_count as usize]
     }
+
+    /// Adds what an expression consists of.
+    pub fn parts(&self, expr: ExprId, out: &mut Vec<ExprId>) {
+        match self[expr].kind {
+            ExprKind::Error
+            | ExprKind::Literal(_)
+            | ExprKind::Const(_)
+            | ExprKind::Local(_)
+            | ExprKind::Global(_)
+            | ExprKind::Uniform(_)
+            | ExprKind::CustomUniform(_)
+            | ExprKind::Channel(_)
+            | ExprKind::BuiltinVar(_) => {}
+            ExprKind::Member { base: of, .. }
+            | ExprKind::Swizzle { base: of, .. }
+            | ExprKind::Unary { operand: of, .. }
+            | ExprKind::IncDec { place: of, .. }
+            | ExprKind::Convert(of)
+            | ExprKind::Splat(of)
+            | ExprKind::MatrixDiagonal(of)
+            | ExprKind::MatrixResize(of) => out.push(of),
+            ExprKind::Index { base: a, index: b }
+            | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Comma { lhs: a, rhs: b }
+            | ExprKind::Assign { place: a, value: b }
+            | ExprKind::AssignOp { place: a, value: b, .. }
+            | ExprKind::Logical { lhs: a, rhs: b, .. } => out.extend([a, b]),
+            ExprKind::Ternary { cond, then, otherwise } => out.extend([cond, then, otherwise]),
+            ExprKind::Vector(args)
+            | ExprKind::Matrix(args)
+            | ExprKind::Struct(args)
+            | ExprKind::Array(args)
+            | ExprKind::Builtin { args, .. }
+            | ExprKind::Call { args, .. } => out.extend(&self[args]),
+        }
+    }
+
+    /// Returns the variable that a place is or lies in.
+    pub fn root(&self, mut place: ExprId) -> ExprId {
+        while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
+            self[place].kind
+        {
+            place = base;
+        }
+        place
+    }
 }
 
 /// A struct type. Member types are complete and none is void; names are distinct.
