@@ -1,6 +1,6 @@
 //! What the lab's methods promise, as gates: small cases against closed forms and linear theory.
 
-use crate::support::gpu;
+use crate::support::rig;
 use eddy::lab::{
     Extent, Rig, Running, Setup,
     metrics::{Norms, order},
@@ -14,10 +14,6 @@ use eddy::lab::{
     studies::{self, fluid, gray_scott, poisson},
 };
 use std::f64::consts::TAU;
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 fn guay(n: u32) -> Setup {
     Setup::new("fluid_guay", (n, n)).define("METHOD", "ONE_PASS")

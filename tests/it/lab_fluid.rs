@@ -1,7 +1,7 @@
 //! What fluids promise, as gates: orders, errors and energies on a torus, the lid-driven cavity, single waves in a
 //! fluid at rest.
 
-use crate::support::gpu;
+use crate::support::rig;
 use eddy::lab::{
     Point, Rig,
     metrics::{Norms, order, square_drift, viscosity_ratio},
@@ -18,10 +18,6 @@ use eddy::lab::{
     },
 };
 use std::f64::consts::TAU;
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 /// Relative L2 errors after one turn on 64 x 64 and 128 x 128 texels that an independent f64 program finds: of a
 /// Gaussian, and of Zalesak's disk.

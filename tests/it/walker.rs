@@ -6,7 +6,7 @@ use crate::{
 };
 use eddy::{
     debugger::trace::{self, Event, Extent},
-    engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
+    engine::{BuildOptions, Engine, FrameInputs, Sources},
     media,
     project::{self, PassId, Project, presets},
 };
@@ -33,9 +33,7 @@ void mainImage(out vec4 o, in vec2 p) {
 }
 ";
     let project = project(vec![image(code, Default::default())]);
-    let built = Program::build(&gpu, &project, &Default::default(), &Default::default()).unwrap();
-    let mut engine = Engine::new(gpu, 8, 4).unwrap();
-    engine.set_program(built.program).unwrap();
+    let mut engine = engine(&gpu, &project, (8, 4));
     let image = PassId::Image;
     let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &image).unwrap();
     let texts = Sources::new(&project);
@@ -318,10 +316,7 @@ fn what_a_probe_and_a_traced_pixel_cost() {
             let own = if probe.is_some() { BuildOptions::probed() } else { PassId::Image };
             let wanted = [own].into_iter().chain(buffers.clone()).collect();
             let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
-            let built = Program::build(&gpu, &project, &media, &options).unwrap();
-            let mut engine = Engine::new(gpu.clone(), 640, 360).unwrap();
-            engine.set_program(built.program).unwrap();
-            engine
+            engine_with(&gpu, &project, &media, &options, (640, 360))
         };
         let millis = |engine: &mut Engine, frame| {
             let began = std::time::Instant::now();

@@ -2,7 +2,7 @@
 //!
 //! `scripts/draw-pictures` runs these and encodes what they write into the folder that `EDDY_PICTURES` names.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use image::{Rgb, RgbImage, imageops};
 use std::{
     fmt::Write as _,
@@ -218,10 +218,7 @@ fn save_column(name: &str, display: &Display, window: &mut Window, rows: u32) {
 }
 
 fn project(home: &Path, files: &[(&str, &str)]) -> PathBuf {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
-    folder
+    folder_of(home.join("project"), files)
 }
 
 /// A sphere on a floor, by ray marching.
@@ -260,8 +257,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
 fn editor() {
     let Some((display, home)) = Display::of_size_with_home(1100, 480) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x480"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x480", folder.to_str().unwrap());
     replace(&mut window, "length", "lenght");
     window.keys(&["Escape"]);
     window.wait_until("the mistake", "compiled", |e| e["ok"] == false && e["compiling"] == false);
@@ -284,8 +280,7 @@ fn replace(window: &mut Window, text: &str, by: &str) {
 fn trace() {
     let Some((display, home)) = Display::of_size_with_home(1100, 900) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x900"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+d"]);
     window.shows("trace:pick");
     let pixel = window.picture_point(0.45, 0.6);
@@ -303,8 +298,7 @@ fn trace() {
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn buffers() {
     let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1280x800", "fluid");
     paint(&mut window);
     window.keys(&["ctrl+shift+t"]);
     window.shows("buffers:canvas");
@@ -339,8 +333,7 @@ fn measurements() {
                     [passes.image]\nchannels.0 = { buffer = \"A\" }\n";
     let files = [("eddy.toml", manifest), ("buffer_a.glsl", WAVES), ("image.glsl", SHOWN_WAVES)];
     let folder = project(home.path(), &files);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x900"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+j"]);
     window.shows("panel:measurements");
     std::thread::sleep(Duration::from_secs(30));
@@ -377,8 +370,7 @@ const SHOWN_WAVES: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)
 fn compare() {
     let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1280x800", folder.to_str().unwrap());
     // With fewer steps, rays that pass near the ball end before the floor.
     replace(&mut window, "90", "14");
     window.compiled();
@@ -394,8 +386,7 @@ fn compare() {
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn lab() {
     let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1280x800", "fluid");
     window.keys(&["ctrl+shift+y"]);
     window.click_on("lab:study");
     window.click_on("lab:study:blur");

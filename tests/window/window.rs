@@ -1,6 +1,6 @@
 //! End to end: the real window on a display of its own, moved by real mouse and key events, judged by what it saved.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -88,10 +88,7 @@ fn turns(window: &mut Window, expected: [u8; 3]) {
 }
 
 fn one_pass_project(home: &Path, code: &str) -> PathBuf {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), code).unwrap();
-    folder
+    folder_of(home.join("project"), &[("image.glsl", code)])
 }
 
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }";
@@ -187,8 +184,7 @@ fn the_screenshot_is_what_render_draws_byte_for_byte() {
     compiled(&mut window, true);
     // A reset that is asked for before there is a picture leaves frame 0 to the step after it.
     window.wait_until("frames", "frame", |e| e["frame"].as_u64() > Some(2));
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.keys(&["alt+Down"]);
     window.wait_until("frame 0", "frame", |e| e["playing"] == false && e["frame"] == 0);
     for frame in 1..=3 {
@@ -221,8 +217,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
         window.keys(&["ctrl+shift+r"]);
         window.shows("button:recording");
         window.draw_strokes_until(frames);
-        window.keys(&["alt+Up"]);
-        window.wait_until("the pause", "frame", |e| e["playing"] == false);
+        window.pause();
         let shot = image::open(saved(&mut window, "F12")).unwrap().to_rgba8();
         let replay = saved(&mut window, "ctrl+shift+r");
         assert_eq!(replay.extension().and_then(|e| e.to_str()), Some("replay"));
@@ -267,8 +262,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     let folder = folder.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[folder, "--set", "tint=0,1,0"]);
     compiled(&mut window, true);
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     // Held until it shows: a press and a release between two frames drag nothing.
     let slider = window.centre("uniform:red");
     window.move_to(slider);

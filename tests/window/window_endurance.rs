@@ -7,7 +7,7 @@ use crate::{
     random::{Random, number},
     support::{
         keyboard::Keyboard,
-        window::{Display, Window},
+        window::{Display, Window, folder_of},
     },
 };
 use serde_json::Value;
@@ -39,16 +39,13 @@ fn pid(window: &Window) -> u64 {
 }
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
     let image = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
                  void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n\
                  \x20   o = vec4(red * uv, 0.5 + 0.5 * sin(iTime), 1.0) * texture(iChannel0, uv).x;\n}\n";
     let buffer = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
-    fs::write(folder.join("image.glsl"), image).unwrap();
-    fs::write(folder.join("buffer_a.glsl"), buffer).unwrap();
     let manifest = "eddy = 1\nname = \"Endurance\"\n[passes.buffer_a]\n[passes.image.channels.0]\nbuffer = \"A\"\n";
-    fs::write(folder.join("eddy.toml"), manifest).unwrap();
+    let folder =
+        folder_of(home.join("project"), &[("image.glsl", image), ("buffer_a.glsl", buffer), ("eddy.toml", manifest)]);
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window

@@ -106,8 +106,7 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     window.keys(&["F12"]);
     window.shows("tab:lib/tone.glsl");
     display.shot("included.png");
-    window.type_text("// by hand");
-    window.keys(&["Return"]);
+    window.submit("// by hand");
     window.wait_until("its tab unsaved", "dirty", |e| {
         e["tabs"].as_array().is_some_and(|t| t.iter().any(|t| t == "lib/tone.glsl"))
     });

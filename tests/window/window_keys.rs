@@ -1,16 +1,14 @@
 //! End to end: the command palette, finding and replacing, several carets and moved lines, by real key events, judged
 //! by the file that is saved.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
 
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n    float f = \
                      uv.x;\n    o = vec4(uv, f, 1.0);\n}\n";
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.join("project"), &[("image.glsl", IMAGE)]);
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("editor");
@@ -67,16 +65,7 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
     window.hides("field:find");
     // The word, its next occurrence, and the one after that.
     window.keys(&["ctrl+Home", "Down", "Down", "End"]);
-    window.keys(&[
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-    ]);
+    window.keys(&["ctrl+Left"; 8]);
     window.keys(&["ctrl+d", "ctrl+d", "ctrl+d"]);
     window.type_text("st");
     display.shot("carets.png");
@@ -129,9 +118,7 @@ fn a_folded_block_is_gone_past_and_long_lines_wrap() {
 #[test]
 fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
     let Some((display, home)) = Display::with_home() else { return };
-    let folder = home.path().join(".config/eddy");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("keybindings.toml"), "palette = \"F9\"\npalete = \"F10\"\n").unwrap();
+    folder_of(home.path().join(".config/eddy"), &[("keybindings.toml", "palette = \"F9\"\npalete = \"F10\"\n")]);
     let mut window = open(&display, home.path());
     let is_told = |e: &serde_json::Value| e["event"] == "notice" && e["level"] == "error";
     let told = window.events.iter().find(|e| is_told(e)).cloned();

@@ -5,7 +5,7 @@
 
 use crate::{
     random::{Random, number},
-    support::window::{Display, Window},
+    support::window::{Display, Window, folder_of},
 };
 use std::{
     collections::BTreeSet,
@@ -140,10 +140,8 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
     let (kills, seed) = (number("EDDY_KILLS", 4), number("EDDY_SEED", 1));
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    let folder = home.join("project");
-    fs::create_dir(&folder).unwrap();
     let files = [("image.glsl", IMAGE), ("buffer_a.glsl", BUFFER), ("eddy.toml", MANIFEST), ("notes.txt", NOTES)];
-    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
+    let folder = folder_of(home.join("project"), &files);
     let mut expected = Expected {
         image: IMAGE.into(),
         saved: [IMAGE.into()].into(),

@@ -1,6 +1,6 @@
 //! End to end: the window of passes and what comes in from outside, by real keys and clicks, judged by what is on disk.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -20,13 +20,8 @@ channels.1 = { buffer = \"B\" }
 ";
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("waves");
-    fs::create_dir(&folder).unwrap();
     let files = [("eddy.toml", MANIFEST), ("buffer_a.glsl", BUFFER), ("buffer_b.glsl", BUFFER), ("image.glsl", IMAGE)];
-    for (name, text) in files {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("waves"), &files)
 }
 
 /// Opens a popup by its button and clicks on one of its items.
@@ -93,8 +88,7 @@ fn passes_are_renamed_moved_set_removed_and_brought_back() {
 fn what_a_pass_begins_with_and_its_edges_are_typed() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
     choose(&mut window, "passes:initial", "passes:initial:an expression");
@@ -119,8 +113,7 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
 fn region_steps_filter_and_wrap_are_set_by_hand() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
     // A number that is clicked can be typed.
@@ -151,8 +144,7 @@ fn region_steps_filter_and_wrap_are_set_by_hand() {
 fn a_pass_that_vanishes_leaves_an_empty_card_a_warning_and_a_redrawn_picture() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     window.shows("channel:1");

@@ -1,7 +1,7 @@
 //! End to end: a recording is played in the window, a project is exported from its menu, and the page with the
 //! bookmarklet is written, by real clicks and keys.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -19,12 +19,7 @@ const MANIFEST: &str =
     "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("sum");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("sum"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)])
 }
 
 fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {

@@ -1,7 +1,7 @@
 //! End to end: typing reaches the code, saving always finds a way, and what was typed outlives the process. By real
 //! keys in the real window, on a machine with no file dialogs, judged by the files.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -68,10 +68,10 @@ fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
 #[test]
 fn save_as_calls_everything_by_the_new_folder() {
     let Some((display, home)) = Display::with_home() else { return };
-    let old = home.path().join("old");
-    fs::create_dir(&old).unwrap();
-    fs::write(old.join("image.glsl"), IMAGE).unwrap();
-    fs::write(old.join("eddy.toml"), "eddy = 1\nname = \"The old one\"\n[passes.image]\n").unwrap();
+    let old = folder_of(
+        home.path().join("old"),
+        &[("image.glsl", IMAGE), ("eddy.toml", "eddy = 1\nname = \"The old one\"\n[passes.image]\n")],
+    );
     // By a relative path, and saved to one.
     let mut window = Window::open(&display, home.path(), &["old"]);
     window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
@@ -92,9 +92,7 @@ fn save_as_calls_everything_by_the_new_folder() {
 #[test]
 fn a_killed_window_offers_what_was_typed_at_the_next_start() {
     let Some((display, home)) = Display::with_home() else { return };
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", IMAGE)]);
     let project = folder.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[project]);
     window.click_on("editor");
@@ -150,9 +148,7 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     const MORE: &str = "/* and what was being typed */ ";
     let kills = std::env::var("EDDY_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(3);
     let Some((display, home)) = Display::with_home() else { return };
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", IMAGE)]);
     let mut expected = IMAGE.to_owned();
     let recover = |window: &mut Window| {
         question(window, "recover");
@@ -197,9 +193,7 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
 #[test]
 fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path() {
     let Some((display, home)) = Display::with_home() else { return };
-    let folder = home.path().join("w");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("edit.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.path().join("w"), &[("edit.glsl", IMAGE)]);
     let mut window = Window::open(&display, home.path(), &["w/edit.glsl"]);
     window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window.click_on("editor");

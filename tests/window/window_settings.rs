@@ -1,6 +1,6 @@
 //! End to end: the page of settings writes the file and follows it, and the list of recent projects has their pictures.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -12,9 +12,7 @@ const RED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.9, 0.2, p.
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.1, 0.8, 0.1, 1.0); }\n";
 
 fn settings_file(home: &Path, text: &str) -> PathBuf {
-    let folder = home.join(".config/eddy");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("settings.toml"), text).unwrap();
+    let folder = folder_of(home.join(".config/eddy"), &[("settings.toml", text)]);
     folder.join("settings.toml")
 }
 
@@ -128,8 +126,7 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
     assert!(!file.exists(), "looking writes nothing");
     window.keys(&["ctrl+comma"]);
     window.click_on("setting:code-font");
-    window.type_text("/no/such/font.ttf");
-    window.keys(&["Return"]);
+    window.submit("/no/such/font.ttf");
     window.shows("setting:code-font:error");
     display.shot("settings-font.png");
     assert!(!file.exists(), "what cannot be used is not written");

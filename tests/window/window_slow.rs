@@ -1,7 +1,7 @@
 //! End to end: code that the device does not come back from, and a device that is lost, in the real window, by real key
 //! events.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::Path,
@@ -92,11 +92,8 @@ const SHOWN: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iCha
 fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
     let Some(display) = Display::open() else { return };
     let (home, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let folder = home.path().join("many");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", GREEN)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
+    let folder =
+        folder_of(home.path().join("many"), &[("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", GREEN)]);
     // What it was before is read, as each of the steps would be the same otherwise.
     let endless = ENDLESS.replace("float a = p.x;", "float a = p.x + texelFetch(iChannel0, ivec2(p), 0).y;");
     let _source = copied(&display, there.path(), &endless);
@@ -162,8 +159,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
     window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
     // What is shown while paused is to be shown again, and what is not saved is to be kept.
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
     window.type_text("// not saved");

@@ -39,8 +39,7 @@ fn at_frame_90<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'
     window.compiled();
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
-    window.type_text("1.5");
-    window.keys(&["Return"]);
+    window.submit("1.5");
     window.wait_until("a second and a half", "frame", |e| e["frame"] == 90);
     window.keys(&["Escape"]);
     window.hides("time:field");
@@ -248,8 +247,7 @@ fn the_question_of_recovered_work_stands_where_it_came() {
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
     for line in 0..6 {
-        window.type_text(&format!("// typed {line}"));
-        window.keys(&["Return"]);
+        window.submit(&format!("// typed {line}"));
     }
     // A second text with a short difference.
     window.click_on("tab:Buffer A");

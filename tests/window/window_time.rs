@@ -1,6 +1,6 @@
 //! End to end: time that is typed, dragged, looped and kept over an edit, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -24,12 +24,7 @@ fn time(frame: &Value) -> f64 {
 }
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("count");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("count"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)])
 }
 
 /// Opens it paused, before its first frame.
@@ -44,8 +39,7 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
 fn go_to(window: &mut Window, text: &str) {
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
-    window.type_text(text);
-    window.keys(&["Return"]);
+    window.submit(text);
 }
 
 #[test]

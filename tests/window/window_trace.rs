@@ -1,6 +1,6 @@
 //! End to end: the way of a pixel and the value of an expression, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -35,17 +35,13 @@ const PROBED: &str = "void mainImage(out vec4 o, in vec2 c) {
 ";
 
 fn project(home: &Path, code: &str) -> PathBuf {
-    let folder = home.join("marcher");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), code).unwrap();
-    folder
+    folder_of(home.join("marcher"), &[("image.glsl", code)])
 }
 
 /// Puts the caret at a line, or a line and a column.
 fn go_to(window: &mut Window, place: &str) {
     window.keys(&["ctrl+g"]);
-    window.type_text(place);
-    window.keys(&["Return"]);
+    window.submit(place);
 }
 
 fn traced(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
@@ -106,13 +102,11 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
 
     // A watch of an expression that calls the author's own function, and one that is wrong.
     window.click_on("trace:watch:new");
-    window.type_text("map(rd * t) * 2.0");
-    window.keys(&["Return"]);
+    window.submit("map(rd * t) * 2.0");
     let told = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
     let watched = traced(&mut window, "the watch", |e| told(e).is_some());
     assert!((told(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
-    window.type_text("nonsense");
-    window.keys(&["Return"]);
+    window.submit("nonsense");
     let wrong = |e: &Value| e["watches"]["nonsense"].as_str().is_some_and(|text| text.contains("nonsense"));
     traced(&mut window, "what is wrong", wrong);
     display.shot("trace-stopped.png");
@@ -211,8 +205,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     traced(&mut window, "the breakpoint", |e| e["breakpoints"][0]["line"] == 16);
     // A line more at the begin of the text.
     window.keys(&["ctrl+Home"]);
-    window.type_text("float scale = 2.0;");
-    window.keys(&["Return"]);
+    window.submit("float scale = 2.0;");
     traced(&mut window, "the breakpoint below", |e| e["breakpoints"][0]["line"] == 17);
     traced(&mut window, "the new code", |e| e["line"] == 6);
     window.keys(&["F5"]);
@@ -225,8 +218,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path(), PROBED);
     let mut window = Window::open_project(&display, home.path(), &folder);
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.resize(1000, 700);
     window.click_on("editor");
     go_to(&mut window, "2:11");
@@ -253,8 +245,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.wait_until("the vector", "probe", |e| e["type"] == "vec3" && e["range"][2].is_array());
     // What is typed before it moves it.
     window.keys(&["ctrl+Home"]);
-    window.type_text("// more");
-    window.keys(&["Return"]);
+    window.submit("// more");
     window.wait_until("the line below", "probe", |e| e["line"] == 4);
     window.compiled();
     // Without its line there is no value, and with it again there is.

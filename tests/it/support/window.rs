@@ -1,6 +1,6 @@
 //! The real window on a display of its own: Xvfb, the `eddy` binary with `--json`, xdotool for hands.
 
-pub use super::display::Display;
+pub use super::{display::Display, folder_of};
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader},
@@ -118,6 +118,13 @@ impl<'a> Window<'a> {
     /// Opens a window with a project and waits until that is compiled.
     pub fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
         let mut window = Self::open(display, home, &[project.to_str().unwrap()]);
+        window.compiled();
+        window
+    }
+
+    /// The same with a window of a size.
+    pub fn of_size(display: &'a Display, home: &Path, size: &str, project: &str) -> Window<'a> {
+        let mut window = Self::open_as(display, home, Some(size), &[], &[project]);
         window.compiled();
         window
     }
@@ -376,11 +383,22 @@ impl<'a> Window<'a> {
         keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
     }
 
+    /// Types, and ends with Return.
+    pub fn submit(&self, text: &str) {
+        self.type_text(text);
+        self.keys(&["Return"]);
+    }
+
+    /// Pauses the picture, and waits until it stands still.
+    pub fn pause(&mut self) {
+        self.keys(&["alt+Up"]);
+        self.wait_until("the pause", "frame", |e| e["playing"] == false);
+    }
+
     /// Types over what the field with the keyboard holds, and ends with Return.
     pub fn enter(&self, text: &str) {
         self.keys(&["ctrl+a"]);
-        self.type_text(text);
-        self.keys(&["Return"]);
+        self.submit(text);
     }
 
     /// Clicks on a field and types over what it holds.
