@@ -138,7 +138,7 @@ pub struct Study {
     /// finer answer: where it turns from one setting to the next, two errors cancel between them, and the report takes
     /// for the best error what finer settings keep.
     pub signed: Option<&'static str>,
-    /// What the report compares by the time to an error of 1 %.
+    /// The report compares these by the time to an error of 1 %.
     pub race: Option<Race>,
     /// The project that draws the point, as it is at time 0.
     pub setup: fn(&Point) -> Setup,
