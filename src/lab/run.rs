@@ -125,7 +125,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         self.errors(&own, options, control)?;
         // Costs are comparable only where they were measured in turns: a study's belong to one machine.
         for (_, study) in studies.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)) {
-            self.costs(*study, options)?;
+            self.costs(study, options)?;
         }
         Ok(())
     }
@@ -147,7 +147,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
             points.iter().copied().partition(|(_, point)| self.results.error(point).is_some());
         for (study, point) in known {
             if self.results.measured(point).is_some() && self.results.cost(point).is_none() {
-                let estimate = estimate(&self.rig, *study, point, options, control)?;
+                let estimate = estimate(&self.rig, study, point, options, control)?;
                 estimate.into_iter().for_each(|millis| (self.tell)(Step::Estimate { point, millis }));
             }
         }
@@ -162,7 +162,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
                 scope.spawn(move || {
                     while let Some((study, point)) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
                         let ends = sender.send((point, None)).is_err()
-                            || sender.send((point, Some(measure(rig, *study, point, options, control)))).is_err();
+                            || sender.send((point, Some(measure(rig, study, point, options, control)))).is_err();
                         if ends {
                             return;
                         }

@@ -25,7 +25,7 @@ pub fn write(out: &Path, studies: &[&'static Study], results: &Results) -> Resul
         Ok::<(), LabError>(())
     };
     let mut sections = Vec::new();
-    for table in studies.iter().filter_map(|study| Table::new(*study, results)) {
+    for table in studies.iter().filter_map(|study| Table::new(study, results)) {
         save(format!("{}.csv", table.study.name), csv::text(&table).as_bytes())?;
         let svg = plot::svg(&table)?;
         if let Some(svg) = &svg {

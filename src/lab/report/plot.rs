@@ -105,7 +105,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     chart
         .configure_mesh()
         .x_desc(format!("{} ({} x {} texels)", table.study.unit.label(), table.grid, table.grid))
-        .y_desc(&table.study.error_label())
+        .y_desc(table.study.error_label())
         .x_label_formatter(&|x| label(*x))
         .y_label_formatter(&|y| label(*y))
         .label_style((FONT, 17, &INK))
