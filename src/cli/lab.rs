@@ -66,12 +66,11 @@ fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
     report(out, &studies::all(), &results)
 }
 
-fn report(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<String, LabError> {
+fn report(out: &Path, studies: &[&'static Study], results: &Results) -> Result<String, LabError> {
     // What other studies have left there is reported too.
     let all = studies::all();
     let known = all.iter().filter(|s| {
-        let name = s.about().name;
-        studies.iter().any(|s| s.about().name == name) || results.errors.iter().any(|e| e.point.study == name)
+        studies.iter().any(|other| other.name == s.name) || results.errors.iter().any(|e| e.point.study == s.name)
     });
     let mut files = report::write(out, &known.copied().collect::<Vec<_>>(), results)?;
     files.extend(stability::files(out, results, &[])?);
@@ -93,14 +92,13 @@ fn finish(done: Result<String, LabError>) -> io::Result<u8> {
     }
 }
 
-fn list(studies: &[&dyn Study]) -> io::Result<u8> {
+fn list(studies: &[&Study]) -> io::Result<u8> {
     let mut out = io::stdout().lock();
     for study in studies {
-        let about = study.about();
-        writeln!(out, "{}: {}", about.name, about.title)?;
-        for method in study.methods() {
+        writeln!(out, "{}: {}", study.name, study.title)?;
+        for method in study.methods {
             let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
-            writeln!(out, "    {:24} {} ({}: {})", method.name, method.title, about.parameter, settings.join(", "))?;
+            writeln!(out, "    {:24} {} ({}: {})", method.name, method.title, study.parameter, settings.join(", "))?;
         }
     }
     out.flush()?;

@@ -8,9 +8,10 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 /// Says how a project fared. The order is how bad it is for the exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
+    #[default]
     Ok,
     /// The author has something to mend.
     Diagnostics,
@@ -32,7 +33,7 @@ impl Status {
 }
 
 /// One line of `--json`.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct Report {
     /// Its name on the command line.
     pub project: String,
@@ -84,16 +85,7 @@ impl Message {
 
 impl Report {
     pub fn new(project: &str) -> Report {
-        Report {
-            project: project.to_owned(),
-            sweep: Vec::new(),
-            status: Status::Ok,
-            diagnostics: Vec::new(),
-            compile_ms: None,
-            frame_ms: None,
-            frames: 0,
-            carets: String::new(),
-        }
+        Report { project: project.to_owned(), ..Report::default() }
     }
 
     /// Returns an empty report of a project that is drawn with these assignments.

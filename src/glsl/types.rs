@@ -87,32 +87,23 @@ impl SamplerDim {
 /// Says what a [`TypeId`] stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
+    /// The type of what was not understood.
     Error,
+    /// No value.
     Void,
+    /// A bool or a number.
     Scalar(Scalar),
     /// `size` 2 to 4.
-    Vector {
-        scalar: Scalar,
-        size: u8,
-    },
+    Vector { scalar: Scalar, size: u8 },
     /// A matrix of floats, column-major; `matCxR` has C columns of R rows.
-    Matrix {
-        columns: u8,
-        rows: u8,
-    },
+    Matrix { columns: u8, rows: u8 },
     /// `len` at least 1. ESSL 3.00 has no arrays of arrays, so `element` is no array (but may be a struct holding one).
-    Array {
-        element: TypeId,
-        len: u32,
-    },
+    Array { element: TypeId, len: u32 },
+    /// A type that the program defines.
     Struct(StructId),
     /// `scalar` is what a read gives: float, int or uint. Lowering meets only float 2D, 3D and cube without `shadow`:
     /// there is no other channel, so no call can pass one.
-    Sampler {
-        dim: SamplerDim,
-        scalar: Scalar,
-        shadow: bool,
-    },
+    Sampler { dim: SamplerDim, scalar: Scalar, shadow: bool },
 }
 
 /// All types of a module by [`TypeId`].

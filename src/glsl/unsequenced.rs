@@ -87,68 +87,36 @@ impl Finder<'_> {
         self.effects.get_mut(expr.index().wrapping_sub(self.first)).map(std::mem::take).unwrap_or_default()
     }
 
-    fn take_all(&mut self, exprs: List<ExprId>) -> Effects {
+    /// Takes the effects of all that an expression consists of.
+    fn take_all(&mut self, expr: ExprId) -> Effects {
+        let mut parts = Vec::new();
+        self.module.parts(expr, &mut parts);
         let mut all = Effects::default();
-        for &expr in &self.module[exprs] {
-            all.add(self.take(expr));
-        }
+        parts.into_iter().for_each(|part| all.add(self.take(part)));
         all
     }
 
     fn expression(&mut self, id: ExprId) -> Effects {
         let expr = &self.module[id];
         match expr.kind {
-            ExprKind::Error
-            | ExprKind::Literal(_)
-            | ExprKind::Const(_)
-            | ExprKind::Uniform(_)
-            | ExprKind::CustomUniform(_)
-            | ExprKind::Channel(_)
-            | ExprKind::BuiltinVar(_) => Effects::default(),
-            ExprKind::Local(local) => reads(Variable::Local(local.index() as u32)),
-            ExprKind::Global(global) => reads(Variable::Global(global.index() as u32)),
-            ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } => self.take(base),
-            ExprKind::Unary { operand, .. } => self.take(operand),
-            ExprKind::Convert(arg)
-            | ExprKind::Splat(arg)
-            | ExprKind::MatrixDiagonal(arg)
-            | ExprKind::MatrixResize(arg) => self.take(arg),
+            ExprKind::Local(_) | ExprKind::Global(_) => self.root(id).map(reads).unwrap_or_default(),
             ExprKind::Binary { lhs, rhs, .. } => self.unordered(expr.loc, lhs, rhs),
             ExprKind::Index { base, index } => self.unordered(expr.loc, base, index),
-            ExprKind::Logical { lhs, rhs, .. } | ExprKind::Comma { lhs, rhs } => self.both(lhs, rhs),
-            ExprKind::Ternary { cond, then, otherwise } => {
-                let mut all = self.both(then, otherwise);
-                all.add(self.take(cond));
-                all
-            }
-            ExprKind::Assign { place, value } | ExprKind::AssignOp { place, value, .. } => {
-                let mut all = self.both(place, value);
+            ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {
+                let mut all = self.take_all(id);
                 all.writes.extend(self.root(place));
                 all
             }
-            ExprKind::IncDec { place, .. } => {
-                let mut all = self.take(place);
-                all.writes.extend(self.root(place));
-                all
-            }
-            ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
-                self.take_all(args)
-            }
-            ExprKind::Call { func, args } => self.call(expr.loc, func, args),
+            ExprKind::Call { func, args } => self.call(id, func, args),
             ExprKind::Builtin { builtin, args } => {
-                let mut all = self.take_all(args);
+                let mut all = self.take_all(id);
                 if builtin.writes.is_some() {
                     all.writes.extend(self.module[args].last().and_then(|&place| self.root(place)));
                 }
                 all
             }
+            _ => self.take_all(id),
         }
-    }
-
-    fn both(&mut self, a: ExprId, b: ExprId) -> Effects {
-        let mut all = self.take(a);
-        all.add(self.take(b));
-        all
     }
 
     fn unordered(&mut self, loc: Loc, a: ExprId, b: ExprId) -> Effects {
@@ -160,14 +128,14 @@ impl Finder<'_> {
         left
     }
 
-    fn call(&mut self, loc: Loc, func: FuncId, args: List<ExprId>) -> Effects {
-        let mut all = self.take_all(args);
+    fn call(&mut self, call: ExprId, func: FuncId, args: List<ExprId>) -> Effects {
+        let mut all = self.take_all(call);
         let is_written = |kind: LocalKind| matches!(kind, LocalKind::Out | LocalKind::Inout);
         let params = self.module.params(func).iter().zip(&self.module[args]);
         let written: Vec<ExprId> = params.filter(|(param, _)| is_written(param.kind)).map(|(_, &arg)| arg).collect();
         let overlap = |(i, &a): (usize, &ExprId)| written[..i].iter().any(|&b| self.overlaps(a, b));
         if written.iter().enumerate().any(overlap) {
-            self.found.push((loc, ARGUMENTS));
+            self.found.push((self.module[call].loc, ARGUMENTS));
         }
         all.writes.extend(written.iter().filter_map(|&place| self.root(place)));
         all.add(self.functions[func.index()].clone());
@@ -175,16 +143,11 @@ impl Finder<'_> {
     }
 
     /// The variable that a place lies in.
-    fn root(&self, mut place: ExprId) -> Option<Variable> {
-        loop {
-            match self.module[place].kind {
-                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
-                    place = base;
-                }
-                ExprKind::Local(local) => return Some(Variable::Local(local.index() as u32)),
-                ExprKind::Global(global) => return Some(Variable::Global(global.index() as u32)),
-                _ => return None,
-            }
+    fn root(&self, place: ExprId) -> Option<Variable> {
+        match self.module[self.module.root(place)].kind {
+            ExprKind::Local(local) => Some(Variable::Local(local.index() as u32)),
+            ExprKind::Global(global) => Some(Variable::Global(global.index() as u32)),
+            _ => None,
         }
     }
 

@@ -59,9 +59,10 @@ impl Letterbox {
 }
 
 /// The shape of a picture that follows the view.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
     /// 16:9, which pictures on the site are composed for.
+    #[default]
     Site,
     /// The view's own.
     Fill,

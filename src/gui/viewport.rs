@@ -25,6 +25,7 @@ pub enum ViewportMode {
     Window,
 }
 
+#[derive(Default)]
 pub struct Viewport {
     texture: Option<TextureId>,
     /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
@@ -49,19 +50,7 @@ impl Viewport {
     pub const RIMS: f32 = 2.0 * RIM + 1.0;
 
     pub fn new() -> Self {
-        Self {
-            texture: None,
-            shows: (0, true),
-            painted: 0,
-            is_texture_new: false,
-            letterbox: None,
-            asked_size: (0, 0),
-            mouse_is_down: false,
-            take_focus: false,
-            shape: Shape::Site,
-            picks: false,
-            under: None,
-        }
+        Self { shows: (0, true), ..Self::default() }
     }
 
     pub fn id() -> Id {

@@ -63,7 +63,7 @@ impl Background {
     /// Measures on a device that `open` opens on the run's thread. `wake` is called after each event.
     pub fn start(
         open: impl FnOnce() -> Result<Gpu, GpuError> + Send + 'static,
-        studies: Vec<&'static dyn Study>,
+        studies: Vec<&'static Study>,
         options: Options,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<Background> {
@@ -119,7 +119,7 @@ impl Drop for Background {
 
 fn measure(
     open: impl FnOnce() -> Result<Gpu, GpuError>,
-    studies: &[&dyn Study],
+    studies: &[&Study],
     options: &Options,
     control: &Control,
     tell: &dyn Fn(Event),

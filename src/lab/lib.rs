@@ -37,4 +37,4 @@ pub use rig::{Field, Rig, Running};
 pub use setup::Setup;
 pub use shard::Shard;
 pub use stop::Stop;
-pub use study::{About, Extent, HardCase, Measured, Method, Point, Race, Study, Unit, three_of};
+pub use study::{Extent, HardCase, Measured, Method, Point, Race, Study, Unit, three_of};

@@ -16,8 +16,8 @@ pub struct Opened {
 }
 
 /// The project of a point of a study.
-pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
-    let setup = study.setup(point);
+pub fn project(study: &Study, point: &Point) -> Result<Opened, LabError> {
+    let setup = (study.setup)(point);
     let (mut project, media) = setup.project()?;
     for pass in &mut project.passes {
         for kind in FillKind::ALL {
@@ -34,13 +34,12 @@ pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
             project.turn_custom_uniform(&custom_uniform, value);
         }
     }
-    let about = study.about();
-    let method = study.methods().iter().find(|m| m.name == point.method);
+    let method = study.methods.iter().find(|m| m.name == point.method);
     let title = method.map_or(point.method.as_str(), |m| m.title);
-    project.name = format!("{} {} {}", about.name, point.method, point.setting);
+    project.name = format!("{} {} {}", study.name, point.method, point.setting);
     project.info.description = format!(
         "{}: {title}, {} = {}, on {} x {} texels.",
-        about.title, about.parameter, point.setting, point.grid, point.grid
+        study.title, study.parameter, point.setting, point.grid, point.grid
     );
     let pass = setup.wanted().first().cloned().unwrap_or(PassId::Image);
     Ok(Opened { project, size: setup.size(), pass })

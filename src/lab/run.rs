@@ -35,28 +35,16 @@ pub enum Step<'a> {
     /// Says what the folder holds already.
     Resumed(&'a Results),
     /// This point is measured next; `done` of `all` are, of all studies together.
-    Error {
-        point: &'a Point,
-        done: usize,
-        all: usize,
-    },
+    Error { point: &'a Point, done: usize, all: usize },
     /// Says what came of it.
     Measured(&'a ErrorRecord),
     /// About what a frame of it costs, where [`Control::estimates`] asks for that.
-    Estimate {
-        point: &'a Point,
-        millis: f64,
-    },
+    Estimate { point: &'a Point, millis: f64 },
     /// Costs of a study's points are measured next, all together.
-    Cost {
-        study: &'a str,
-        points: usize,
-    },
+    Cost { study: &'a str, points: usize },
     /// So many turns of them are done.
-    Turn {
-        done: u32,
-        all: u32,
-    },
+    Turn { done: u32, all: u32 },
+    /// Says what a point costs.
     Costed(&'a CostRecord),
 }
 
@@ -85,19 +73,14 @@ pub fn provenance(gpu: &Gpu, options: &Options) -> Provenance {
 
 /// Measures what is not among the results of `options.out` yet, and gives all of them. A method that fails is a record
 /// of its own and stops no other.
-pub fn run(
-    gpu: &Gpu,
-    studies: &[&dyn Study],
-    options: &Options,
-    tell: impl FnMut(Step<'_>),
-) -> Result<Results, LabError> {
+pub fn run(gpu: &Gpu, studies: &[&Study], options: &Options, tell: impl FnMut(Step<'_>)) -> Result<Results, LabError> {
     controlled(gpu, studies, options, &Control::default(), tell)
 }
 
 /// As [`run`], until it is stopped: what is known by then is kept and given.
 pub fn controlled(
     gpu: &Gpu,
-    studies: &[&dyn Study],
+    studies: &[&Study],
     options: &Options,
     control: &Control,
     mut tell: impl FnMut(Step<'_>),
@@ -118,13 +101,13 @@ pub fn controlled(
     }
 }
 
-fn all_points<'s>(studies: &[&'s dyn Study], extent: Extent) -> Vec<(&'s dyn Study, Point)> {
+fn all_points<'s>(studies: &[&'s Study], extent: Extent) -> Vec<(&'s Study, Point)> {
     studies.iter().flat_map(|s| s.points(extent).into_iter().map(|p| (*s, p))).collect()
 }
 
 /// `None` where the setup has a fault, which measuring will tell.
-fn fingerprint(study: &dyn Study, point: &Point) -> Option<String> {
-    study.setup(point).fingerprint().ok()
+fn fingerprint(study: &Study, point: &Point) -> Option<String> {
+    (study.setup)(point).fingerprint().ok()
 }
 
 /// A run under way.
@@ -136,13 +119,13 @@ struct Work<T> {
 }
 
 impl<T: FnMut(Step<'_>)> Work<T> {
-    fn all(&mut self, studies: &[&dyn Study], options: &Options, control: &Control) -> Result<(), LabError> {
+    fn all(&mut self, studies: &[&Study], options: &Options, control: &Control) -> Result<(), LabError> {
         let points = all_points(studies, options.extent);
         let own: Vec<_> = points.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)).map(|(_, p)| p).collect();
         self.errors(&own, options, control)?;
         // Costs are comparable only where they were measured in turns: a study's belong to one machine.
         for (_, study) in studies.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)) {
-            self.costs(*study, options)?;
+            self.costs(study, options)?;
         }
         Ok(())
     }
@@ -159,17 +142,12 @@ impl<T: FnMut(Step<'_>)> Work<T> {
     }
 
     /// Measures the errors of points that are not known yet, on as many devices as [`rigs`] gives.
-    fn errors(
-        &mut self,
-        points: &[&(&dyn Study, Point)],
-        options: &Options,
-        control: &Control,
-    ) -> Result<(), LabError> {
+    fn errors(&mut self, points: &[&(&Study, Point)], options: &Options, control: &Control) -> Result<(), LabError> {
         let (known, missing): (Vec<_>, Vec<_>) =
             points.iter().copied().partition(|(_, point)| self.results.error(point).is_some());
         for (study, point) in known {
             if self.results.measured(point).is_some() && self.results.cost(point).is_none() {
-                let estimate = estimate(&self.rig, *study, point, options, control)?;
+                let estimate = estimate(&self.rig, study, point, options, control)?;
                 estimate.into_iter().for_each(|millis| (self.tell)(Step::Estimate { point, millis }));
             }
         }
@@ -184,7 +162,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
                 scope.spawn(move || {
                     while let Some((study, point)) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
                         let ends = sender.send((point, None)).is_err()
-                            || sender.send((point, Some(measure(rig, *study, point, options, control)))).is_err();
+                            || sender.send((point, Some(measure(rig, study, point, options, control)))).is_err();
                         if ends {
                             return;
                         }
@@ -209,7 +187,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         })
     }
 
-    fn costs(&mut self, study: &dyn Study, options: &Options) -> Result<(), LabError> {
+    fn costs(&mut self, study: &Study, options: &Options) -> Result<(), LabError> {
         let grid = study.main_grid(options.extent);
         let all = study.points(options.extent).into_iter().filter(|p| p.grid == grid);
         let has_failed = |p: &Point| self.results.error(p).is_some_and(|e| e.trouble.is_some());
@@ -218,8 +196,8 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         if missing.is_empty() {
             return Ok(());
         }
-        (self.tell)(Step::Cost { study: study.about().name, points: missing.len() });
-        let setups: Vec<Setup> = missing.iter().map(|point| study.setup(point)).collect();
+        (self.tell)(Step::Cost { study: study.name, points: missing.len() });
+        let setups: Vec<Setup> = missing.iter().map(|point| (study.setup)(point)).collect();
         let prints: Vec<Option<String>> = setups.iter().map(|setup| setup.fingerprint().ok()).collect();
         let record =
             |n: usize, cost: &Cost| CostRecord { point: missing[n].clone(), setup: prints[n].clone(), cost: *cost };
@@ -258,12 +236,12 @@ fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
 /// well.
 fn measure(
     rig: &Rig,
-    study: &dyn Study,
+    study: &Study,
     point: &Point,
     options: &Options,
     control: &Control,
 ) -> Result<(ErrorRecord, Option<f64>), LabError> {
-    let (measured, trouble) = match study.measure(rig, point) {
+    let (measured, trouble) = match (study.measure)(rig, point) {
         Ok(measured) => (Some(measured), None),
         // No fault of the method's.
         Err(LabError::Stopped) => return Err(LabError::Stopped),
@@ -280,7 +258,7 @@ fn measure(
 /// About what a frame of a point costs, if it is one whose cost will be measured and estimates are asked for.
 fn estimate(
     rig: &Rig,
-    study: &dyn Study,
+    study: &Study,
     point: &Point,
     options: &Options,
     control: &Control,
@@ -288,7 +266,7 @@ fn estimate(
     if !control.estimates || point.grid != study.main_grid(options.extent) {
         return Ok(None);
     }
-    cost::estimate(rig, &study.setup(point), turn_millis(options.extent)).map(Some)
+    cost::estimate(rig, &(study.setup)(point), turn_millis(options.extent)).map(Some)
 }
 
 /// Milliseconds that a turn takes at least.

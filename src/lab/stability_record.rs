@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Says why a case is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Defaults, nobody near.
+    #[default]
     Untouched,
     /// So many cells a step.
     Courant,
@@ -93,7 +94,7 @@ pub enum Recovery {
 }
 
 /// A case of a project.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StabilityRecord {
     pub project: String,
     /// The fingerprint of the project's texts: see `Subject::fingerprint`.

@@ -4,21 +4,6 @@ use super::{LabError, Number, Rig, Setup, metrics::Norms};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Holds what a study is about, in words for its report.
-#[derive(Clone, Copy, Debug)]
-pub struct About {
-    /// As the command line spells it.
-    pub name: &'static str,
-    pub title: &'static str,
-    /// The scene and its reference, one or two sentences.
-    pub text: &'static str,
-    /// Says what a method's settings are.
-    pub parameter: &'static str,
-    pub unit: Unit,
-    /// Says what the error is relative to, for the plot's axis.
-    pub error: &'static str,
-}
-
 /// Says what a cost is divided by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
@@ -41,11 +26,8 @@ impl Unit {
 }
 
 /// Four grids, each twice the one before: a quick run measures on the first three, a full run on the last three.
-pub fn three_of(extent: Extent, grids: &'static [u32; 4]) -> &'static [u32] {
-    match extent {
-        Extent::Quick => &grids[..3],
-        Extent::Full => &grids[1..],
-    }
+pub const fn three_of([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, c], [b, c, d]]
 }
 
 /// Says how much to measure.
@@ -131,62 +113,88 @@ pub struct Race {
 }
 
 /// A question about numerical methods. One file of `studies/` each.
-pub trait Study: Sync {
-    fn about(&self) -> About;
-
-    /// Returns what a plot's y axis is called.
-    fn error_label(&self) -> String {
-        format!("relative L2 error {}", self.about().error)
-    }
-
-    fn methods(&self) -> &'static [Method];
-
-    /// Grids from coarse to fine, at least three, each twice the one before. The plot shows [`Study::main_grid`].
-    fn grids(&self, extent: Extent) -> &'static [u32];
-
-    /// The grid of the plot, and of every cost.
-    fn main_grid(&self, extent: Extent) -> u32 {
-        let grids = self.grids(extent);
-        grids[grids.len() - 1]
-    }
-
-    /// The project that draws the point, as it is at time 0.
-    fn setup(&self, point: &Point) -> Setup;
-
-    /// Runs the point and compares it with the reference.
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError>;
-
+#[derive(Clone, Copy, Debug)]
+pub struct Study {
+    /// As the command line spells it.
+    pub name: &'static str,
+    pub title: &'static str,
+    /// The scene and its reference, one or two sentences.
+    pub text: &'static str,
+    /// Says what a method's settings are.
+    pub parameter: &'static str,
+    pub unit: Unit,
+    /// Says what the error is relative to, for the plot's axis.
+    pub error: &'static str,
+    /// The error is a part of a norm of the truth, which the plot's axis says.
+    pub is_relative: bool,
+    pub methods: &'static [Method],
+    /// Grids of a quick run and of a full one, from coarse to fine, each twice the one before.
+    pub grids: [[u32; 3]; 2],
+    /// The grid of the plot, and of every cost, where it is not the finest.
+    pub main_grid: Option<u32>,
     /// A finer grid is a finer answer to the same question, so that an order can be observed.
-    fn has_order(&self) -> bool {
-        true
-    }
-
+    pub has_order: bool,
     /// Names a further figure whose sign tells on which side of the truth a method is, where a smaller setting is a
     /// finer answer: where it turns from one setting to the next, two errors cancel between them, and the report takes
     /// for the best error what finer settings keep.
-    fn signed(&self) -> Option<&'static str> {
-        None
+    pub signed: Option<&'static str>,
+    /// The report compares these by the time to an error of 1 %.
+    pub race: Option<Race>,
+    /// The project that draws the point, as it is at time 0.
+    pub setup: fn(&Point) -> Setup,
+    /// Runs the point and compares it with the reference.
+    pub measure: fn(&Rig, &Point) -> Result<Measured, LabError>,
+}
+
+impl Study {
+    /// A study of relative errors with an order, whose words, methods and grids are yet to be given.
+    pub const fn of(setup: fn(&Point) -> Setup, measure: fn(&Rig, &Point) -> Result<Measured, LabError>) -> Study {
+        Study {
+            name: "",
+            title: "",
+            text: "",
+            parameter: "",
+            unit: Unit::Frame,
+            error: "",
+            is_relative: true,
+            methods: &[],
+            grids: [[0; 3]; 2],
+            main_grid: None,
+            has_order: true,
+            signed: None,
+            race: None,
+            setup,
+            measure,
+        }
     }
 
-    /// Returns what the report compares by the time to an error of 1 %.
-    fn race(&self) -> Option<Race> {
-        None
+    /// Returns what a plot's y axis is called.
+    pub fn error_label(&self) -> String {
+        if self.is_relative { format!("relative L2 error {}", self.error) } else { self.error.into() }
+    }
+
+    pub fn grids(&self, extent: Extent) -> [u32; 3] {
+        self.grids[usize::from(extent == Extent::Full)]
+    }
+
+    /// Returns the grid of the plot, and of every cost.
+    pub fn main_grid(&self, extent: Extent) -> u32 {
+        self.main_grid.unwrap_or(self.grids(extent)[2])
     }
 
     /// Everything to measure: every setting on the main grid, and, where an order can be observed, the usual one on the
     /// others. A quick run has the usual setting and each second one of the others: the second, the fourth and so on.
-    fn points(&self, extent: Extent) -> Vec<Point> {
+    pub fn points(&self, extent: Extent) -> Vec<Point> {
         let main = self.main_grid(extent);
         let step = if extent == Extent::Quick { 2 } else { 1 };
         let mut points = Vec::new();
-        for method in self.methods() {
-            let point =
-                |setting, grid| Point { study: self.about().name.into(), method: method.name.into(), setting, grid };
+        for method in self.methods {
+            let point = |setting, grid| Point { study: self.name.into(), method: method.name.into(), setting, grid };
             let settings = method.settings.iter().enumerate();
             let settings = settings.filter(|(n, s)| (n + 1) % step == 0 || **s == method.usual);
             points.extend(settings.map(|(_, &setting)| point(setting, main)));
-            let others = self.grids(extent).iter().filter(|grid| **grid != main && self.has_order());
-            points.extend(others.map(|&grid| point(method.usual, grid)));
+            let others = self.grids(extent).into_iter().filter(|grid| *grid != main && self.has_order);
+            points.extend(others.map(|grid| point(method.usual, grid)));
         }
         points
     }

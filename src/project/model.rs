@@ -252,6 +252,12 @@ pub enum Tab {
     Included(String),
 }
 
+impl Default for Tab {
+    fn default() -> Self {
+        Tab::Pass(PassId::Image)
+    }
+}
+
 impl Tab {
     pub fn title(&self) -> String {
         match self {

@@ -4,11 +4,12 @@ use super::{PassKind, limits};
 use std::cmp::Ordering;
 
 /// Names a pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PassId {
     Buffer(String),
     Cubemap,
     Sound,
+    #[default]
     Image,
 }
 

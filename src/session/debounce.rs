@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 /// Due once, `quiet` after the last touch.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Debounce {
     quiet: Duration,
     /// The longest time that touches which follow each other closely can put it off.

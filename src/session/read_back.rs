@@ -40,7 +40,7 @@ pub(super) trait ReadBack {
 
 /// Holds what is read back of the picture.
 #[derive(Default)]
-pub(super) struct Watched {
+pub(super) struct ReadBacks {
     pub captures: Captures,
     pub cpu_micros: f64,
     pub costs: Costs,
@@ -50,7 +50,7 @@ pub(super) struct Watched {
     pub measuring: Measuring,
 }
 
-impl Watched {
+impl ReadBacks {
     /// Returns what is read again and again, in its order.
     fn read_backs(&mut self) -> [&mut dyn ReadBack; 4] {
         [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]

@@ -17,7 +17,7 @@ const MOST: usize = 500;
 const HEADER: &str = "# Recently opened projects, newest first, with their last time.\n\n";
 
 /// A project that was open before.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecentProject {
     /// A folder, a `.glsl` or a `.json` file, as [`Command::Open`](super::Command::Open) takes it. It may be gone.
     pub path: PathBuf,
@@ -81,14 +81,7 @@ impl Recent {
         self.change(|list| {
             let at = list.iter().position(|project| project.path == path);
             known = at.map(|at| list.remove(at));
-            let fresh = || RecentProject {
-                path: path.clone(),
-                time_secs: 0.0,
-                frame: None,
-                paused: false,
-                size: None,
-                scale: None,
-            };
+            let fresh = || RecentProject { path: path.clone(), ..RecentProject::default() };
             list.insert(0, known.clone().unwrap_or_else(fresh));
         })?;
         Ok(known)

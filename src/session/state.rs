@@ -18,7 +18,7 @@ use super::{
     notices::Notices,
     pass_history::PassHistory,
     playback::Playback,
-    read_back::Watched,
+    read_back::ReadBacks,
     recent::Recent,
     recovery::UnsavedWork,
     runs::Runs,
@@ -50,7 +50,7 @@ pub struct Session {
     pub(super) last_pictures: LastPictures,
     pub(super) playback: Playback,
     pub(super) picture: Picture,
-    pub(super) watched: Watched,
+    pub(super) watched: ReadBacks,
     pub(super) tracing: Tracing,
     pub(super) auditing: Auditing,
     /// The first NaN is looked for.
@@ -82,6 +82,7 @@ pub(super) struct Dialog {
 }
 
 /// The picture that is shown.
+#[derive(Default)]
 pub(super) struct Picture {
     pub shown: PassId,
     /// The newest program has not drawn a frame.
@@ -99,22 +100,6 @@ pub(super) struct Picture {
     pub programs_drawn: u64,
     /// Counts the pictures of frames that the engine has drawn.
     pub frames_drawn: u64,
-}
-
-impl Default for Picture {
-    fn default() -> Self {
-        Self {
-            shown: PassId::Image,
-            is_program_new: false,
-            is_new: false,
-            waits_for_painting: false,
-            has_drawn: false,
-            generation: 0,
-            shown_count: 0,
-            programs_drawn: 0,
-            frames_drawn: 0,
-        }
-    }
 }
 
 impl Session {
@@ -160,7 +145,7 @@ impl Session {
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             playback: Playback::default(),
             picture: Picture::default(),
-            watched: Watched::default(),
+            watched: ReadBacks::default(),
             tracing,
             auditing,
             searching,

@@ -227,10 +227,8 @@ impl Session {
         let name = |n: u32| format!("{stem}-{n:04}.{EXTENSION}");
         match capture::write_new(&folder, name, &stem, |out| recording.write(out)) {
             Ok(path) => {
-                self.notice(Level::Info, format!("{frames} frames of input saved: {}", path.display()));
-                if let Some(notice) = self.notices.last_mut() {
-                    notice.path = Some(path);
-                }
+                let text = format!("{frames} frames of input saved: {}", path.display());
+                self.notice_with_path(About::Project, Level::Info, text, path);
             }
             Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
         }

@@ -31,8 +31,7 @@ fn a_marcher_is_traced_in_50_milliseconds() {
     let project = project::load(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/marcher.glsl")).unwrap().project;
     let lines = project.passes[0].source.text.lines().count();
     assert!(lines >= 500, "{lines} lines");
-    let mut engine = engine(&gpu, &project, (64, 36));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (64, 36), 1);
     let mut read = engine.draw_inspected(&FrameInputs::at_fixed_step(1, 60.0), &PassId::Image).unwrap().1;
     // The pixels of a larger picture, which nobody draws here.
     (read.size, read.uniforms.resolution) = ((640, 360), [640.0, 360.0, 1.0]);

@@ -1,6 +1,6 @@
 //! `--probe`, `--assert`, `--replay` and `eddy compare` on the built program.
 
-use crate::support::{git, gpu, program::Bench};
+use crate::support::{git, program::Bench};
 use gix_object::Kind;
 
 /// A buffer that grows by 1 in red each frame from frame 3 on, and a NaN in green from frame 5 on.
@@ -13,8 +13,7 @@ fn growing(b: &Bench) {
 
 #[test]
 fn numbers_of_passes_are_measured_in_the_frames_that_are_named() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     growing(&b);
     let run = b.line("render growing --size 4x2 --at 1,4,6 --probe sum(buffer_a.x) --probe nonfinite(buffer_a) --json");
     let json = &run.expect(0).json()[0];
@@ -32,8 +31,7 @@ fn numbers_of_passes_are_measured_in_the_frames_that_are_named() {
 
 #[test]
 fn a_comment_asks_for_a_number_and_stays_a_comment() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     growing(&b);
     b.image("growing/image.glsl", "//@probe max(buffer_a.x)\nfragColor = vec4(1.); //@probe total(buffer_a)");
     let run = b.line("render growing --size 4x2 --at 4 --json").expect(0);
@@ -52,8 +50,7 @@ fn a_comment_asks_for_a_number_and_stays_a_comment() {
 
 #[test]
 fn a_claim_that_does_not_hold_is_the_authors_to_mend() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     growing(&b);
     let claims = |claims: &[&str]| {
         let mut arguments = vec!["render", "growing", "--size", "4x2", "--at", "2,4,6", "--json"];
@@ -76,8 +73,7 @@ fn a_claim_that_does_not_hold_is_the_authors_to_mend() {
 
 #[test]
 fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", "fragColor = vec4(fragCoord / iResolution.xy, 0.5, 1.0);");
     b.image("b.glsl", "fragColor = vec4(fragCoord / iResolution.xy, fragCoord.x < 8. ? 0.5 : 0.75, 1.0);");
     let same = b.line("compare a.glsl a.glsl --size 16x16 --repeats 3 --json").expect(0);
@@ -110,8 +106,7 @@ fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
 /// A picture that stays the same is left out of a frame, which costs nothing; its time is what drawing it costs.
 #[test]
 fn pictures_at_rest_are_drawn_to_be_timed() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let sines = "float s = 0.0; for (int i = 0; i < 50000; i++) s += sin(fragCoord.x + float(i) * 0.37);";
     b.image("long.glsl", &format!("{sines} fragColor = vec4(s);"));
     b.image("short.glsl", "fragColor = vec4(0.5);");
@@ -123,8 +118,7 @@ fn pictures_at_rest_are_drawn_to_be_timed() {
 
 #[test]
 fn a_project_is_compared_with_what_it_was_in_a_revision() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/image.glsl", "fragColor = vec4(0.25);");
     b.image("one.glsl", "fragColor = vec4(0.25);");
     git::commit_all(&b.path("."));
@@ -141,8 +135,7 @@ fn a_project_is_compared_with_what_it_was_in_a_revision() {
 /// What a stranger's repository names is not run, and its trees are not written outside.
 #[test]
 fn a_strangers_repository_is_refused_by_what_it_asks_for() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/image.glsl", "fragColor = vec4(0.25);");
     let root = b.path("p");
     git::commit_all(&root);
@@ -173,8 +166,7 @@ fn a_strangers_repository_is_refused_by_what_it_asks_for() {
 
 #[test]
 fn a_recording_gives_every_frame_what_it_had() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let code = "#iUniform float level = 0.5 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) \
                 { o = vec4(iTime, iMouse.x, texelFetch(iChannel0, ivec2(32, 0), 0).x + 2. * level, 1.); }";
     b.write("p/image.glsl", code);
@@ -208,8 +200,7 @@ fn a_recording_gives_every_frame_what_it_had() {
 /// Behind its last frame a recording says nothing.
 #[test]
 fn no_command_draws_more_frames_than_were_recorded() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + iTime;");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) / 3.;");
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
@@ -248,8 +239,7 @@ fn no_command_draws_more_frames_than_were_recorded() {
 /// frame later, and Image shows it where it looks there, from frame 43 on.
 #[test]
 fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "p/eddy.toml",
         "eddy = 1\n[passes.buffer_b]\n[passes.buffer_a]\nchannels.0 = { buffer = \"B\" }\n[passes.buffer_c]\n\
@@ -296,8 +286,7 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
 
 #[test]
 fn a_project_is_held_against_double_precision() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image(
         "p.glsl",
         "float a = 1000. + fragCoord.x * 1e-3;\nfloat b = a * a - 1e6;\nfloat c;\nif (fragCoord.x > 1e9) c = 1.;\n\
@@ -335,8 +324,7 @@ fn a_project_is_held_against_double_precision() {
 
 #[test]
 fn a_comment_prints_the_values_of_a_traced_pixel() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image(
         "p.glsl",
         "float sum = 0.;\nfor (int i = 0; i < 3; i++) {\n    sum += fragCoord.x; //@print vec2(sum, i)\n}\n\

@@ -17,8 +17,7 @@ fn counting(b: &Bench) {
 
 #[test]
 fn the_bottom_row_is_row_0_of_npy_and_the_last_of_png() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     b.line("render place.glsl --size 8x4 --out place.npy").expect(0);
     let npy = b.npy("place.npy");
@@ -36,8 +35,7 @@ fn the_bottom_row_is_row_0_of_npy_and_the_last_of_png() {
 
 #[test]
 fn frames_are_written_where_at_says() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     let run = b.line("render place.glsl --size 4x4 --frames 9 --at 8,0,4 --out new/o --json").expect(0);
     assert_eq!(run.json()[0]["frames"], 9);
@@ -53,8 +51,7 @@ fn frames_are_written_where_at_says() {
 
 #[test]
 fn names_have_the_digits_of_the_last_frame_so_that_they_sort_as_frames_do() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     b.line("render place.glsl --size 1x1 --at 9,10001 --out o").expect(0);
     assert_eq!(b.names("o"), ["place_00009.png", "place_10001.png"]);
@@ -65,8 +62,7 @@ fn names_have_the_digits_of_the_last_frame_so_that_they_sort_as_frames_do() {
 #[cfg(target_os = "linux")]
 #[test]
 fn nothing_but_eddy_speaks_on_standard_error() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     for runtime in [None, Some(""), Some("relative"), Some("/no/such/folder")] {
         for args in
@@ -83,8 +79,7 @@ fn nothing_but_eddy_speaks_on_standard_error() {
 
 #[test]
 fn a_line_of_json_has_the_contracts_members() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     let line = b.line("render ./place.glsl --size 16x16 --frames 3 --json").expect(0).json().remove(0);
     let mut names: Vec<_> = line.as_object().unwrap().keys().cloned().collect();
@@ -97,8 +92,7 @@ fn a_line_of_json_has_the_contracts_members() {
 
 #[test]
 fn many_projects_share_a_call_and_a_bad_one_stops_no_other() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("one.glsl", PLACE);
     b.image("bad.glsl", "fragColor = nothing;");
     b.image("two.glsl", PLACE);
@@ -114,8 +108,7 @@ fn many_projects_share_a_call_and_a_bad_one_stops_no_other() {
 
 #[test]
 fn a_size_beyond_the_device_is_an_error_that_says_what_it_can() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", PLACE);
     let run = b.line("render a.glsl --size 1000000x8 --out o").expect(2);
     assert!(run.err.contains("1000000x8") && run.err.contains("at most"), "{}", run.err);
@@ -124,8 +117,7 @@ fn a_size_beyond_the_device_is_an_error_that_says_what_it_can() {
 
 #[test]
 fn a_pass_is_written_by_name_and_an_unknown_one_named() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     counting(&b);
     b.line("render count --pass buffer_a --frames 5 --size 4x4 --out a.npy").expect(0);
     assert_eq!(b.npy("a.npy").at(2, 1), [5.0, 2.5, 12.5, 7.5]);
@@ -136,8 +128,7 @@ fn a_pass_is_written_by_name_and_an_unknown_one_named() {
 
 #[test]
 fn two_runs_and_a_run_without_skipping_write_the_same_bytes() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     counting(&b);
     b.image("place.glsl", PLACE);
     for (out, more) in [("a", ""), ("b", ""), ("c", "--no-skip")] {
@@ -155,8 +146,7 @@ fn two_runs_and_a_run_without_skipping_write_the_same_bytes() {
 
 #[test]
 fn a_frame_that_takes_longer_than_it_may_is_an_error_and_the_next_project_is_drawn() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let turns = "float a = fragCoord.x; for (int i = 0; i < 10000000; i++) a = fract(sin(a) * 43758.5 + float(i & 1));";
     b.image("slow.glsl", &format!("{turns} fragColor = vec4(a);"));
     b.image("fast.glsl", "fragColor = vec4(1.0);");
@@ -172,8 +162,7 @@ fn a_frame_that_takes_longer_than_it_may_is_an_error_and_the_next_project_is_dra
 
 #[test]
 fn the_mouse_script_reaches_imouse() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("m.glsl", "fragColor = iMouse;");
     b.image("p/buffer_a.glsl", "fragColor = iMouse;");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(0), 0);");
@@ -195,8 +184,7 @@ fn the_mouse_script_reaches_imouse() {
 
 #[test]
 fn the_key_script_reaches_the_keyboard_texture() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("k/eddy.toml", "eddy = 1\n[passes.image]\nchannels.0 = { keyboard = true }\n");
     b.image(
         "k/image.glsl",
@@ -213,8 +201,7 @@ fn the_key_script_reaches_the_keyboard_texture() {
 
 #[test]
 fn time_follows_fps_and_the_date_runs_on_with_it() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = vec4(iTime, iTimeDelta, iFrameRate, iDate.w);");
     b.image("p/buffer_b.glsl", "fragColor = iDate;");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(0), 0) + texelFetch(iChannel1, ivec2(0), 0);");
@@ -227,8 +214,7 @@ fn time_follows_fps_and_the_date_runs_on_with_it() {
 #[cfg(unix)]
 #[test]
 fn a_picture_that_cannot_be_written_is_named_and_leaves_nothing_half() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", PLACE);
     b.write("file", "mine");
     let r = b.line("render a.glsl --size 4x4 --out file").expect(2);
@@ -253,8 +239,7 @@ fn a_picture_that_cannot_be_written_is_named_and_leaves_nothing_half() {
 
 #[test]
 fn an_input_that_cannot_be_had_is_black_and_a_warning() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "w/eddy.toml",
         "eddy = 1\n[passes.image]\nchannels.0 = { webcam = true }\nchannels.1 = { file = \"gone.png\" }\n",
@@ -274,8 +259,7 @@ fn an_input_that_cannot_be_had_is_black_and_a_warning() {
 
 #[test]
 fn bench_tells_what_a_frame_costs() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     counting(&b);
     let line = b.line("bench count --size 16x16 --frames 5 --json").expect(0).json().remove(0);
     assert_eq!((&line["project"], &line["status"], &line["frames"]), (&"count".into(), &"ok".into(), &5.into()));
@@ -288,8 +272,7 @@ fn bench_tells_what_a_frame_costs() {
 
 #[test]
 fn a_set_uniform_shows_in_the_picture_and_in_what_bench_draws() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "a.glsl",
         "#iUniform vec2 both = vec2(0.25, 0.5)\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(both, 0.0, 1.0); }\n",
@@ -304,8 +287,7 @@ fn a_set_uniform_shows_in_the_picture_and_in_what_bench_draws() {
 
 #[test]
 fn bench_says_what_rests_and_no_skip_draws_it_all_the_same() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord, iResolution.xy);");
     b.image("p/buffer_b.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + iTime;");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel1, ivec2(fragCoord), 0);");
@@ -332,8 +314,7 @@ fn bench_says_what_rests_and_no_skip_draws_it_all_the_same() {
 
 #[test]
 fn a_sweep_draws_once_for_each_value() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "p/image.glsl",
         "#iUniform float gain = 0.1 in { 0.0, 1.0 }\n#iUniform color3 tint = color3(1.0, 1.0, 1.0)\n\

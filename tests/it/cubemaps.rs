@@ -145,8 +145,7 @@ fn a_volume_is_read_trilinearly_and_its_mips_are_means() {
 /// The command line draws a face, and says what it cannot.
 #[test]
 fn a_face_is_rendered_by_name() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("p/cube_a.glsl", format!("{CUBE} {{ o = vec4(.5 + .5 * rayDir, 1.); }}\n"));
     b.write("p/eddy.toml", "[passes.cube_a]\n[passes.image]\nchannels.0 = { cube_a = true }\n");
     b.image("p/image.glsl", "fragColor = texture(iChannel0, vec3(1., 2., 3.));");

@@ -1,6 +1,6 @@
 //! Directives in texts are obeyed, or every command refuses them at their line with the same words.
 
-use crate::support::{gpu, program::Bench};
+use crate::support::program::Bench;
 
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
@@ -107,8 +107,7 @@ fn a_channel_that_reads_a_pass_that_is_not_there_is_told_of_at_its_line() {
 
 #[test]
 fn a_lone_file_reads_the_files_that_it_names() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let half = "void mainImage(out vec4 o, in vec2 p) { o = 0.5 * texelFetch(iChannel1, ivec2(p), 0); }\n";
     b.write("show.glsl", format!("#iChannel0 \"file://parts/half.glsl\"\n{SHOW}"));
     b.write("parts/half.glsl", format!("#iChannel1 \"./ones.glsl\"\n{half}"));

@@ -23,8 +23,7 @@ fn truth_table_of_reads_by_pictures() {
         let all = || letters.map(nearest);
         let mut passes: Vec<_> = order.iter().map(|&i: &usize| pass(buffer(letters[i]), READS_ALL, all())).collect();
         passes.push(image(READS_ALL, all()));
-        let mut engine = engine(&gpu, &project(passes), (2, 1));
-        run(&mut engine, 0, 3);
+        let mut engine = ran(&gpu, &project(passes), (2, 1), 3);
         for (place, &reader) in order.iter().enumerate() {
             let seen = texel(&engine.read(&buffer(letters[reader])).unwrap(), 1, 0);
             for source in 0..4 {
@@ -47,8 +46,7 @@ fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
     let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
                 texelFetch(iChannel0, ivec2(0), 0).y); }";
     let project = project(vec![pass(buffer("A"), code, Default::default()), image(also, show.channels.clone())]);
-    let mut engine = engine(&gpu, &project, (1, 1));
-    run(&mut engine, 0, 5);
+    let mut engine = ran(&gpu, &project, (1, 1), 5);
     assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 2.0);
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0)[0], 10.0);
 }
@@ -62,8 +60,7 @@ fn frame_0_reads_zeros_and_a_reset_brings_them_back() {
         pass(buffer("A"), count, [nearest("A"), None, None, None]),
         image(show, [nearest("A"), None, None, None]),
     ]);
-    let mut engine = engine(&gpu, &project, (3, 2));
-    run(&mut engine, 0, 3);
+    let mut engine = ran(&gpu, &project, (3, 2), 3);
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 2, 1), [3.0, 3.0, 3.0, 1.0]);
     engine.reset();
     run(&mut engine, 0, 1);
@@ -80,8 +77,7 @@ fn a_resize_keeps_the_overlap_from_the_bottom_left() {
         pass(buffer("A"), keep, [nearest("A"), None, None, None]),
         image(show, [nearest("A"), None, None, None]),
     ]);
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (4, 4), 1);
     engine.resize(6, 3).unwrap();
     run(&mut engine, 1, 2);
     let a = engine.read(&buffer("A")).unwrap();
@@ -103,8 +99,7 @@ fn filter_wrap_and_mips_read_as_they_say() {
     let channels =
         [a(Filter::Linear, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), a(Filter::Mipmap, Wrap::Clamp), None];
     let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (4, 4), 1);
     let [between, edge, mean, _] = texel(&engine.read(&PassId::Image).unwrap(), 0, 0);
     for (got, expected) in [(between, 0.5), (edge, 1.5), (mean, 1.5)] {
         assert!((got - expected).abs() < 0.01, "{got} is not {expected}");
@@ -155,8 +150,7 @@ fn a_new_program_keeps_the_buffers_it_shares_with_the_old() {
             image(show, [nearest("A"), None, None, None]),
         ])
     };
-    let mut engine = engine(&gpu, &with(count), (1, 1));
-    run(&mut engine, 0, 3);
+    let mut engine = ran(&gpu, &with(count), (1, 1), 3);
     let built = eddy::engine::Program::build(&gpu, &with(by_ten), &MediaSet::new(), &BuildOptions::default()).unwrap();
     engine.set_program(built.program).unwrap();
     run(&mut engine, 3, 4);
@@ -196,8 +190,7 @@ fn bilinear_reads_by_hand_match_the_samplers() {
         [a(Filter::Linear, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), a(Filter::Mipmap, Wrap::Repeat), None];
     let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
     let picture = |gpu| {
-        let mut engine = engine(gpu, &project, (37, 23));
-        run(&mut engine, 0, 1);
+        let mut engine = ran(gpu, &project, (37, 23), 1);
         engine.read(&PassId::Image).unwrap()
     };
     assert!(!plain.filters_float32);
@@ -341,8 +334,7 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
         pass(buffer("A"), count, [nearest("A"), None, None, None]),
         image(show, [a(Filter::Nearest), None, None, None]),
     ]);
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 3);
+    let mut engine = ran(&gpu, &project, (4, 4), 3);
     // Mips on and off, and a doubled buffer that becomes single.
     for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
         match change {
@@ -373,8 +365,7 @@ fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
     ]);
     project.passes[1].settings.size = eddy::project::PassSize::Scale(0.5);
     project.passes[1].settings.format = TexelFormat::Rg16f;
-    let mut engine = engine(&gpu, &project, (8, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (8, 4), 1);
     let texels = engine.texels_at([0.8, 0.3]).unwrap();
     let told: Vec<_> = texels.iter().map(|t| (t.pass.clone(), t.texel, t.components)).collect();
     assert_eq!(told, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassId::Image, (6, 1), 4)]);

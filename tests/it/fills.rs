@@ -93,8 +93,7 @@ fn a_boundary_and_a_region_go_together() {
         p.passes[0].settings.region = Some(Region { x: 0, y: 0, width: 2, height: 2 });
         p.passes[0].settings.boundary = Some(Boundary { width: 1, value: Fill::expression("vec4(-1.0)") });
     });
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 2);
+    let mut engine = ran(&gpu, &project, (4, 4), 2);
     let read = engine.read(&buffer("A")).unwrap();
     assert_eq!([texel(&read, 0, 0)[0], texel(&read, 1, 1)[0], texel(&read, 2, 2)[0]], [-1.0, 7.0, 5.0]);
 }

@@ -72,8 +72,7 @@ fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
         Default::default(),
     )]);
     let picture = |engine: &mut Engine| engine.read(&PassId::Image).unwrap().texels;
-    let mut whole = engine(&gpu, &still, SIZE);
-    run(&mut whole, 0, 1);
+    let mut whole = ran(&gpu, &still, SIZE, 1);
     let expected = picture(&mut whole);
     let given_up = || {
         let mut engine = engine(&gpu, &still, SIZE);

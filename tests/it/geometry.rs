@@ -58,8 +58,7 @@ fn every_fragment_of_a_cube_lies_where_the_projection_puts_it() {
     let mut cube = draw("builtin:cube");
     (cube.scale, cube.rotation, cube.position) = (0.8, [10.0, 20.0, 30.0], [0.4, 0.2, -0.3]);
     let project = whole(scene(FRAGMENT, &[VERTEX], 4, camera(), vec![cube]));
-    let mut engine = engine(&gpu, &project, size);
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, size, 1);
     let [world, normal, uv, fragment] = [0, 1, 2, 3].map(|i| engine.read_target(&buffer("scene"), i).unwrap());
     let clip = to_clip(&camera(), size.0 as f32 / size.1 as f32);
     let mut covered = 0;
@@ -108,8 +107,7 @@ fn one_colour(rgb: &str) -> String {
 fn middle(gpu: &eddy::gpu::Gpu, draws: Vec<MeshDraw>) -> [f32; 3] {
     let (red, green) = (one_colour("1.0, 0.0, 0.0"), one_colour("0.0, 1.0, 0.0"));
     let project = whole(scene(&red, &[FLAT_VERTEX, &green], 1, straight(), draws));
-    let mut engine = engine(gpu, &project, (9, 9));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(gpu, &project, (9, 9), 1);
     let [r, g, b, _] = texel(&engine.read(&PassId::Image).unwrap(), 4, 4);
     [r, g, b]
 }
@@ -161,8 +159,7 @@ fn a_hull_drawn_with_other_program_and_culling_outlines_the_mesh() {
     let body = draw("builtin:sphere");
     let outline = MeshDraw { vertex: Stage::File(2), fragment: Stage::File(1), cull: Cull::Front, ..body.clone() };
     let project = whole(scene(&red, &[FLAT_VERTEX, &green, hull], 1, straight(), vec![body, outline]));
-    let mut engine = engine(&gpu, &project, (65, 65));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (65, 65), 1);
     let pixels = engine.read(&PassId::Image).unwrap();
     let row: Vec<[f32; 4]> = (0..65).map(|x| texel(&pixels, x, 32)).collect();
     let colours: Vec<char> = row
@@ -213,8 +210,7 @@ fn a_stage_reads_channels_uniforms_custom_uniforms_and_tables() {
     let mut scene = scene(fragment, &[vertex], 1, straight(), vec![draw("builtin:cube")]);
     scene.channels[0] = nearest("A");
     let project = project(vec![a, scene, image(SUM, [target(0), None, None, None])]);
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (4, 4), 1);
     assert_eq!(texel(&engine.read_target(&buffer("scene"), 0).unwrap(), 1, 2), [7.0, 6.0, 402.0, 111.25]);
 }
 
@@ -227,8 +223,7 @@ fn fragments_set_depth_and_are_discarded() {
     let far = MeshDraw { position: [0.0, 0.0, -1.0], ..draw("builtin:cube") };
     let near = MeshDraw { fragment: Stage::File(1), ..draw("builtin:cube") };
     let project = whole(scene(deep, &[FLAT_VERTEX, &green], 1, straight(), vec![far, near]));
-    let mut engine = engine(&gpu, &project, (9, 9));
-    run(&mut engine, 0, 2);
+    let mut engine = ran(&gpu, &project, (9, 9), 2);
     let pixels = engine.read(&PassId::Image).unwrap();
     assert_eq!(texel(&pixels, 4, 4)[..3], [1.0; 3], "depth 0 lies before everything");
     assert_eq!(texel(&pixels, 5, 4)[..3], GREEN);
@@ -281,8 +276,7 @@ fn last_frames_scene_is_there_for_who_reads_it_first() {
     cube.cull = Cull::None;
     let scene = scene(fragment, &[vertex], 2, straight(), vec![cube]);
     let show = image(SUM, [nearest("A"), target(1), None, None]);
-    let mut engine = engine(&gpu, &project(vec![reader, scene, show]), (4, 4));
-    run(&mut engine, 0, 5);
+    let mut engine = ran(&gpu, &project(vec![reader, scene, show]), (4, 4), 5);
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 1)[0], 3.0 + 1.0);
     let doubled: Vec<bool> = engine.program().unwrap().plan().targets.iter().map(|t| t.doubled).collect();
     // A; target 0, read before it is drawn; target 1, read after; Image.
@@ -338,8 +332,7 @@ fn meshes_in_small_floats_leave_arithmetic_alone() {
     let fragment = "layout(location = 0) out vec4 a; void main() { a = vec4(1); }";
     let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), behind]);
     cubes.settings.format = TexelFormat::Rgba16f;
-    let mut engine = engine(&gpu, &whole(cubes), (200, 150));
-    run(&mut engine, 0, 4);
+    let mut engine = ran(&gpu, &whole(cubes), (200, 150), 4);
     engine.read(&PassId::Image).unwrap();
     for _ in 0..4 {
         assert!(denormals() == before, "denormal numbers are treated otherwise");

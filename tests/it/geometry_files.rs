@@ -257,8 +257,7 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
     write(&stage.folder(), &[]);
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     assert_eq!(stage.red(), 51);
     stage.settle();

@@ -1,7 +1,7 @@
 //! Divisions of integers that a processor traps on: no program ends the process, and each has the value that WGSL gives
 //! it.
 
-use crate::support::{compute::*, gpu, program::Bench};
+use crate::support::{compute::*, program::Bench};
 
 /// The least int.
 const LEAST: &str = "(-2147483647 - 1)";
@@ -39,8 +39,7 @@ const FUNCTIONS: &str = "int quotient(int n, int d) { return n / d; }\nint remai
 
 #[test]
 fn no_division_ends_the_process() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     // Each alone, lest one hide another; a few at a time, lest it take long.
     let mut names = Vec::new();
     for (i, body) in TRAPS.iter().enumerate() {
@@ -72,8 +71,7 @@ fn is_walked(b: &Bench, args: &str, what: &str) {
 
 #[test]
 fn no_vertex_stage_ends_the_process() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "scene/eddy.toml",
         "eddy = 1\nname = \"scene\"\n\n[passes.buffer_scene]\ntargets = [\"rgba32f\"]\nsize = [8, 4]\n\

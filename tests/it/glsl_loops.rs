@@ -162,8 +162,7 @@ fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     let gpu = gpu()?;
     let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
     let project = project(vec![image(&code, Default::default())]);
-    let mut engine = engine(&gpu, &project, (8, 1));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (8, 1), 1);
     let id = eddy::project::PassId::Image;
     assert_walked(&mut engine, &project, &id);
     let pixels = engine.read(&id).unwrap();

@@ -1,7 +1,7 @@
 //! Projects that a stranger made to do harm: nothing outside the project's folder is read or carried away, nothing
 //! outside the destination is written, and what asks for too much is refused by a limit that the message names.
 
-use crate::support::{self, program::Bench};
+use crate::support::{self, folder_of, program::Bench};
 use eddy::{
     media::MediaKey,
     project::{
@@ -472,9 +472,7 @@ fn what_a_killed_save_left_is_swept_by_opening_and_by_saving() {
     let home = dir.path().join("p");
     let project = load(&home).unwrap();
     assert!(!home.join(".eddy-save-aB3xYz.tmp").exists() && home.join(".eddy-notes").exists());
-    let to = dir.path().join("to");
-    fs::create_dir(&to).unwrap();
-    fs::write(to.join(".eddy-save-aB3xYz.tmp"), "half").unwrap();
+    let to = folder_of(dir.path().join("to"), &[(".eddy-save-aB3xYz.tmp", "half")]);
     project::save(&project, &to, Overwrite::Refuse).unwrap();
     assert!(!to.join(".eddy-save-aB3xYz.tmp").exists());
 }

@@ -1,28 +1,21 @@
 //! Results of the lab, and folders for pictures, that a stranger prepared: nothing outside of the folder is written, and
 //! no project is opened because a result names it.
 
-use crate::support::{gpu, program::Bench};
+use crate::support::program::Bench;
 use eddy::lab::{
     RESULTS_FILE, Results,
-    stability::{self, Kind, Outcome, StabilityRecord, Subject},
+    stability::{self, Outcome, StabilityRecord, Subject},
 };
 use std::fs;
 
 fn case(project: &str) -> StabilityRecord {
     StabilityRecord {
         project: project.into(),
-        texts: String::new(),
-        kind: Kind::Untouched,
         case: "untouched".into(),
         size: (64, 64),
         frames: 1,
-        settings: String::new(),
-        excuses: Vec::new(),
         outcome: Some(Outcome::Held),
-        trouble: None,
-        recovery: None,
-        extremes: Default::default(),
-        courant: None,
+        ..StabilityRecord::default()
     }
 }
 
@@ -83,8 +76,7 @@ fn results_and_reports_are_not_written_through_links() {
 #[cfg(unix)]
 #[test]
 fn pictures_are_not_written_into_a_folder_through_links() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/image.glsl", "fragColor = vec4(1.0);");
     b.write("mine.txt", "mine");
     fs::create_dir(b.path("p/pictures")).unwrap();

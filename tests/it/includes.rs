@@ -35,8 +35,7 @@ fn an_error_in_an_included_file_is_shown_there() {
 
 #[test]
 fn line_numbers_count_through_included_lines_as_in_the_export() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(float(FIRST), float(__LINE__), 0.0, 1.0); }\n";
     b.write("p/image.glsl", format!("int x;\n#include \"two.glsl\"\n#include \"two.glsl\"\n{main}"));
     b.write("p/two.glsl", "\n#ifndef FIRST\n#define FIRST __LINE__\n#endif\n");
@@ -58,8 +57,7 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     assert_eq!(stage.red(), 255);
     replace(&stage.path("lib/tone.glsl"), "float tone() { return 0.2; }");
     stage.until_red(51);
@@ -98,8 +96,7 @@ fn with_tone(text: &str) -> Option<Stage> {
     stage.write("lib/tone.glsl", text);
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     stage.settle();
     Some(stage)
 }
@@ -206,8 +203,7 @@ fn a_file_that_lone_glsl_includes_is_saved_beside_it() {
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     let file = stage.path("lone.glsl");
     stage.session.apply(Command::Open(file.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     type_into(&mut stage, "float tone() { return 0.2; }");
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
@@ -224,8 +220,7 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.write("image.glsl", USES);
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     assert_eq!(stage.red(), 255);
     stage.settle();
     let read = |stage: &Stage| -> Vec<(String, String)> {

@@ -1,6 +1,6 @@
 //! What the lab's methods promise, as gates: small cases against closed forms and linear theory.
 
-use crate::support::gpu;
+use crate::support::rig;
 use eddy::lab::{
     Extent, Rig, Running, Setup,
     metrics::{Norms, order},
@@ -14,10 +14,6 @@ use eddy::lab::{
     studies::{self, fluid, gray_scott, poisson},
 };
 use std::f64::consts::TAU;
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 fn guay(n: u32) -> Setup {
     Setup::new("fluid_guay", (n, n)).define("METHOD", "ONE_PASS")
@@ -225,9 +221,9 @@ fn a_normalised_blur_keeps_what_there_is_and_nine_taps_do_not() {
     for (method, expected) in
         [("nine-normalised", 0.0), ("gaussian", 0.0), ("nine", 0.98 * 0.98 - 1.0), ("tent-pyramid", 0.0)]
     {
-        let setting = blur.methods().iter().find(|m| m.name == method).unwrap().usual;
+        let setting = blur.methods.iter().find(|m| m.name == method).unwrap().usual;
         let point = eddy::lab::Point { study: "blur".into(), method: method.into(), setting, grid };
-        let drift = blur.measure(&rig, &point).unwrap().values["mass_drift"].0;
+        let drift = (blur.measure)(&rig, &point).unwrap().values["mass_drift"].0;
         assert!((drift - expected).abs() < 1e-6, "{method}: {drift}");
     }
 }

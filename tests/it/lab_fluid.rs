@@ -1,9 +1,9 @@
 //! What fluids promise, as gates: orders, errors and energies on a torus, the lid-driven cavity, single waves in a
 //! fluid at rest.
 
-use crate::support::gpu;
+use crate::support::rig;
 use eddy::lab::{
-    Point, Rig, Study,
+    Point, Rig,
     metrics::{Norms, order, square_drift, viscosity_ratio},
     reference::{
         cavity::{REYNOLDS, extrema},
@@ -18,10 +18,6 @@ use eddy::lab::{
     },
 };
 use std::f64::consts::TAU;
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 /// Relative L2 errors after one turn on 64 x 64 and 128 x 128 texels that an independent f64 program finds: of a
 /// Gaussian, and of Zalesak's disk.
@@ -40,7 +36,7 @@ fn advection_errs_and_converges_as_is_known() {
     for (method, gaussian, disk) in TURNED {
         let measured = [64, 128].map(|grid| {
             let point = Point { study: "advection".into(), method: method.into(), setting: 1.0, grid };
-            let measured = study.measure(&rig, &point).unwrap();
+            let measured = (study.measure)(&rig, &point).unwrap();
             (measured.norms.l2, measured.values["zalesak_l2"].0)
         });
         let observed = order(measured[0].0, measured[1].0, 2.0);

@@ -1,7 +1,7 @@
 //! Hard cases of which theory says more than a range: symmetry, limits of the device, and what sampling and mip
 //! levels reproduce.
 
-use crate::support::{buffer, engine, gpu, image, nearest, pass, program::Bench, project, reads, run};
+use crate::support::{buffer, engine, gpu, image, nearest, pass, program::Bench, project, ran, reads, run};
 use eddy::{
     engine::Engine,
     lab::{
@@ -134,8 +134,7 @@ fn a_constant_is_a_constant_beyond_every_edge_and_on_every_level_of_odd_sizes() 
         for wrap in [Wrap::Clamp, Wrap::Repeat] {
             for level in ["0.0", "1.0", "1.5", "2.0", "9.0"] {
                 let at = format!("3.0 * uv - 1.0, {level}");
-                let mut engine = engine(&gpu, &sampled("vec4(0.3, -2.5, 0.7, 1.0)", &at, wrap), size);
-                run(&mut engine, 0, 1);
+                let mut engine = ran(&gpu, &sampled("vec4(0.3, -2.5, 0.7, 1.0)", &at, wrap), size, 1);
                 for t in engine.read(&PassId::Image).unwrap().texels {
                     assert!(apart(&[t], &[[0.3, -2.5, 0.7, 1.0]]) < 1e-6, "{size:?} {wrap:?} level {level}: {t:?}");
                 }
@@ -150,8 +149,7 @@ fn a_ramp_stays_one_between_texels_and_on_levels_of_odd_sizes_and_is_level_beyon
     let (w, h) = (37u32, 23u32);
     for level in 0..3 {
         let at = format!("uv + vec2(0.3, -0.2) / iResolution.xy, {level}.0");
-        let mut engine = engine(&gpu, &sampled("vec4(p.x, p.y, p.x - 2.0 * p.y, 1.0)", &at, Wrap::Clamp), (w, h));
-        run(&mut engine, 0, 1);
+        let mut engine = ran(&gpu, &sampled("vec4(p.x, p.y, p.x - 2.0 * p.y, 1.0)", &at, Wrap::Clamp), (w, h), 1);
         let pixels = engine.read(&PassId::Image).unwrap();
         // A level's first texel lies half of its width inside.
         let margin = (1 << level) + 2;

@@ -1,9 +1,9 @@
 //! What the window does with the lab, without the window: a point of a study opened as a project, and a run in the
 //! background.
 
-use crate::support::gpu;
+use crate::support::{engine_with, gpu};
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, Program},
+    engine::{BuildOptions, FrameInputs},
     lab::{
         Extent, Results, Rig, Shard,
         background::{Background, Event},
@@ -23,13 +23,11 @@ use std::{
 const FRAMES: i32 = 2;
 
 /// Texels of a pass of a project with no media but what it names, after [`FRAMES`] frames.
-fn drawn(rig: &Rig, project: &Project, (width, height): (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
+fn drawn(rig: &Rig, project: &Project, size: (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
-    let program = Program::build(rig.gpu(), project, &media, &options).unwrap().program;
-    let mut engine = Engine::new(rig.gpu().clone(), width, height).unwrap();
-    engine.set_program(program).unwrap();
+    let mut engine = engine_with(rig.gpu(), project, &media, &options, size);
     for frame in 0..FRAMES {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
     }
@@ -55,11 +53,11 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
     for study in studies::all() {
         let grid = study.grids(Extent::Quick)[0];
         let points = study.points(Extent::Quick);
-        for method in study.methods() {
+        for method in study.methods {
             let named = |p: &&eddy::lab::Point| p.method == method.name;
             let point =
                 points.iter().filter(named).min_by_key(|p| (p.grid != grid, p.setting != method.usual)).unwrap();
-            let setup = study.setup(point);
+            let setup = (study.setup)(point);
             let Opened { project: opened, size, pass } = open::project(study, point).unwrap();
             assert_eq!((size, &opened.origin), (setup.size(), &Origin::Unsaved), "{point:?}");
             held += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();

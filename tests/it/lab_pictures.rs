@@ -1,7 +1,7 @@
 //! What the lab says of pictures' filters, as gates: bloom, temporal anti-aliasing, ambient occlusion and reflections,
 //! measured by the studies' own means at the presets' own settings.
 
-use crate::support::gpu;
+use crate::support::rig;
 use eddy::lab::{
     Rig, flip,
     picture::{psnr, ssim},
@@ -12,10 +12,6 @@ use eddy::lab::{
         ssr, taa,
     },
 };
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 /// The worst of the first phases of a method at its usual setting, on a canvas.
 fn worst(rig: &Rig, method: &str, setting: f64, size: (u32, u32), phases: u32) -> Worst {

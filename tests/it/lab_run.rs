@@ -2,59 +2,42 @@
 
 use crate::support::gpu;
 use eddy::lab::{
-    About, Extent, LabError, Measured, Method, Point, Results, Rig, Setup, Shard, Stop, Study, Unit,
+    Extent, LabError, Measured, Method, Point, Results, Rig, Setup, Shard, Stop, Study,
     cost::MIN_REPEATS,
     run::{self, Control, Options, Step},
 };
 use std::path::Path;
 
-/// Heat on a small grid at two rates. `edit`: what its shader says in place of the rate.
-struct Heat {
-    edit: &'static str,
-}
-
-impl Study for Heat {
-    fn about(&self) -> About {
-        About {
-            name: "heat",
-            title: "Heat",
-            text: "A study of the test.",
-            parameter: "rate",
-            unit: Unit::Frame,
-            error: "",
-        }
-    }
-
-    fn methods(&self) -> &'static [Method] {
-        const SETTINGS: &[f64] = &[0.1, 0.2];
-        const METHODS: &[Method] = &[Method { name: "five", title: "Five points", settings: SETTINGS, usual: 0.1 }];
-        METHODS
-    }
-
-    fn grids(&self, _: Extent) -> &'static [u32] {
-        &[16]
-    }
-
-    fn points(&self, _: Extent) -> Vec<Point> {
-        let point = |setting| Point { study: "heat".into(), method: "five".into(), setting, grid: 16 };
-        [0.1, 0.2].map(point).into()
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        let setup = Setup::new("diffusion_stencil", (16, 16)).define("STENCIL", 5).uniform("rate", point.setting);
-        setup.edit("common", "rate", self.edit)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let corner = rig.after(&self.setup(point), 2, "field")?.component(0)[0];
-        Ok(Measured { frames_per_unit: 1.0, ..Measured::default() }.value("corner", corner))
+/// Heat on a small grid at two rates.
+const fn heat(setup: fn(&Point) -> Setup) -> Study {
+    Study {
+        name: "heat",
+        title: "Heat",
+        text: "A study of the test.",
+        parameter: "rate",
+        methods: &[Method { name: "five", title: "Five points", settings: &[0.1, 0.2], usual: 0.1 }],
+        grids: [[4, 8, 16]; 2],
+        has_order: false,
+        ..Study::of(setup, measure)
     }
 }
 
-const AS_IT_IS: Heat = Heat { edit: "rate" };
+/// `rate`: what the shader says in place of the rate.
+fn drawn(point: &Point, rate: &str) -> Setup {
+    let setup = Setup::new("diffusion_stencil", (16, 16)).define("STENCIL", 5).uniform("rate", point.setting);
+    setup.edit("common", "rate", rate)
+}
+
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let corner = rig.after(&drawn(point, "rate"), 2, "field")?.component(0)[0];
+    Ok(Measured { frames_per_unit: 1.0, ..Measured::default() }.value("corner", corner))
+}
+
+static AS_IT_IS: Study = heat(|point| drawn(point, "rate"));
+static EDITED: Study = heat(|point| drawn(point, "rate "));
 
 /// Points measured, points costed, and what is known in the end.
-fn ran(gpu: &eddy::gpu::Gpu, study: &Heat, out: &Path, stop_at: Option<u32>) -> (usize, usize, Results) {
+fn ran(gpu: &eddy::gpu::Gpu, study: &Study, out: &Path, stop_at: Option<u32>) -> (usize, usize, Results) {
     let options = Options { out: out.to_owned(), extent: Extent::Quick, repeats: 0, shard: Shard::WHOLE };
     let (mut measured, mut costed) = (0, 0);
     let control = Control { stop: Stop::default(), ..Control::default() };
@@ -76,7 +59,7 @@ fn an_edited_shader_is_measured_anew_and_the_same_one_is_not() {
     assert_eq!((measured, costed), (2, 2));
     assert!(first.errors.iter().all(|e| e.setup.is_some()) && first.costs.iter().all(|c| c.setup.is_some()));
     assert_eq!(ran(&gpu, &AS_IT_IS, folder.path(), None), (0, 0, first.clone()), "nothing is measured twice");
-    let (measured, costed, second) = ran(&gpu, &Heat { edit: "rate " }, folder.path(), None);
+    let (measured, costed, second) = ran(&gpu, &EDITED, folder.path(), None);
     assert_eq!((measured, costed), (2, 2), "as its texts are others");
     assert_eq!((second.errors.len(), second.costs.len()), (2, 2));
     assert!(second.errors.iter().all(|e| first.errors.iter().all(|f| f.setup != e.setup)));

@@ -4,7 +4,7 @@ use crate::support::{preset::*, presets::break_texel, *};
 use eddy::{
     engine::Engine,
     lab::{
-        Rig, Setup,
+        Setup,
         metrics::order,
         precision,
         studies::{brick_breaker, edges, outline, particles},
@@ -13,10 +13,6 @@ use eddy::{
     playback::script::ScriptedInputs,
     project::{PassId, Project},
 };
-
-fn rig() -> Option<Rig> {
-    gpu().map(Rig::new)
-}
 
 // ----------------------------------------------------------------------------------------------------------- particles
 
@@ -178,8 +174,7 @@ fn a_nan_in_the_middle_of_a_simulation_is_gone_within_its_frames() {
         let mut broken = preset(name, &[]);
         let at = if name == "particles" { (9, 14) } else { (20, 10) };
         break_texel(&mut broken, state, at, 4, "0x7fc00000u");
-        let mut engine = whole(&gpu, &broken, (96, 54));
-        draw(&mut engine, 0..5);
+        let mut engine = drawn(&gpu, &broken, (96, 54), 0..5);
         assert!(!all_finite(&read(&mut engine, state)), "{name}: the NaN did not arrive");
         draw(&mut engine, 5..5 + frames);
         assert!(is_whole(&mut engine, &broken), "{name}: the NaN lives on after {frames} frames");

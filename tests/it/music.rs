@@ -1,6 +1,6 @@
 //! Music as a texture: the analyser's rows, the same whichever frames were drawn, and what stands in for a missing file.
 
-use crate::support::{gpu, program::Bench};
+use crate::support::program::Bench;
 use std::f64::consts::TAU;
 
 /// A WAV file of a sine, 16 bits, stereo, 44.1 kHz.
@@ -37,8 +37,7 @@ fn texels(b: &Bench, at: &str) -> crate::support::program::Npy {
 
 #[test]
 fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("p/tone.wav", wav(440.0, 1.0));
     project(&b, "{ file = \"tone.wav\", kind = \"music\" }");
     let alone = texels(&b, "50");
@@ -60,8 +59,7 @@ fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
 
 #[test]
 fn without_a_file_the_spectrum_is_the_sites_own() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     project(&b, "{ file = \"gone.mp3\", kind = \"music\" }");
     let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
     assert!(run.err.contains("gone.mp3") && run.err.contains("synthetic spectrum"), "{}", run.err);
@@ -77,8 +75,7 @@ fn without_a_file_the_spectrum_is_the_sites_own() {
 
 #[test]
 fn a_damaged_file_is_named_with_the_mend() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("p/bad.mp3", [7; 4000]);
     project(&b, "{ file = \"bad.mp3\", kind = \"music\" }");
     let run = b.line("check p").expect(0);

@@ -64,8 +64,7 @@ fn seen(session: &Session) -> String {
 fn rest(stage: &mut Stage) {
     stage.session.apply(Command::Pause);
     // What a panel looks at is the window's; there is none here.
-    stage.session.apply(Command::WatchTargets(Vec::new()));
-    stage.until_compiled();
+    stage.compile(Command::WatchTargets(Vec::new()));
     stage.until("rest", |s| !s.transport().is_seeking);
     stage.session.apply(Command::Reset);
     stage.for_a_while();
@@ -95,8 +94,7 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
 
     let mut stage = Stage::bare(gpu);
     open(&mut stage, &a);
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     let buffer_a = PassId::Buffer("A".into());
     for _ in 0..5 {
         stage.session.apply(Command::Step);
@@ -143,15 +141,13 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     }
     stage.session.apply(Command::FindDivergence);
     stage.for_a_while();
-    stage.session.apply(Command::Probe(Some(ProbePlace { tab: IMAGE, at: SHOW.find("texel").unwrap(), visit: 0 })));
-    stage.until_compiled();
+    stage.compile(Command::Probe(Some(ProbePlace { tab: IMAGE, at: SHOW.find("texel").unwrap(), visit: 0 })));
     stage.session.apply(Command::Record);
     // Some of it is still under way when the other project comes.
     stage.session.apply(Command::Audit);
     stage.session.apply(Command::Trace(Some([0.2, 0.2])));
     stage.edit("void mainImage(");
-    stage.session.apply(Command::CompileNow);
-    stage.tick();
+    stage.act(Command::CompileNow);
     assert_ne!(seen(&stage.session), expected);
     open(&mut stage, &b);
     let notices: Vec<_> = stage.session.notices().iter().map(|n| n.text.as_str()).collect();
@@ -172,8 +168,7 @@ fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
     let (a, b) = (open("a", 0.2), open("b", 0.6));
     let mut stage = Stage::bare(gpu);
     stage.session.apply(Command::Open(a));
-    stage.session.apply(Command::CompileNow);
-    stage.tick();
+    stage.act(Command::CompileNow);
     std::thread::sleep(Duration::from_millis(500));
     // The compile has ended, and the front end is woken for it just now.
     let before = stage.session.programs_drawn();
@@ -253,13 +248,11 @@ fn the_map_of_errors_goes_when_another_picture_is_shown() {
     for way in ways {
         let what = format!("{way:?}");
         // While it plays too: the picture stands still as the map does.
-        stage.session.apply(Command::Play);
-        stage.tick();
+        stage.act(Command::Play);
         stage.session.apply(Command::Audit);
         assert!(!stage.session.transport().playing, "{what}");
         stage.until("the map", |s| s.audit_map().is_some());
-        stage.session.apply(way);
-        stage.tick();
+        stage.act(way);
         assert!(stage.session.audit_map().is_none(), "{what}");
     }
 }
@@ -277,16 +270,14 @@ fn remembering(gpu: &Gpu, state: &Path) -> Stage {
 /// Opens a project and waits for what it shows.
 fn opened(gpu: &Gpu, state: &Path, project: &str) -> Stage {
     let mut stage = remembering(gpu, state);
-    stage.session.apply(Command::Open(project.into()));
-    stage.until_compiled();
+    stage.compile(Command::Open(project.into()));
     stage.until("the frame that was left", |s| !s.transport().is_seeking);
     stage.tick();
     stage
 }
 
 fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.session.apply(Command::SaveTexels);
-    stage.tick();
+    stage.act(Command::SaveTexels);
     fs::read(stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap()).unwrap()
 }
 
@@ -307,12 +298,10 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     let project = with_buffer(&folder);
     let mut stage = remembering(&gpu, &state);
     stage.session.apply(Command::Open(project.clone()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     stage.session.apply(Command::Seek(1.5));
     stage.until("the time", |s| !s.transport().is_seeking);
-    stage.session.apply(Command::MouseDown { x: 3.0, y: 2.0 });
-    stage.tick();
+    stage.act(Command::MouseDown { x: 3.0, y: 2.0 });
     let (left, picture) = (place(&stage), texels(&mut stage));
     assert_eq!(left, (1.5, 91, false));
     close(stage);
@@ -323,8 +312,7 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     assert!(texels(&mut again) == picture);
     assert!(again.notices(Level::Warning).is_empty(), "{:?}", again.notices(Level::Warning));
     // Back and forth as if it had never been closed.
-    again.session.apply(Command::StepBack(40));
-    again.tick();
+    again.act(Command::StepBack(40));
     assert_eq!(place(&again).1, 51);
     again.session.apply(Command::Seek(1.5));
     again.until("the frame", |s| !s.transport().is_seeking);
@@ -333,19 +321,16 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     // In a window of another size.
     let mut other = remembering(&gpu, &state);
     other.session.apply(Command::SetFixedSize(Some((12, 6))));
-    other.session.apply(Command::Open(project.clone()));
-    other.until_compiled();
+    other.compile(Command::Open(project.clone()));
     other.until("the frame that was left", |s| !s.transport().is_seeking);
     other.tick();
     assert_eq!((place(&other), other.session.transport().resolution), (left, (12, 6)));
     assert!(other.session.notices().is_empty(), "{:?}", other.session.notices());
-    other.session.apply(Command::Screenshot);
-    other.tick();
+    other.act(Command::Screenshot);
     let shot = other.session.notices().last().and_then(|n| n.path.clone()).unwrap();
     assert_eq!(image::open(&shot).unwrap().to_rgb8().dimensions(), (12, 6));
     // Closed while it plays it begins at 0, with the buffers.
-    other.session.apply(Command::Play);
-    other.tick();
+    other.act(Command::Play);
     close(other);
     assert!(runs(&state).is_empty());
     let mut playing = remembering(&gpu, &state);
@@ -413,8 +398,7 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     // It does not compile when it is opened.
     fs::write(folder.join("image.glsl"), "void mainImage(").unwrap();
     let mut broken = remembering(&gpu, &state);
-    broken.session.apply(Command::Open(project.clone()));
-    broken.until_compiled();
+    broken.compile(Command::Open(project.clone()));
     broken.for_a_while();
     assert_eq!(broken.frames(), 0);
     broken.session.apply(Command::EditText { tab: IMAGE, text: SHOW.into() });
@@ -433,8 +417,7 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     let mut played = remembering(&gpu, &state);
     played.session.apply(Command::Open(project.clone()));
     assert!(played.session.transport().is_seeking);
-    played.session.apply(Command::Play);
-    played.until_compiled();
+    played.compile(Command::Play);
     let (time, frame, playing) = place(&played);
     assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
 }
@@ -454,14 +437,12 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
     };
     let (a, b) = (write(&stage, "a.glsl"), write(&stage, "b.glsl"));
     let open = |stage: &mut Stage, path: &str| {
-        stage.session.apply(Command::Open(path.into()));
-        stage.until_compiled();
+        stage.compile(Command::Open(path.into()));
         stage.session.transport().resolution
     };
     assert_eq!(open(&mut stage, &a), (8, 4));
     stage.session.apply(Command::SetFixedSize(Some((27, 48))));
-    stage.session.apply(Command::SetScale(0.25));
-    stage.tick();
+    stage.act(Command::SetScale(0.25));
     assert_eq!(open(&mut stage, &b), (8, 4));
     assert_eq!(stage.session.transport().scale, 1.0);
     assert_eq!(open(&mut stage, &a), (27, 48));
@@ -500,8 +481,7 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         stage.session.apply(Command::SetFixedSize(Some((720, 1280))));
         let open = |stage: &mut Stage, path: &Path| {
             stage.session.apply(Command::Open(path.to_str().unwrap().into()));
-            stage.session.apply(if is_paused { Command::Pause } else { Command::Play });
-            stage.until_compiled();
+            stage.compile(if is_paused { Command::Pause } else { Command::Play });
             let end = Instant::now() + Duration::from_millis(400);
             while Instant::now() < end {
                 stage.tick();

@@ -148,8 +148,7 @@ fn a_model_from_elsewhere_is_saved_with_the_project() {
         pass.settings.meshes().unwrap().draws[0].mesh.clone()
     };
     assert_eq!(draws(&stage), MeshSource::Picked(file));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     // Another file has the name that the copy would get.
     stage.write("tri angle.obj", "somebody else's");

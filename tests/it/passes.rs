@@ -56,8 +56,7 @@ fn a_pass_has_its_own_size_and_readers_know_it() {
         let [w, h] = expected;
         assert_eq!(texel(&pixels, 0, 0)[..3], [w, h, 7.0], "{size:?}");
         assert_eq!(texel(&pixels, 1, 0)[..3], [w - 0.5, h - 0.5, w], "{size:?}");
-        let mut engine = engine(&gpu, &project, (7, 5));
-        run(&mut engine, 0, 1);
+        let mut engine = ran(&gpu, &project, (7, 5), 1);
         let read = engine.read(&buffer("A")).unwrap();
         assert_eq!((read.width as f32, read.height as f32, read.texels.len() as f32), (w, h, w * h));
         engine.show(buffer("A"));
@@ -98,8 +97,7 @@ fn formats_hold_what_they_can_and_read_back_as_floats() {
             3 => 1.0,
             _ => 0.0,
         });
-        let mut engine = engine(&gpu, &project, (4, 4));
-        run(&mut engine, 0, 1);
+        let mut engine = ran(&gpu, &project, (4, 4), 1);
         let own = texel(&engine.read(&buffer("A")).unwrap(), 3, 3);
         let near = |a: f32, b: f32| (a - b).abs() <= 1.0 / 255.0;
         assert!(own.iter().zip(expected).all(|(a, b)| near(*a, b)), "{name}: {own:?}, expected {expected:?}");
@@ -128,8 +126,7 @@ fn only_the_region_is_drawn_and_the_rest_is_what_it_was() {
     // A first program writes everything, a second only a region: the rest stays from frame to frame.
     let fill = "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0); }";
     let show = image(SHOW, [nearest("A"), None, None, None]);
-    let mut engine = engine(&gpu, &project(vec![pass(buffer("A"), fill, Default::default()), show.clone()]), (3, 1));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project(vec![pass(buffer("A"), fill, Default::default()), show.clone()]), (3, 1), 1);
     let mut part = pass(buffer("A"), own, [nearest("A"), None, None, None]);
     part.settings.region = Some(Region { x: 2, y: 0, width: 1, height: 1 });
     let built =

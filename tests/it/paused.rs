@@ -39,11 +39,9 @@ fn stage(gpu: eddy::gpu::Gpu) -> Stage {
         if frame == 40 {
             stage.session.apply(Command::MouseDown { x: 3.5, y: 1.5 });
         }
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
-    stage.session.apply(Command::MouseUp);
-    stage.tick();
+    stage.act(Command::MouseUp);
     assert_eq!(place(&stage).1, 101, "input draws a frame, as on the site");
     stage
 }
@@ -54,22 +52,19 @@ fn place(stage: &Stage) -> (f64, i32) {
 }
 
 fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.session.apply(Command::SaveTexels);
-    stage.tick();
+    stage.act(Command::SaveTexels);
     fs::read(stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap()).unwrap()
 }
 
 fn edit(stage: &mut Stage, tab: Tab, text: &str) {
     stage.session.apply(Command::EditText { tab, text: text.into() });
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     stage.tick();
 }
 
 /// The texels of the frame after the one that is shown.
 fn next(stage: &mut Stage) -> Vec<u8> {
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     texels(stage)
 }
 
@@ -96,13 +91,10 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     edit(&mut edited, IMAGE, SHOW);
     let channel = Some(Channel::new(Input::KEYBOARD));
     for channel in [channel, None] {
-        edited.session.apply(Command::SetChannel { pass: PassId::Image, index: 2, channel });
-        edited.until_compiled();
+        edited.compile(Command::SetChannel { pass: PassId::Image, index: 2, channel });
     }
-    edited.session.apply(Command::AddTab(Tab::Pass(PassId::Buffer("B".into()))));
-    edited.until_compiled();
-    edited.session.apply(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassId::Buffer("B".into())))));
-    edited.until_compiled();
+    edited.compile(Command::AddTab(Tab::Pass(PassId::Buffer("B".into()))));
+    edited.compile(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassId::Buffer("B".into())))));
     // From disk as well.
     edited.write("buffer_a.glsl", &other);
     edited.session.apply(Command::Focus(true));
@@ -173,26 +165,21 @@ fn a_slider_that_is_turned_while_paused_draws_the_same_frame() {
     let (mut turned, mut control) = (stage(gpu.clone()), stage(gpu));
     let (shown, before) = (place(&turned), texels(&mut turned));
     for value in ["gain=0.5", "gain=0.75", "gain=0.25"] {
-        turned.session.apply(Command::AssignCustomUniform(value.into()));
-        turned.tick();
+        turned.act(Command::AssignCustomUniform(value.into()));
         assert_eq!(place(&turned), shown);
         assert_eq!(texels(&mut turned) == before, value == "gain=0.25", "{value}");
     }
     // On a smaller canvas too, from the texels of the large one.
-    turned.session.apply(Command::SetFixedSize(Some((5, 3))));
-    turned.tick();
-    turned.session.apply(Command::AssignCustomUniform("gain=0.125".into()));
-    turned.tick();
+    turned.act(Command::SetFixedSize(Some((5, 3))));
+    turned.act(Command::AssignCustomUniform("gain=0.125".into()));
     assert_eq!(turned.session.transport().resolution, (5, 3));
     turned.session.apply(Command::SetFixedSize(Some((8, 4))));
-    turned.session.apply(Command::AssignCustomUniform("gain=0.25".into()));
-    turned.tick();
+    turned.act(Command::AssignCustomUniform("gain=0.25".into()));
     assert!(texels(&mut turned) == before);
     assert!(next(&mut turned) == next(&mut control));
     // To have changed it before a frame is to have drawn that frame with it.
     control.session.apply(Command::AssignCustomUniform("gain=1.0".into()));
-    turned.session.apply(Command::AssignCustomUniform("gain=1.0".into()));
-    turned.tick();
+    turned.act(Command::AssignCustomUniform("gain=1.0".into()));
     assert!(next(&mut turned) == next(&mut control));
 }
 
@@ -237,8 +224,7 @@ fn frame_0_of_new_code_begins_as_that_code_begins() {
     assert_eq!((stage.red(), place(&stage).1), (153, 0), "0.4 · 0.5 + 0.4");
     edit(&mut stage, buffer_a(), &seeded("0.56"));
     assert_eq!((stage.red(), place(&stage).1), (214, 0), "0.56 · 0.5 + 0.56");
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     edit(&mut stage, buffer_a(), &seeded("0.2"));
     assert_eq!((stage.red(), place(&stage).1), (214, 1), "what was seeded stays");
 }

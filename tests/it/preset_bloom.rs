@@ -2,7 +2,7 @@
 
 use crate::support::{preset::*, *};
 use eddy::{
-    engine::{BuildOptions, Engine, Program},
+    engine::{BuildOptions, Engine},
     gpu::Gpu,
     media::MediaSet,
     project::{PassId, Project},
@@ -22,10 +22,7 @@ fn bloom_of_a_spot(gpu: &Gpu, name: &str, size: (u32, u32)) -> Engine {
     let begin = project.passes[index].source.text.find(declaration).expect(declaration);
     let at = (begin + declaration.len() - 1) as u32;
     let options = BuildOptions::default().probing(PassId::Image, Project::pass_id(index), at);
-    let program = Program::build(gpu, &project, &MediaSet::new(), &options).unwrap().program;
-    let mut engine = Engine::new(gpu.clone(), size.0, size.1).unwrap();
-    engine.set_program(program).unwrap();
-    engine
+    engine_with(gpu, &project, &MediaSet::new(), &options, size)
 }
 
 /// The sum of the light, and how far its centroid is from the spot, in pixels.

@@ -116,8 +116,7 @@ fn bloom_leaves_a_wall_of_one_colour_alone() {
     for name in ["bloom", "bloom-sized"] {
         for size in [(96, 54), (97, 41), (33, 200), (5, 3), (1, 1)] {
             let wall = |strength: &str, constant: &str| {
-                let mut engine = whole(&gpu, &preset(name, &[strength, constant]), size);
-                draw(&mut engine, 0..2);
+                let mut engine = drawn(&gpu, &preset(name, &[strength, constant]), size, 0..2);
                 picture(&mut engine).texels
             };
             let [off, on] = ["strength=0", "strength=0.9"].map(|s| wall(s, "constant=1.7"));
@@ -127,8 +126,7 @@ fn bloom_leaves_a_wall_of_one_colour_alone() {
             assert!(off.iter().all(|t| t == &off[0]) && off[0][0] > 0.3, "{name} at {size:?}: no wall: {:?}", off[0]);
         }
         let neon = |strength: &str| {
-            let mut engine = whole(&gpu, &preset(name, &[strength]), (96, 54));
-            draw(&mut engine, 0..2);
+            let mut engine = drawn(&gpu, &preset(name, &[strength]), (96, 54), 0..2);
             picture(&mut engine).texels
         };
         assert!(psnr(&neon("strength=0"), &neon("strength=0.9")) < 25.0, "{name}: nothing blooms");
@@ -165,8 +163,7 @@ const EDGE: &str = "void mainImage(out vec4 o, in vec2 p) {
 }";
 
 fn resolved(gpu: &eddy::gpu::Gpu, project: &Project, frame: i32, size: (u32, u32)) -> Vec<[f32; 4]> {
-    let mut engine = whole(gpu, project, size);
-    draw(&mut engine, 0..frame + 1);
+    let mut engine = drawn(gpu, project, size, 0..frame + 1);
     read(&mut engine, "B").texels
 }
 
@@ -309,8 +306,7 @@ fn one_bad_number_in_a_history_heals() {
             );
             let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
             source.text = format!("{text}{bad}").into();
-            let mut engine = whole(&gpu, &project, (48, 27));
-            draw(&mut engine, 0..6);
+            let mut engine = drawn(&gpu, &project, (48, 27), 0..6);
             assert!(!all_finite(&read(&mut engine, "B")), "{name}: {number} did not arrive");
             draw(&mut engine, 6..8);
             assert!(

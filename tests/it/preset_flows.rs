@@ -17,8 +17,7 @@ fn leaving_the_rings_early_changes_nothing_else() {
     // 25.
     let flow = |custom_uniforms: &[&str]| {
         let project = preset_with("self-advection", custom_uniforms);
-        let mut engine = whole(&gpu, &project, true, (64, 36));
-        draw(&mut engine, 0..12, drag);
+        let mut engine = drawn(&gpu, &project, true, (64, 36), 0..12, drag);
         [buffer("flow"), PassId::Image].map(|id| bits(&engine.read(&id).unwrap()))
     };
     let all = flow(&["growth=1.25", "scales=20"]);
@@ -152,8 +151,7 @@ fn a_v_cycle_leaves_no_more_divergence_than_stated() {
         // Time stands, so that a frame is a projection of what the last one left, and nothing else.
         let mut project = preset_with("fluid-accurate", &["speed=0"]);
         overwrite(&mut project, "advected", seed);
-        let mut engine = whole(&gpu, &project, true, size);
-        draw(&mut engine, 0..1, untouched);
+        let mut engine = drawn(&gpu, &project, true, size, 0..1, untouched);
         let before = divergence(&engine.read(&buffer("advected")).unwrap());
         let mut left = vec![before, divergence(&velocity(&mut engine))];
         for frame in 1..4 {
@@ -363,8 +361,7 @@ fn mip_velocity(
 ) -> [Pixels; 2] {
     let mut project = preset_with("mip-fluid", custom_uniforms);
     overwrite(&mut project, "moved", &format!("if (iFrame == 0) o = vec4({field}, 0.0, 0.0);"));
-    let mut engine = whole(gpu, &project, true, size);
-    draw(&mut engine, 0..1, untouched);
+    let mut engine = drawn(gpu, &project, true, size, 0..1, untouched);
     let begin = engine.read(&buffer("moved")).unwrap();
     draw(&mut engine, 1..frames, untouched);
     [begin, engine.read(&buffer("velocity")).unwrap()]

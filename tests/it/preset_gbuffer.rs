@@ -27,8 +27,7 @@ fn lines(gpu: &eddy::gpu::Gpu, thickness: u32, geometry: &str) -> Pixels {
             o = vec4(packNormal(n), depth, 1.5); }}"
     );
     replace(&mut project, "A", &text);
-    let mut engine = whole(gpu, &project, (64, 36));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(gpu, &project, (64, 36), 0..1);
     read(&mut engine, "B")
 }
 
@@ -118,8 +117,7 @@ fn pixel_of(p: V, size: [f64; 2]) -> [f64; 2] {
 fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, custom_uniforms: &[&str], size: (u32, u32)) -> Pixels {
     let mut project = preset("gbuffer-ssao-ssr", custom_uniforms);
     corner(&mut project, height);
-    let mut engine = whole(gpu, &project, size);
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(gpu, &project, size, 0..1);
     read(&mut engine, "C")
 }
 
@@ -177,8 +175,7 @@ fn pattern(gpu: &eddy::gpu::Gpu, planted: Option<(&str, &str)>) -> (f32, f32) {
     if let Some((pass, text)) = planted {
         replace(&mut project, pass, text);
     }
-    let mut engine = whole(gpu, &project, (320, 180));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(gpu, &project, (320, 180), 0..1);
     let (surfaces, hidden) = (read(&mut engine, "A"), read(&mut engine, "C"));
     let rows = hidden_rows(&surfaces, &hidden);
     assert!(rows.len() > 8, "{rows:?}");
@@ -223,8 +220,7 @@ fn a_mirrored_point_is_where_geometry_says() {
     let (size, height) = ([160.0, 90.0], 2.5);
     let mut project = preset("gbuffer-ssao-ssr", &[]);
     corner(&mut project, height);
-    let mut engine = whole(&gpu, &project, (160, 90));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(&gpu, &project, (160, 90), 0..1);
     let hits = read(&mut engine, "D");
     let (mut wanted, mut found, mut furthest) = (0, 0, 0.0f64);
     for y in 0..90u32 {
@@ -272,8 +268,7 @@ fn found_from_the_foot(gpu: &eddy::gpu::Gpu, planted: &[(&str, &str)]) -> Vec<f6
         assert!(text.contains(old), "the pass no longer says `{old}`");
         *text = text.replace(old, new).into();
     }
-    let mut engine = whole(gpu, &project, (160, 90));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(gpu, &project, (160, 90), 0..1);
     let (surfaces, hits) = (read(&mut engine, "A"), read(&mut engine, "D"));
     let is_floor = |x: u32, y: u32| (texel(&surfaces, x, y)[3] - 1.5).abs() < 0.1;
     let foot = |x: u32| (0..90).rev().find(|y| is_floor(x, *y)).unwrap();

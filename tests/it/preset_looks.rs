@@ -21,8 +21,7 @@ fn the_reaction_fills_the_canvas_however_large_it_is() {
         (&["map=1"], (241, 137), 150, 0.85),
         (&["diffusion=3", "dt=2"], (161, 97), 90, 0.95),
     ] {
-        let mut engine = whole(&gpu, &preset("reaction-diffusion", custom_uniforms), size);
-        draw(&mut engine, 0..frames);
+        let mut engine = drawn(&gpu, &preset("reaction-diffusion", custom_uniforms), size, 0..frames);
         let part = filled(&read(&mut engine, "A"));
         println!("{custom_uniforms:?} at {size:?}: {part:.3} of the canvas after {frames} frames");
         assert!(part > least, "{custom_uniforms:?}: only {part} of the canvas has a pattern");
@@ -40,8 +39,7 @@ fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
         // U alone: nothing reacts.
         let seed = format!("if (iFrame == 0) o = vec4(0.4 + 0.1 * cos({wave} * (float(p.x) + 0.5)), 0.0, 0.0, 0.0);");
         overwrite(&mut project, "A", &seed);
-        let mut engine = whole(&gpu, &project, (width, 5));
-        draw(&mut engine, 0..3);
+        let mut engine = drawn(&gpu, &project, (width, 5), 0..3);
         let state = read(&mut engine, "A");
         let (mut mean, mut found) = (0.0, 0.0);
         for x in 0..width {

@@ -50,8 +50,7 @@ fn still_water_keeps_still_and_keeps_its_mass() {
     let Some(gpu) = gpu() else { return };
     let mut project = preset_with("fluid", &["nozzles=0"]);
     overwrite(&mut project, "A", NOISE);
-    let mut engine = whole(&gpu, &project, true, (33, 19));
-    draw(&mut engine, 0..3, untouched);
+    let mut engine = drawn(&gpu, &project, true, (33, 19), 0..3, untouched);
     let (begin, _) = energy_and_mass(&mut engine, "C");
     assert!(begin > 1e-6, "{begin}: the noise did not arrive");
     draw(&mut engine, 3..400, untouched);
@@ -67,8 +66,7 @@ fn the_fluid_keeps_its_mass_under_jets() {
     // rounding.
     let mut project = preset("fluid");
     patch_file(&mut project, "solver.glsl", "RECOVERY = 1e-3", "RECOVERY = 0.0");
-    let mut engine = whole(&gpu, &project, true, (64, 36));
-    draw(&mut engine, 0..300, untouched);
+    let mut engine = drawn(&gpu, &project, true, (64, 36), 0..300, untouched);
     let (energy, mass) = energy_and_mass(&mut engine, "C");
     assert!(energy > 10.0, "{energy}: the jets did not push");
     assert!(mass.abs() < 2e-5, "900 steps lost {mass} of the mass");
@@ -138,8 +136,7 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
     for beyond in [&["viscosity=0"][..], &["dt=2"], &["stiffness=1", "viscosity=0.1"], &["viscosity=1.25", "dt=0.5"]] {
         let mut project = preset_with("fluid", &published);
         overwrite(&mut project, "A", NOISE);
-        let mut engine = whole(&gpu, &project, true, (32, 20));
-        draw(&mut engine, 0..30, drag);
+        let mut engine = drawn(&gpu, &project, true, (32, 20), 0..30, drag);
         assert!(!hatched(&mut engine), "hatched at the defaults");
         engine.set_custom_uniforms(&values("fluid", &[&published, beyond].concat()));
         draw(&mut engine, 30..1200, untouched);
@@ -168,8 +165,7 @@ fn forward_and_backward_no_slider_makes_energy() {
     ] {
         let mut project = preset_with("fluid", &[&["nozzles=0"], custom_uniforms].concat());
         overwrite(&mut project, "A", NOISE);
-        let mut engine = whole(&gpu, &project, true, (32, 20));
-        draw(&mut engine, 0..3, untouched);
+        let mut engine = drawn(&gpu, &project, true, (32, 20), 0..3, untouched);
         let (begin, _) = energy_and_mass(&mut engine, "C");
         draw(&mut engine, 3..600, untouched);
         let (end, mass) = energy_and_mass(&mut engine, "C");
@@ -224,8 +220,7 @@ fn a_density_that_alternates_from_cell_to_cell_dies() {
         let mut project = preset_with("fluid", &["nozzles=0"]);
         let seed = format!("if (iFrame == 0 && p.y > 0) o = vec4(0.0, 0.0, {pattern} == 0 ? 1.05 : 0.95, 0.0);");
         overwrite(&mut project, "C", &seed);
-        let mut engine = whole(&gpu, &project, true, (48, 33));
-        draw(&mut engine, 0..30, untouched);
+        let mut engine = drawn(&gpu, &project, true, (48, 33), 0..30, untouched);
         let state = engine.read(&buffer("C")).unwrap();
         let left = state.texels[48..].iter().map(|t| (t[2] - 1.0).abs()).fold(0.0, f32::max);
         println!("{pattern}: {left:.1e} of 0.05 after 30 frames");
@@ -319,8 +314,7 @@ fn normals_are_those_of_a_known_height_field() {
     let (kx, ky, a) = (0.21f64, 0.17f64, 0.4f64);
     let mut project = preset("fluid-lit");
     overwrite(&mut project, "height", &format!("o = vec4({a} * sin({kx} * float(p.x)) * cos({ky} * float(p.y)));"));
-    let mut engine = whole(&gpu, &project, true, (width, height));
-    draw(&mut engine, 0..1, untouched);
+    let mut engine = drawn(&gpu, &project, true, (width, height), 0..1, untouched);
     let normals = engine.read(&buffer("normal")).unwrap();
     let mut worst = [0.0f64; 2];
     for y in 2..height - 1 {
@@ -351,8 +345,7 @@ fn constant_states_of_gray_scott_stay() {
     let Some(gpu) = gpu() else { return };
     for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
         let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion]].concat());
-        let mut engine = whole(&gpu, &project, true, (20, 12));
-        draw(&mut engine, 0..20, untouched);
+        let mut engine = drawn(&gpu, &project, true, (20, 12), 0..20, untouched);
         let fed = engine.read(&buffer("A")).unwrap();
         assert!(fed.texels.iter().all(|t| t[..2] == [0.0; 2]), "the fed state");
         // The other one: u v = F + k, v = F (1 - u) / (F + k). It is a saddle; rounding has not led away from it yet.
@@ -361,8 +354,7 @@ fn constant_states_of_gray_scott_stay() {
         let v = f * (1.0 - u) / (f + k);
         turn(&mut project, &["feed=0.0545", "kill=0.062"]);
         overwrite(&mut project, "A", &format!("if (iFrame == 0) o = vec4({}, {v}, 0.0, 0.0);", 1.0 - u));
-        let mut engine = whole(&gpu, &project, true, (20, 12));
-        draw(&mut engine, 0..10, untouched);
+        let mut engine = drawn(&gpu, &project, true, (20, 12), 0..10, untouched);
         let state = engine.read(&buffer("A")).unwrap();
         for t in &state.texels {
             let off = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());

@@ -16,8 +16,7 @@ fn occlusion_on_the_still_life_is_that_of_rays() {
     let Some(gpu) = gpu() else { return };
     let (width, height) = (640u32, 360u32);
     let radius = 0.8;
-    let mut engine = whole(&gpu, &preset("gbuffer-ssao-ssr", &["turning=0"]), (width, height));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(&gpu, &preset("gbuffer-ssao-ssr", &["turning=0"]), (width, height), 0..1);
     let (surfaces, measured) = (read(&mut engine, "A"), read(&mut engine, "C"));
     let view = View::new(width, height);
     let material = |x: u32, y: u32| texel(&surfaces, x.min(width - 1), y.min(height - 1))[3] as u32;
@@ -86,8 +85,7 @@ fn occlusion_among_meshes_is_that_of_rays() {
     let (width, height) = (320u32, 180u32);
     let radius = 0.6;
     let project = preset("ssao", &["power=1"]);
-    let mut engine = whole(&gpu, &project, (width, height));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(&gpu, &project, (width, height), 0..1);
     let target =
         |engine: &mut eddy::engine::Engine, i| -> Pixels { engine.read_target(&buffer("geometry"), i).unwrap() };
     let (world, normals, open) = (target(&mut engine, 1), target(&mut engine, 2), read(&mut engine, "blur"));

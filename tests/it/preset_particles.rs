@@ -17,8 +17,7 @@ fn particles_live_as_long_as_they_say_and_none_is_lost() {
     let Some(gpu) = gpu() else { return };
     for custom_uniforms in [&[][..], &["lifetime=0.1"], &["speed=10"]] {
         let project = preset_with("particles", custom_uniforms);
-        let mut engine = whole(&gpu, &project, true, (64, 36));
-        draw(&mut engine, 0..1, drag);
+        let mut engine = drawn(&gpu, &project, true, (64, 36), 0..1, drag);
         let step = if custom_uniforms == ["speed=10"] { 10.0 / 60.0 } else { 1.0f32 / 60.0 };
         let mut before = lives(&engine.read(&buffer("life")).unwrap());
         assert_eq!(of_each_type(&before), [512, 384, 128]);
@@ -52,8 +51,7 @@ fn particles_live_as_long_as_they_say_and_none_is_lost() {
 fn sparks_fall_as_far_as_gravity_says() {
     let Some(gpu) = gpu() else { return };
     let project = preset("particles");
-    let mut engine = whole(&gpu, &project, true, (64, 36));
-    draw(&mut engine, 0..30, untouched);
+    let mut engine = drawn(&gpu, &project, true, (64, 36), 0..30, untouched);
     let read = |engine: &mut eddy::engine::Engine| ["motion", "life"].map(|b| engine.read(&buffer(b)).unwrap().texels);
     let [before, _] = read(&mut engine);
     draw(&mut engine, 30..31, untouched);

@@ -68,8 +68,7 @@ fn violent(frame: i32, (w, h): (f32, f32)) -> FrameInputs {
 fn a_drag_across_the_whole_canvas_in_one_frame_is_survived() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
-        let mut engine = whole(&gpu, &preset(s.name), true, (48, 27));
-        draw(&mut engine, 0..5, untouched);
+        let mut engine = drawn(&gpu, &preset(s.name), true, (48, 27), 0..5, untouched);
         draw(&mut engine, 5..40, |f| violent(f, (48.0, 27.0)));
         check(s, &mut engine, "under a violent hand");
         draw(&mut engine, 40..100, untouched);
@@ -151,8 +150,7 @@ fn a_broken_number_in_any_buffer_heals() {
             for number in numbers {
                 let mut project = preset(s.name);
                 break_texel(&mut project, &name, (0, 0), 4, number);
-                let mut engine = whole(&gpu, &project, true, (32, 20));
-                draw(&mut engine, 0..5, drag);
+                let mut engine = drawn(&gpu, &project, true, (32, 20), 0..5, drag);
                 let broken = engine.read(&buffer(&name)).unwrap();
                 assert!(!all_finite(&broken), "{} {name}: {number} did not arrive", s.name);
                 draw(&mut engine, 5..5 + s.memory, drag);
@@ -263,8 +261,7 @@ fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
 fn a_hitch_a_pause_and_a_single_step_are_frames_like_others() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
-        let mut engine = whole(&gpu, &preset(s.name), true, (32, 20));
-        draw(&mut engine, 0..10, drag);
+        let mut engine = drawn(&gpu, &preset(s.name), true, (32, 20), 0..10, drag);
         // A quarter of a second passes at once.
         draw(&mut engine, 10..14, |f| FrameInputs { time_delta_secs: 0.25, ..drag(f) });
         check(s, &mut engine, "after a hitch");
@@ -312,8 +309,7 @@ fn thin_wide_and_odd_canvases_are_canvases() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
         for (w, h) in [(1, 1), (2, 1), (1, 2), (3, 3), (17, 31), (1, 4096), (4096, 1), (320, 10), (9, 160), (161, 89)] {
-            let mut engine = whole(&gpu, &preset(s.name), true, (w, h));
-            draw(&mut engine, 0..3, untouched);
+            let mut engine = drawn(&gpu, &preset(s.name), true, (w, h), 0..3, untouched);
             draw(&mut engine, 3..9, |f| violent(f, (w as f32, h as f32)));
             check(s, &mut engine, &format!("{w}x{h}"));
         }

@@ -41,8 +41,7 @@ fn corner(project: &mut Project, height: Option<f64>) {
 fn open(gpu: &Gpu, height: Option<f64>, custom_uniforms: &[&str]) -> (Pixels, Pixels) {
     let mut project = preset("ssao", custom_uniforms);
     corner(&mut project, height);
-    let mut engine = whole(gpu, &project, SIZE);
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(gpu, &project, SIZE, 0..1);
     (engine.read_target(&buffer("geometry"), 1).unwrap(), read(&mut engine, "blur"))
 }
 
@@ -150,8 +149,7 @@ fn an_open_plane_is_open() {
 #[test]
 fn the_kernel_is_a_cosine_weighted_hemisphere() {
     let Some(gpu) = gpu() else { return };
-    let mut engine = whole(&gpu, &preset("ssao", &[]), (16, 9));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(&gpu, &preset("ssao", &[]), (16, 9), 0..1);
     let kernel = read(&mut engine, "kernel");
     let points: Vec<[f64; 3]> = kernel.texels[..64].iter().map(|t| [0, 1, 2].map(|i| f64::from(t[i]))).collect();
     let length = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -183,8 +181,7 @@ fn press(engine: &mut Engine, frame: i32) -> Pixels {
 #[test]
 fn space_steps_through_occlusion_on_off_and_alone() {
     let Some(gpu) = gpu() else { return };
-    let mut engine = whole(&gpu, &preset("ssao", &["lampSpeed=0"]), (160, 90));
-    draw(&mut engine, 0..1);
+    let mut engine = drawn(&gpu, &preset("ssao", &["lampSpeed=0"]), (160, 90), 0..1);
     let on = picture(&mut engine);
     let off = press(&mut engine, 1);
     let alone = press(&mut engine, 3);

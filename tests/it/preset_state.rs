@@ -204,8 +204,7 @@ fn one_bad_number_in_a_state_heals() {
             source.text
         )
         .into();
-        let mut engine = whole(&gpu, &project, (96, 54));
-        draw(&mut engine, 0..6);
+        let mut engine = drawn(&gpu, &project, (96, 54), 0..6);
         assert!(!all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: it did not arrive");
         draw(&mut engine, 6..9);
         assert!(all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: it lives on");

@@ -151,8 +151,7 @@ fn a_drag_pushes_the_fluid_along_and_carries_the_dye() {
     let Some(gpu) = gpu() else { return };
     // Still water, so that what moves was moved by the mouse.
     let project = preset_with("fluid", &["nozzles=0"]);
-    let mut engine = whole(&gpu, &project, true, (64, 36));
-    draw(&mut engine, 0..10, drag);
+    let mut engine = drawn(&gpu, &project, true, (64, 36), 0..10, drag);
     assert_eq!(mean_on_the_way(&engine.read(&buffer("C")).unwrap(), 0), 0.0);
     draw(&mut engine, 10..25, drag);
     let [along, across] = [0, 1].map(|channel| mean_on_the_way(&engine.read(&buffer("C")).unwrap(), channel));
@@ -170,8 +169,7 @@ fn every_preset_survives_every_size() {
     for name in presets::names() {
         let project = preset(name);
         for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
-            let mut engine = whole(&gpu, &project, true, size);
-            draw(&mut engine, 0..20, drag);
+            let mut engine = drawn(&gpu, &project, true, size, 0..20, drag);
             for id in buffers(&project) {
                 let pixels = engine.read(id).unwrap();
                 assert!(pixels.texels.iter().flatten().all(|v| v.is_finite()), "{name} {size:?} {}", id.title());
@@ -185,8 +183,7 @@ fn a_trail_fades_by_exp_of_minus_33_over_the_height() {
     let Some(gpu) = gpu() else { return };
     let project = preset("feedback");
     for size in [(48, 27), (40, 90)] {
-        let mut engine = whole(&gpu, &project, true, size);
-        draw(&mut engine, 0..20, |f| held(f, None));
+        let mut engine = drawn(&gpu, &project, true, size, 0..20, |f| held(f, None));
         // The mouse is held from now on: the pens that draw by themselves rest, and their trails only fade.
         let mouse = |f| held(f, Some(([5.0, 5.0], [5.0, 5.0])));
         draw(&mut engine, 20..21, mouse);
@@ -215,8 +212,7 @@ fn a_trail_fades_by_exp_of_minus_33_over_the_height() {
 #[test]
 fn the_paddle_follows_the_mouse_and_the_keys() {
     let Some(gpu) = gpu() else { return };
-    let mut engine = whole(&gpu, &preset("brick-breaker"), true, (64, 36));
-    draw(&mut engine, 0..5, |f| held(f, None));
+    let mut engine = drawn(&gpu, &preset("brick-breaker"), true, (64, 36), 0..5, |f| held(f, None));
     // Five pixels are a field unit's worth: 320 units across 64 pixels, the middle of the pixel counts.
     for (frame, x) in [(5, 20.0), (6, 40.0), (7, 33.0)] {
         draw(&mut engine, frame..frame + 1, |f| held(f, Some(([20.0, 9.0], [x, 9.0]))));
@@ -255,8 +251,7 @@ fn the_ball_never_tunnels_and_never_changes_speed() {
     for speed in [1.0f32, 10.0, 100.0, 1e3, 1e4] {
         let velocity = [0.6 * speed * 60.0, 0.8 * speed * 60.0];
         let (project, a) = (ball_alone(velocity), buffer("A"));
-        let mut engine = whole(&gpu, &project, true, (16, 9));
-        draw(&mut engine, 0..1, |f| held(f, None));
+        let mut engine = drawn(&gpu, &project, true, (16, 9), 0..1, |f| held(f, None));
         let start = texel(&engine.read(&a).unwrap(), 0, 0);
         assert_eq!(start[2..], velocity);
         for frame in 1..60 {
@@ -286,8 +281,7 @@ fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
     // 10,000 units a frame meet some 70 walls in each.
     let velocity = [0.6f32 * 6e5, 0.8 * 6e5];
     let (project, a) = (ball_alone(velocity), buffer("A"));
-    let mut engine = whole(&gpu, &project, true, (16, 9));
-    draw(&mut engine, 0..1, untouched);
+    let mut engine = drawn(&gpu, &project, true, (16, 9), 0..1, untouched);
     let start = texel(&engine.read(&a).unwrap(), 0, 0);
     let (mut bounces, mut frame) = (0.0, 1);
     while bounces < 1e5 {
@@ -305,8 +299,7 @@ fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
 #[test]
 fn the_game_survives_a_resize() {
     let Some(gpu) = gpu() else { return };
-    let mut engine = whole(&gpu, &preset("brick-breaker"), true, (64, 36));
-    draw(&mut engine, 0..90, |f| held(f, None));
+    let mut engine = drawn(&gpu, &preset("brick-breaker"), true, (64, 36), 0..90, |f| held(f, None));
     let rows = |pixels: &Pixels| {
         (0..7).flat_map(|y| (0..16).map(move |x| (x, y))).map(|(x, y)| texel(pixels, x, y)).collect::<Vec<_>>()
     };

@@ -2,6 +2,7 @@
 
 use crate::{
     support::{
+        engine_with,
         presets::{bits, buffers},
         *,
     },
@@ -49,9 +50,7 @@ fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
             vec![image(), buffer("a"), buffer("b")]
         };
         let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
-        let built = Program::build(&gpu, &project, &Default::default(), &options).unwrap();
-        let mut engine = Engine::new(gpu.clone(), 8, 4).unwrap();
-        engine.set_program(built.program).unwrap();
+        let mut engine = engine_with(&gpu, &project, &Default::default(), &options, (8, 4));
         (0..5).for_each(|frame| assert!(engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).is_ok()));
         let read = |engine: &mut Engine, id| engine.read(&id).unwrap().texels;
         let probed = options.probe.is_some().then(|| read(&mut engine, BuildOptions::probed()));

@@ -265,8 +265,7 @@ fn a_picture_changed_on_disk_is_read_again() {
     stage.write("image.glsl", shader);
     stage.write("eddy.toml", toml);
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     assert_eq!(stage.red(), 50);
     let mut file = fs::File::create(stage.path("pic.png")).unwrap();
     file.write_all(&picture(200)).unwrap();
@@ -320,8 +319,7 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
     stage.write("pic.png", picture(50));
     stage.write("image.glsl", shader(0));
     stage.write("eddy.toml", toml);
-    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.until_compiled();
+    stage.compile(Command::Open(stage.folder().to_str().unwrap().into()));
     for n in 1..12 {
         let red = if n % 2 == 0 { 50 } else { 200 };
         stage.write("pic.png", picture(red));
@@ -331,8 +329,7 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
         while Instant::now() < end {
             edits += 1;
             stage.edit(&shader(n * 100_000 + edits));
-            stage.session.apply(Command::CompileNow);
-            stage.tick();
+            stage.act(Command::CompileNow);
         }
         stage.until_red(red);
     }

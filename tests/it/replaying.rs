@@ -63,8 +63,7 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
         let (file, last, _folder) = recorded(&gpu, preset, 240);
         let mut stage = Stage::bare(gpu.clone());
         stage.session.apply(Command::SetFixedSize(Some((32, 18))));
-        stage.session.apply(Command::Open(preset.into()));
-        stage.until_compiled();
+        stage.compile(Command::Open(preset.into()));
         stage.session.apply(Command::KeyDown(37));
         stage.session.apply(Command::MouseDown { x: 1.0, y: 1.0 });
         play(&mut stage, &file);
@@ -86,8 +85,7 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
         // Paused it stays, and an own size takes over again.
         stage.for_a_while();
         assert!(texels(&mut stage) == last);
-        stage.session.apply(Command::SetFixedSize(Some((40, 20))));
-        stage.tick();
+        stage.act(Command::SetFixedSize(Some((40, 20))));
         assert_eq!(stage.session.transport().resolution, (40, 20));
     }
 }
@@ -113,8 +111,7 @@ fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
     let mut stage = stage(gpu.clone());
     let (file, known) = by_steps(&mut stage);
     // A slider stands elsewhere than the recording has it.
-    stage.session.apply(Command::AssignCustomUniform("level=0.75".into()));
-    stage.tick();
+    stage.act(Command::AssignCustomUniform("level=0.75".into()));
     let before = stage.session.project().clone();
     play(&mut stage, &file);
     draw(&mut stage, usize::MAX);
@@ -130,19 +127,16 @@ fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
     draw(&mut stage, usize::MAX);
     assert!(texels(&mut stage) == end);
     // The next frame is the project's own.
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     assert_eq!(stage.session.transport().frame, 130);
     let own = texels(&mut stage);
-    stage.session.apply(Command::StepBack(1));
-    stage.tick();
+    stage.act(Command::StepBack(1));
     assert!(texels(&mut stage) == end, "the frame before it is still the recording's");
     // The same with the recording's value is another frame.
     play(&mut stage, &file);
     draw(&mut stage, usize::MAX);
     stage.session.apply(Command::AssignCustomUniform("level=0.125".into()));
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     assert!(texels(&mut stage) != own);
 }
 
@@ -172,18 +166,15 @@ fn a_recording_is_paused_sought_stepped_and_stopped() {
     assert!(texels(&mut stage) == known[0].2);
     // Step by step to the next known one.
     for _ in known[0].0..known[1].0 {
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
     assert!(texels(&mut stage) == known[1].2);
-    stage.session.apply(Command::StopReplay);
-    stage.tick();
+    stage.act(Command::StopReplay);
     assert!(stage.session.replay().is_none() && texels(&mut stage) == known[1].2);
     assert!(stage.notices(Level::Info).iter().any(|text| text.contains("continues live")));
     // From here on it is a hand's again.
     let frame = stage.session.transport().frame;
-    stage.session.apply(Command::MouseDown { x: 1.0, y: 1.0 });
-    stage.tick();
+    stage.act(Command::MouseDown { x: 1.0, y: 1.0 });
     assert_eq!(stage.session.transport().frame, frame + 1, "input draws a frame while paused");
     assert!(texels(&mut stage) != known[1].2);
 }
@@ -252,8 +243,7 @@ fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_pr
     let mut stage = stage(gpu);
     let (file, _) = by_steps(&mut stage);
     stage.session.apply(Command::Open("feedback".into()));
-    stage.session.apply(Command::Answer(Answer::Discard));
-    stage.until_compiled();
+    stage.compile(Command::Answer(Answer::Discard));
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to: None });
     let told = stage.notices(Level::Warning).join("\n");
     assert!(told.contains("open the project that it was recorded in") && stage.session.replay().is_none(), "{told}");

@@ -1,6 +1,6 @@
 //! A session without a window: when it draws, what it captures, what it asks before anything is lost.
 
-use crate::support::{self, stage::*};
+use crate::support::{self, folder_of, stage::*};
 use eddy::{
     engine::BuildOptions,
     media,
@@ -128,8 +128,7 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
     expect(&mut stage, "again: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
     expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
     let channel = Some(Channel::new(Input::KEYBOARD));
-    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 1, channel });
-    stage.until_compiled();
+    stage.compile(Command::SetChannel { pass: PassId::Image, index: 1, channel });
     expect(&mut stage, "again: a channel, once it is compiled", vec![], 1);
     assert!(stage.tick().wake_at.is_none(), "nothing to wait for");
 }
@@ -174,20 +173,17 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     assert_eq!(stage.red(), 153);
 
     stage.edit("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0);\n    o.x = nowhere;\n}\n");
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
     let error = &stage.session.diagnostics()[0];
     assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
     assert_eq!(stage.red(), 153, "the last working version");
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     assert_eq!(stage.red(), 153, "and it still draws");
 
     stage.edit(&plain(0.2));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert!(stage.is_ok() && stage.session.diagnostics().is_empty());
     assert_eq!(stage.red(), 51);
     assert!(!stage.session.is_dirty(), "back to what is on disk");
@@ -204,28 +200,22 @@ fn what_is_drawn_while_there_are_errors_is_told() {
     assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
 
     stage.edit(&plain(0.2));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert!(stage.is_ok());
     stage.edit(broken);
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
 
     // Another project that has none: the one before is gone, and its picture with it.
     stage.edit(&plain(0.2));
     stage.session.apply(Command::Save);
-    let other = stage.dir.path().join("other");
-    fs::create_dir(&other).unwrap();
-    fs::write(other.join("image.glsl"), broken).unwrap();
-    stage.session.apply(Command::Open(other.to_str().unwrap().into()));
-    stage.until_compiled();
+    let other = folder_of(stage.dir.path().join("other"), &[("image.glsl", broken)]);
+    stage.compile(Command::Open(other.to_str().unwrap().into()));
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing));
 
     // A channel that names nothing: an error, and the picture is the newest text's all the same.
     stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Newest));
     assert_eq!(stage.red(), 102);
 }
@@ -337,22 +327,18 @@ fn a_failing_save_and_a_failing_open_lose_nothing() {
 fn a_size_the_device_cannot_draw_is_told_once_and_the_old_one_stays() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
-    stage.session.apply(Command::SetFixedSize(Some((1 << 20, 4))));
-    stage.tick();
+    stage.act(Command::SetFixedSize(Some((1 << 20, 4))));
     stage.tick();
     assert_eq!(stage.notices(Level::Error).len(), 1);
     assert_eq!(stage.session.transport().resolution, (8, 4));
-    stage.session.apply(Command::SetFixedSize(Some((0, 0))));
-    stage.tick();
+    stage.act(Command::SetFixedSize(Some((0, 0))));
     assert_eq!(stage.notices(Level::Error).len(), 2);
     stage.session.apply(Command::SetFixedSize(None));
     stage.session.apply(Command::SetViewport { width: 31, height: 17 });
-    stage.session.apply(Command::SetScale(0.5));
-    stage.tick();
+    stage.act(Command::SetScale(0.5));
     assert_eq!(stage.session.transport().resolution, (15, 8));
     stage.session.apply(Command::SetViewport { width: 0, height: 17 });
-    stage.session.apply(Command::SetScale(0.001));
-    stage.tick();
+    stage.act(Command::SetScale(0.001));
     assert_eq!(stage.session.transport().resolution, (1, 1), "at least one pixel");
 }
 
@@ -397,15 +383,13 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     let channels = |stage: &Stage| stage.session.project().pass(&PassId::Image).unwrap().channels.clone();
     stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
     assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::KEYBOARD));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     stage.session.apply(Command::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert!(stage.read("lone.glsl").starts_with("#iChannel1"));
     stage.edit(&format!("#iChannel1 \"keybord\"\n{}", plain(0.4)));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     let d = &stage.session.diagnostics()[0];
     assert_eq!((d.tab(), line(d)), (Some(&IMAGE), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));

@@ -51,8 +51,7 @@ fn run(stage: &mut Stage) {
         if frame == 6 {
             stage.session.apply(Command::SetFixedSize(Some((12, 6))));
         }
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
 }
 
@@ -98,8 +97,7 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iFrame, iTime, p.x, 1.0); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", text)]);
     (0..20).for_each(|_| {
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     });
     let other = stage.dir.path().join("other.glsl");
     fs::write(&other, text.replace("p.x", "p.y")).unwrap();
@@ -161,8 +159,7 @@ fn a_large_project_to_compare_with_is_tried_first() {
     let large = format!("void mainImage(out vec4 o, in vec2 p) {{ float a = p.x; {large} o = vec4(a); }}");
     let other = stage.folder().with_file_name("other.glsl");
     fs::write(&other, large).unwrap();
-    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.until_compiled();
+    stage.compile(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.until("a frame", |s| s.transport().frame > 0);
     let refused = compare(&mut stage, Baseline::Project(other.to_str().unwrap().into())).unwrap_err();
     assert!(refused.contains("other.glsl: error: the graphics driver cannot compile Image"), "{refused}");

@@ -65,8 +65,7 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
         // Another program draws one frame while paused, whatever it draws.
         let at = SHOW.find("p.x * 2.0").unwrap() + 5;
         let place = ProbePlace { tab: Tab::Pass(PassId::Image), at, visit: 0 };
-        stage.session.apply(if probes { Command::Probe(Some(place)) } else { Command::CompileNow });
-        stage.until_compiled();
+        stage.compile(if probes { Command::Probe(Some(place)) } else { Command::CompileNow });
         step(&mut stage, 4);
         if probes {
             stage.until("numbers", |s| s.probe().is_some_and(|view| view.numbers.is_some()));
@@ -77,8 +76,7 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
             assert_eq!(numbers.pixels.texels[9], [3.0, 3.0, 3.0, 1.0]);
             assert_eq!(numbers.statistics.extremes[0], Some((1.0, 15.0)));
         }
-        stage.session.apply(if probes { Command::Probe(None) } else { Command::CompileNow });
-        stage.until_compiled();
+        stage.compile(if probes { Command::Probe(None) } else { Command::CompileNow });
         step(&mut stage, 2);
         stage.session.apply(Command::ShowPass(buffer_a()));
         stage.session.apply(Command::SaveTexels);
@@ -98,8 +96,7 @@ fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
     stage.session.apply(Command::Pause);
     // A picture that is drawn within a few milliseconds is waited for in the tick that asks for it.
-    stage.session.apply(Command::SetFixedSize(Some((2048, 1024))));
-    stage.until_compiled();
+    stage.compile(Command::SetFixedSize(Some((2048, 1024))));
     let at = SHOW.find("p.x * 2.0").unwrap() + 5;
     let place = ProbePlace { tab: Tab::Pass(PassId::Image), at, visit: 0 };
     stage.session.apply(Command::Probe(Some(place)));
@@ -144,8 +141,7 @@ fn a_breakpoint_stands_where_a_statement_does() {
     stage.write("common.glsl", "const float HALF = 0.5;\nfloat half_of(float x) {\n    return HALF * x;\n}\n");
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.until_compiled();
+    stage.compile(Command::Pause);
     let at = |tab: &Tab, line: usize| stage.session.stop_line(tab, line);
     let found: Vec<Option<usize>> = (0..=18).map(|line| at(&IMAGE, line)).collect();
     let wanted = [4, 4, 4, 4, 4, 8, 8, 8, 8, 8, 13, 13, 13, 13, 14, 16, 16].map(Some);

@@ -37,8 +37,7 @@ fn measure<'s>(session: &'s Session, text: &str) -> &'s Measure {
 
 fn watch_all(stage: &mut Stage) {
     let all = stage.session.measures().iter().map(|measure| measure.serial).collect();
-    stage.session.apply(Command::WatchMeasures(all));
-    stage.tick();
+    stage.act(Command::WatchMeasures(all));
 }
 
 /// Frames with their values.
@@ -52,8 +51,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
     let mut stage = Stage::open(gpu.clone(), &files());
     step(&mut stage, 1);
     assert_eq!((stage.session.measures().len(), stage.session.measured_frames()), (4, 0));
-    stage.session.apply(Command::Reset);
-    stage.tick();
+    stage.act(Command::Reset);
     watch_all(&mut stage);
     step(&mut stage, 7);
     assert_eq!(values(&stage, "max(buffer_a.x)"), (0..8).map(|n| (n, f64::from(n + 1))).collect::<Vec<_>>());
@@ -64,8 +62,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
         let unmeasured = stage.session.unmeasured(measure(&stage.session, text)).map(|why| why.into_owned());
         unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.mend))
     };
-    stage.session.apply(Command::WatchCosts(true));
-    stage.tick();
+    stage.act(Command::WatchCosts(true));
     let (undrawn, mend) = why(&stage, "sum(buffer_b)").unwrap();
     assert_eq!(undrawn, "Buffer B is not drawn: no channel reads it");
     assert!(mend.contains("show Buffer B"), "{mend}");
@@ -75,19 +72,16 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
         ("there is no pass buffer_q", "the project's passes are buffer_a, buffer_b and image")
     );
     assert_eq!(why(&stage, "max(buffer_a.x)"), None);
-    stage.session.apply(Command::ShowPass(PassId::Buffer("B".into())));
-    stage.until_compiled();
+    stage.compile(Command::ShowPass(PassId::Buffer("B".into())));
     assert_eq!(why(&stage, "sum(buffer_b)"), None);
     stage.until("a sum of what is shown", |s| measure(s, "sum(buffer_b)").record.newest().is_some());
     assert_eq!(measure(&stage.session, "sum(buffer_b)").record.newest().unwrap().value, 8.0 * 4.0 * 4.0);
 
-    stage.session.apply(Command::ShowPass(PassId::Image));
-    stage.until_compiled();
+    stage.compile(Command::ShowPass(PassId::Image));
     step(&mut stage, 1);
 
     // Nobody looks: nothing is measured, and frames go on.
-    stage.session.apply(Command::WatchMeasures(vec![]));
-    stage.tick();
+    stage.act(Command::WatchMeasures(vec![]));
     let (count, frames) = (stage.session.measured_frames(), stage.frames());
     step(&mut stage, 5);
     assert!(stage.session.measured_frames() == count && stage.frames() > frames);
@@ -103,8 +97,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
 fn records_follow_time_and_edits() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &files());
-    stage.session.apply(Command::Reset);
-    stage.tick();
+    stage.act(Command::Reset);
     watch_all(&mut stage);
     step(&mut stage, 6);
     let frames = |stage: &Stage| values(stage, "max(buffer_a.x)").iter().map(|value| value.0).collect::<Vec<_>>();
@@ -120,18 +113,15 @@ fn records_follow_time_and_edits() {
     // An edit elsewhere keeps it, one of the comment begins another.
     let serial = measure(&stage.session, "max(buffer_a.x)").serial;
     stage.edit(&format!("// more\n{SHOW}"));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert!(frames(&stage).starts_with(&[0, 1, 2, 3]) && measure(&stage.session, "max(buffer_a.x)").serial == serial);
     assert_eq!(measure(&stage.session, "sum(buffer_q)").place.line, 4);
     let tab = Tab::Pass(PassId::Buffer("A".into()));
-    stage.session.apply(Command::EditText { tab, text: GROWING.replace("max(buffer_a.x)", "min(buffer_a.x)") });
-    stage.tick();
+    stage.act(Command::EditText { tab, text: GROWING.replace("max(buffer_a.x)", "min(buffer_a.x)") });
     assert!(measure(&stage.session, "min(buffer_a.x)").record.newest().is_none());
     assert!(stage.session.measures().iter().all(|measure| measure.text != "max(buffer_a.x)"));
 
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     stage.session.apply(Command::Reset);
     stage.until("frame 0", |s| s.transport().frame == 0);
     stage.tick();
@@ -145,8 +135,7 @@ fn what_was_measured_goes_into_new_files() {
     let mut stage = Stage::open(gpu.clone(), &files());
     stage.session.apply(Command::SaveMeasures);
     assert_eq!(stage.notices(Level::Warning).len(), 1);
-    stage.session.apply(Command::Reset);
-    stage.tick();
+    stage.act(Command::Reset);
     watch_all(&mut stage);
     step(&mut stage, 5);
     stage.session.apply(Command::SaveMeasures);
@@ -173,8 +162,7 @@ fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
         files().iter().for_each(|(name, text)| stage.write(name, text));
         let folder = stage.folder();
         stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-        stage.session.apply(Command::Pause);
-        stage.until_compiled();
+        stage.compile(Command::Pause);
         stage.session.apply(Command::Reset);
         if measures {
             watch_all(&mut stage);

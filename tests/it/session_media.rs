@@ -16,8 +16,7 @@ const FRAGMENT: &str = "layout(location = 0) out vec4 color;\nvoid main() { colo
 fn open(stage: &mut Stage) -> Duration {
     let began = Instant::now();
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
-    stage.tick();
+    stage.act(Command::Pause);
     began.elapsed()
 }
 

@@ -31,15 +31,13 @@ const MANIFEST: &str =
 pub(super) fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
-    stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
-    stage.tick();
+    stage.act(Command::ShowPass(PassId::Buffer("A".into())));
     stage
 }
 
 /// The texels of the pass that is shown.
 pub(super) fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.session.apply(Command::SaveTexels);
-    stage.tick();
+    stage.act(Command::SaveTexels);
     let notice = stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap();
     fs::read(notice).unwrap()
 }
@@ -54,8 +52,7 @@ pub(super) fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
             110 => stage.session.apply(Command::AssignCustomUniform("level=0.125".into())),
             _ => {}
         }
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
 }
 
@@ -73,16 +70,14 @@ fn one_goes_back_to_any_frame_with_the_buffers_as_they_were() {
     assert_eq!((first, newest), (0, 300));
     let mut at = 300;
     while let Some((frame, before)) = known.pop() {
-        stage.session.apply(Command::StepBack((at - frame) as usize));
-        stage.tick();
+        stage.act(Command::StepBack((at - frame) as usize));
         assert!(texels(&mut stage) == before, "frame {frame}");
         assert!(!stage.session.transport().playing);
         at = frame;
     }
     // On from there as ever.
     let frame = stage.session.transport().frame;
-    stage.session.apply(Command::Step);
-    stage.tick();
+    stage.act(Command::Step);
     assert_eq!(stage.session.transport().frame, frame + 1);
     assert!(stage.notices(Level::Error).is_empty() && stage.notices(Level::Warning).is_empty());
 }
@@ -93,14 +88,11 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     let mut stage = stage(gpu);
     steps(&mut stage, 0..10);
     let before = texels(&mut stage);
-    stage.session.apply(Command::StepBack(500));
-    stage.tick();
+    stage.act(Command::StepBack(500));
     assert!(texels(&mut stage) == before);
     assert!(stage.notices(Level::Warning)[0].contains("you can go back"), "{:?}", stage.notices(Level::Warning));
-    stage.session.apply(Command::Reset);
-    stage.tick();
-    stage.session.apply(Command::StepBack(1));
-    stage.tick();
+    stage.act(Command::Reset);
+    stage.act(Command::StepBack(1));
     let warnings = stage.notices(Level::Warning);
     assert!(warnings.len() == 1 && warnings[0].contains("restarts at frame 0"), "the one before is over: {warnings:?}");
 }
@@ -147,8 +139,7 @@ fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
     let mut stage = stage(gpu);
     steps(&mut stage, 0..150);
     let last = texels(&mut stage);
-    stage.session.apply(Command::StepBack(100));
-    stage.tick();
+    stage.act(Command::StepBack(100));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (50, 100));
     // With the mouse and the slider that those frames had.
     for _ in 0..100 {
@@ -158,14 +149,11 @@ fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (150, 0));
     assert!(texels(&mut stage) == last);
     // A slider that is turned makes another run of it, from the frame that is shown on.
-    stage.session.apply(Command::StepBack(20));
-    stage.tick();
-    stage.session.apply(Command::AssignCustomUniform("level=0.75".into()));
-    stage.tick();
+    stage.act(Command::StepBack(20));
+    stage.act(Command::AssignCustomUniform("level=0.75".into()));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (130, 0));
     for _ in 0..20 {
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
     assert_eq!(stage.session.transport().frame, 150);
     assert!(texels(&mut stage) != last);
@@ -178,16 +166,14 @@ fn a_picture_without_a_state_is_there_at_any_time_at_once() {
     let mut stage = Stage::open(gpu, &[("image.glsl", time)]);
     for (secs, frame) in [(12.5, 750), (0.25, 15), (0.0, 0), (3600.0, 216_000)] {
         let before = stage.frames();
-        stage.session.apply(Command::Seek(secs));
-        stage.tick();
+        stage.act(Command::Seek(secs));
         assert_eq!((place(&stage), stage.frames()), ((secs, frame), before + 1));
         let bytes = texels(&mut stage);
         let red = f32::from_le_bytes(bytes[bytes.len() - 16..][..4].try_into().unwrap());
         assert_eq!(red, secs as f32);
     }
     stage.session.apply(Command::Seek(f64::NAN));
-    stage.session.apply(Command::Seek(-3.0));
-    stage.tick();
+    stage.act(Command::Seek(-3.0));
     assert_eq!(place(&stage), (0.0, 0));
     // While it runs, it runs on from there.
     stage.session.apply(Command::Play);
@@ -205,31 +191,24 @@ fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
     steps(&mut stage, 0..60);
     let one_second = texels(&mut stage);
     steps(&mut stage, 60..150);
-    stage.session.apply(Command::Seek(1.004));
-    stage.tick();
+    stage.act(Command::Seek(1.004));
     assert_eq!(place(&stage), (1.0, 60), "the last frame that is not later");
     assert!(texels(&mut stage) == one_second);
-    stage.session.apply(Command::Seek(2.0));
-    stage.tick();
+    stage.act(Command::Seek(2.0));
     assert_eq!((place(&stage), stage.session.reach().ahead), ((2.0, 120), 30));
     // Beyond what was drawn: the same as to go on step by step.
-    stage.session.apply(Command::Seek(3.0));
-    stage.tick();
+    stage.act(Command::Seek(3.0));
     assert_eq!((place(&stage), stage.session.transport().is_seeking), ((3.0, 180), false));
     let sought = texels(&mut stage);
-    stage.session.apply(Command::Seek(2.5));
-    stage.tick();
+    stage.act(Command::Seek(2.5));
     for _ in 0..30 {
-        stage.session.apply(Command::Step);
-        stage.tick();
+        stage.act(Command::Step);
     }
     assert_eq!(place(&stage), (3.0, 180));
     assert!(texels(&mut stage) == sought);
     // On another canvas there is nothing to go back in: it begins at 0.
-    stage.session.apply(Command::SetFixedSize(Some((10, 4))));
-    stage.tick();
-    stage.session.apply(Command::Seek(0.5));
-    stage.tick();
+    stage.act(Command::SetFixedSize(Some((10, 4))));
+    stage.act(Command::Seek(0.5));
     assert_eq!(place(&stage), (0.5, 30));
     assert!(stage.notices(Level::Warning).is_empty(), "{:?}", stage.notices(Level::Warning));
 }
@@ -272,8 +251,7 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     let buffer_a = || Tab::Pass(PassId::Buffer("A".into()));
     let edited = |stage: &mut Stage, text: &str| {
         stage.session.apply(Command::EditText { tab: buffer_a(), text: text.into() });
-        stage.session.apply(Command::CompileNow);
-        stage.until_compiled();
+        stage.compile(Command::CompileNow);
     };
     let mut kept = stage(gpu.clone());
     kept.session.apply(Command::Reset);
@@ -293,12 +271,10 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     assert_eq!(place(&fresh), shown);
     assert!(texels(&mut fresh) == changed);
     // And back, from the middle of the run: what was ahead still is.
-    kept.session.apply(Command::StepBack(40));
-    kept.tick();
+    kept.act(Command::StepBack(40));
     edited(&mut kept, HISTORY);
     assert_eq!((place(&kept).1, kept.session.reach().ahead), (shown.1 - 40, 40));
-    kept.session.apply(Command::Seek(shown.0));
-    kept.tick();
+    kept.act(Command::Seek(shown.0));
     assert!(texels(&mut kept) == original);
     // A new size of the canvas is an input like others.
     let resized = |stage: &mut Stage| {
@@ -331,8 +307,7 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
 pub(super) fn recorded(gpu: &eddy::gpu::Gpu, preset: &str, frames: u32) -> (PathBuf, Vec<u8>, tempfile::TempDir) {
     let mut stage = Stage::bare(gpu.clone());
     stage.session.apply(Command::SetFixedSize(Some((64, 36))));
-    stage.session.apply(Command::Open(preset.into()));
-    stage.until_compiled();
+    stage.compile(Command::Open(preset.into()));
     stage.session.apply(Command::Record);
     let mut now = Instant::now();
     let mut drawn = 0;

@@ -71,8 +71,7 @@ fn common_declares_for_every_pass_and_a_pass_for_itself() {
     let mut p =
         project(vec![pass(buffer("A"), write, Default::default()), image(show, [nearest("A"), None, None, None])]);
     p.common = Some(Source { name: "Common".into(), path: None, text: "#iUniform float shared_one = 0.5".into() });
-    let mut engine = engine(&gpu, &p, (1, 1));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &p, (1, 1), 1);
     assert_walked(&mut engine, &p, &buffer("A"));
     assert_walked(&mut engine, &p, &PassId::Image);
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
@@ -126,16 +125,14 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
     assert_eq!(stage.red(), 102);
     let (frames, compiles) = (stage.frames(), stage.session.compile_state().clone());
-    stage.session.apply(set("red", CustomUniformValue::Float(0.6)));
-    stage.tick();
+    stage.act(set("red", CustomUniformValue::Float(0.6)));
     stage.tick();
     assert_eq!((stage.red(), stage.frames()), (153, frames + 1));
     assert_eq!(stage.session.compile_state(), &compiles, "nothing was compiled");
     assert!(stage.session.is_dirty());
     stage.session.apply(set("red", CustomUniformValue::Float(7.0)));
     stage.session.apply(set("n", CustomUniformValue::Int(0)));
-    stage.session.apply(set("nobody", CustomUniformValue::Int(0)));
-    stage.tick();
+    stage.act(set("nobody", CustomUniformValue::Int(0)));
     assert_eq!(stage.red(), 0);
     stage.session.apply(Command::Save);
     assert!(!stage.session.is_dirty());
@@ -143,17 +140,14 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
         stage.read("eddy.toml"),
         "# mine\neddy = 1\n\n[uniforms] # turned\nred = 1.0 # warm\nn = 0\n\n[passes.image]\n"
     );
-    stage.session.apply(Command::SetCustomUniform { name: "n".into(), value: None });
-    stage.tick();
+    stage.act(Command::SetCustomUniform { name: "n".into(), value: None });
     assert_eq!(stage.red(), 255);
-    stage.session.apply(Command::ResetCustomUniforms);
-    stage.tick();
+    stage.act(Command::ResetCustomUniforms);
     assert_eq!(stage.red(), 51);
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("eddy.toml"), "# mine\neddy = 1\n\n[passes.image]\n");
     stage.session.apply(Command::AssignCustomUniform("red=0.5".into()));
-    stage.session.apply(Command::AssignCustomUniform("rde=0.5".into()));
-    stage.tick();
+    stage.act(Command::AssignCustomUniform("rde=0.5".into()));
     assert_eq!(stage.red(), 128);
     assert_eq!(stage.notices(Level::Error), ["not set: no #iUniform line declares `rde` (did you mean red?)"]);
 }
@@ -172,24 +166,19 @@ fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
     assert_eq!(stage.session.unsaved_parts(), ["uniform n and red"]);
     let title = |stage: &Stage| stage.session.pass_undo().map(|step| step.title.to_owned());
     assert_eq!(title(&stage).as_deref(), Some("change n"));
-    stage.session.apply(Command::UndoPassEdit);
-    stage.tick();
+    stage.act(Command::UndoPassEdit);
     assert_eq!((stage.red(), title(&stage).as_deref()), (204, Some("change red")));
-    stage.session.apply(Command::UndoPassEdit);
-    stage.tick();
+    stage.act(Command::UndoPassEdit);
     assert_eq!((stage.red(), stage.session.is_dirty(), title(&stage)), (51, false, None), "the whole drag is one step");
-    stage.session.apply(Command::RedoPassEdit);
-    stage.tick();
+    stage.act(Command::RedoPassEdit);
     assert_eq!(stage.red(), 204);
     stage.session.apply(Command::ResetCustomUniforms);
-    stage.session.apply(Command::UndoPassEdit);
-    stage.tick();
+    stage.act(Command::UndoPassEdit);
     assert_eq!(stage.red(), 204, "resetting all is a step, too");
     // Steps of passes lie in the same history, and each brings back its own.
     stage.session.apply(Command::AddTab(eddy::project::Tab::Common));
     assert_eq!(stage.session.unsaved_parts(), ["Common", "the list of passes", "uniform red"]);
-    stage.session.apply(Command::UndoPassEdit);
-    stage.tick();
+    stage.act(Command::UndoPassEdit);
     assert_eq!((stage.red(), stage.session.unsaved_parts()), (204, vec!["uniform red".to_owned()]));
 }
 
@@ -199,13 +188,11 @@ fn custom_uniforms_follow_the_text_and_the_disk() {
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER)]);
     stage.session.apply(set("red", CustomUniformValue::Float(0.8)));
     stage.edit(&SLIDER.replace("1.0 }", "0.5 }"));
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert_eq!(stage.session.custom_uniforms()[0].ty, CustomUniformType::Float);
     assert_eq!(stage.red(), 128, "within the new range");
     stage.edit(SLIDER);
-    stage.session.apply(Command::CompileNow);
-    stage.until_compiled();
+    stage.compile(Command::CompileNow);
     assert_eq!(stage.red(), 204, "and back");
     stage.session.apply(Command::Save);
     assert!(stage.read("eddy.toml").contains("[uniforms]\nred = 0.8\n"), "{}", stage.read("eddy.toml"));

@@ -55,8 +55,7 @@ fn reading(input: Option<Input>, expression: &str) -> Project {
 fn check(input: Option<Input>, expression: &str, expected: [f32; 4]) {
     let Some(gpu) = gpu() else { return };
     let project = reading(input.clone(), expression);
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (4, 4), 1);
     assert_eq!(texel(&engine.read(&buffer("B")).unwrap(), 2, 1), expected, "{expression} of {input:?}");
     assert_walked(&mut engine, &project, &buffer("B"));
 }
@@ -104,16 +103,14 @@ fn vertices_read_the_same_of_a_channel_without_a_texture() {
     let mut draw = meshes::draw("builtin:cube");
     draw.cull = eddy::project::Cull::None;
     let project = meshes::whole(meshes::scene(fragment, &[vertex], 1, meshes::straight(), vec![draw]));
-    let mut engine = engine(&gpu, &project, (4, 4));
-    run(&mut engine, 0, 1);
+    let mut engine = ran(&gpu, &project, (4, 4), 1);
     assert_eq!(texel(&engine.read(&buffer("scene")).unwrap(), 2, 2), [0.0, 0.0, 0.0, 0.75]);
     assert_walked(&mut engine, &project, &buffer("scene"));
 }
 
 #[test]
 fn trace_and_render_agree_about_a_picture_that_is_missing() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("w/eddy.toml", "[passes.image]\nchannels.0 = { file = \"gone.png\" }\nchannels.1 = { webcam = true }\n");
     b.image(
         "w/image.glsl",

@@ -6,7 +6,7 @@ use crate::{
 };
 use eddy::{
     debugger::trace::{self, Event, Extent},
-    engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
+    engine::{BuildOptions, Engine, FrameInputs, Sources},
     media,
     project::{self, PassId, Project, presets},
 };
@@ -33,9 +33,7 @@ void mainImage(out vec4 o, in vec2 p) {
 }
 ";
     let project = project(vec![image(code, Default::default())]);
-    let built = Program::build(&gpu, &project, &Default::default(), &Default::default()).unwrap();
-    let mut engine = Engine::new(gpu, 8, 4).unwrap();
-    engine.set_program(built.program).unwrap();
+    let mut engine = engine(&gpu, &project, (8, 4));
     let image = PassId::Image;
     let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &image).unwrap();
     let texts = Sources::new(&project);
@@ -75,8 +73,7 @@ void mainImage(out vec4 o, in vec2 p) {
 
 #[test]
 fn eddy_trace_tells_every_step_and_the_distance_from_the_device() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + vec4(0.25);");
     b.image("p/image.glsl", "vec4 past = texelFetch(iChannel0, ivec2(fragCoord), 0); fragColor = past / 3.0;");
     let run = b.line("trace p --pixel 2,1 --frame 3 --size 4x4 --json").expect(0);
@@ -97,8 +94,7 @@ fn eddy_trace_tells_every_step_and_the_distance_from_the_device() {
 /// Texels of a boundary, and beyond a region, are not what the pass computes.
 #[test]
 fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord, atan(fragCoord.x, fragCoord.y), 1.0);");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
     b.write("p/common.glsl", "float twice(float x) { float y = x + x; return y; }\n");
@@ -151,8 +147,7 @@ fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
 
 #[test]
 fn eddy_probe_draws_the_value_of_an_expression() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p/common.glsl", "");
     b.write("p/common.glsl", "float half_of(float x) { return 0.5 * x; }\n");
     b.write(
@@ -186,8 +181,7 @@ fn eddy_probe_draws_the_value_of_an_expression() {
 /// Drivers make `atan` of a polynomial; the walker's is the nearest number.
 #[test]
 fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let code = |root: &str| {
         format!(
             "float grown(float x) {{\n    float y = x + 0.5;\n    return y;\n}}\n\
@@ -227,8 +221,7 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
 /// Undefined, but the walker is asked what this device draws.
 #[test]
 fn a_float_beyond_the_range_of_an_int_is_what_the_device_makes_of_it() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.image("p.glsl", "vec2 p = fragCoord * 1e20; fragColor = vec4(int(p.x), int(-p.x), uint(p.y), uint(-p.y));");
     let run = b.line("trace p.glsl --pixel 2,1 --size 4x4 --json").expect(0);
     assert_eq!(run.json()[0]["ulps"], serde_json::json!([0, 0, 0, 0]), "{}", run.out);
@@ -237,8 +230,7 @@ fn a_float_beyond_the_range_of_an_int_is_what_the_device_makes_of_it() {
 /// Without a file's name the place of the expression makes one.
 #[test]
 fn eddy_probe_writes_the_format_that_is_asked_for() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     b.write("p/common.glsl", "float half_of(float x) { return 0.5 * x; }\n");
     b.image("p/image.glsl", "fragColor = vec4(half_of(fragCoord.x));");
     let run = b.line("probe p image:2:18 --size 4x2 --pixel 3,1 --format npy").expect(0);
@@ -324,10 +316,7 @@ fn what_a_probe_and_a_traced_pixel_cost() {
             let own = if probe.is_some() { BuildOptions::probed() } else { PassId::Image };
             let wanted = [own].into_iter().chain(buffers.clone()).collect();
             let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
-            let built = Program::build(&gpu, &project, &media, &options).unwrap();
-            let mut engine = Engine::new(gpu.clone(), 640, 360).unwrap();
-            engine.set_program(built.program).unwrap();
-            engine
+            engine_with(&gpu, &project, &media, &options, (640, 360))
         };
         let millis = |engine: &mut Engine, frame| {
             let began = std::time::Instant::now();

@@ -265,8 +265,7 @@ fn tolerance(format: TexelFormat) -> f32 {
 
 #[test]
 fn eddy_trace_names_the_triangle_and_has_the_device_s_value() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     let run = b.line("trace ssao --pass buffer_backs --pixel 80,40 --frame 2 --size 160x90 --json").expect(0);
     let line = &run.json()[0];
     assert_eq!(line["mesh"]["front"], serde_json::json!(false), "{line}");

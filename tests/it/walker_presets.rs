@@ -232,8 +232,7 @@ fn presets_are_walked_to_what_the_device_draws() {
 fn a_preset_that_is_not_what_is_drawn_is_seen() {
     let Some(gpu) = gpu() else { return };
     let project = project::load("presets/feedback").unwrap().project;
-    let mut engine = engine(&gpu, &project, SIZE);
-    run(&mut engine, 0, 4);
+    let mut engine = ran(&gpu, &project, SIZE, 4);
     let index = project.passes.iter().position(|pass| pass.id == PassId::Image).unwrap();
     let mut other = project.clone();
     let text = format!(

@@ -2,7 +2,7 @@
 //!
 //! `scripts/draw-pictures` runs these and encodes what they write into the folder that `EDDY_PICTURES` names.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use image::{Rgb, RgbImage, imageops};
 use std::{
     fmt::Write as _,
@@ -131,8 +131,7 @@ fn code_point(window: &mut Window, line: i64, column: i64) -> (i64, i64) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn film() {
-    let Some(display) = Display::of_size(SCREEN.0, SCREEN.1) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(SCREEN.0, SCREEN.1) else { return };
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[]);
     std::thread::sleep(Duration::from_secs(3));
     let mut film = Film::new(&display, folder().join("film"));
@@ -219,10 +218,7 @@ fn save_column(name: &str, display: &Display, window: &mut Window, rows: u32) {
 }
 
 fn project(home: &Path, files: &[(&str, &str)]) -> PathBuf {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
-    folder
+    folder_of(home.join("project"), files)
 }
 
 /// A sphere on a floor, by ray marching.
@@ -259,11 +255,9 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn editor() {
-    let Some(display) = Display::of_size(1100, 480) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 480) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x480"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x480", folder.to_str().unwrap());
     replace(&mut window, "length", "lenght");
     window.keys(&["Escape"]);
     window.wait_until("the mistake", "compiled", |e| e["ok"] == false && e["compiling"] == false);
@@ -284,11 +278,9 @@ fn replace(window: &mut Window, text: &str, by: &str) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn trace() {
-    let Some(display) = Display::of_size(1100, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 900) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x900"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+d"]);
     window.shows("trace:pick");
     let pixel = window.picture_point(0.45, 0.6);
@@ -305,10 +297,8 @@ fn trace() {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn buffers() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
-    window.compiled();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
+    let mut window = Window::of_size(&display, home.path(), "1280x800", "fluid");
     paint(&mut window);
     window.keys(&["ctrl+shift+t"]);
     window.shows("buffers:canvas");
@@ -338,14 +328,12 @@ fn paint(window: &mut Window) {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn measurements() {
-    let Some(display) = Display::of_size(1100, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1100, 900) else { return };
     let manifest = "[passes.buffer_a]\nsize = [256, 144]\nchannels.0 = { buffer = \"A\", filter = \"nearest\" }\n\
                     [passes.image]\nchannels.0 = { buffer = \"A\" }\n";
     let files = [("eddy.toml", manifest), ("buffer_a.glsl", WAVES), ("image.glsl", SHOWN_WAVES)];
     let folder = project(home.path(), &files);
-    let mut window = Window::open_as(&display, home.path(), Some("1100x900"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+j"]);
     window.shows("panel:measurements");
     std::thread::sleep(Duration::from_secs(30));
@@ -380,11 +368,9 @@ const SHOWN_WAVES: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn compare() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1280x800", folder.to_str().unwrap());
     // With fewer steps, rays that pass near the ball end before the floor.
     replace(&mut window, "90", "14");
     window.compiled();
@@ -399,10 +385,8 @@ fn compare() {
 #[test]
 #[ignore = "writes pictures; scripts/draw-pictures runs it"]
 fn lab() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &["fluid"]);
-    window.compiled();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
+    let mut window = Window::of_size(&display, home.path(), "1280x800", "fluid");
     window.keys(&["ctrl+shift+y"]);
     window.click_on("lab:study");
     window.click_on("lab:study:blur");

@@ -1,6 +1,6 @@
 //! End to end: the real window on a display of its own, moved by real mouse and key events, judged by what it saved.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -88,18 +88,14 @@ fn turns(window: &mut Window, expected: [u8; 3]) {
 }
 
 fn one_pass_project(home: &Path, code: &str) -> PathBuf {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), code).unwrap();
-    folder
+    folder_of(home.join("project"), &[("image.glsl", code)])
 }
 
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }";
 
 #[test]
 fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["fluid"]);
     compiled(&mut window, true);
     // A band around the path of the drag, away from its ends.
@@ -127,8 +123,7 @@ fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() 
 
 #[test]
 fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = one_pass_project(home.path(), GREEN);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window, true);
@@ -170,8 +165,7 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
 
 #[test]
 fn a_file_changed_by_another_program_is_reloaded() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = one_pass_project(home.path(), GREEN);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window, true);
@@ -185,14 +179,12 @@ fn a_file_changed_by_another_program_is_reloaded() {
 
 #[test]
 fn the_screenshot_is_what_render_draws_byte_for_byte() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["feedback"]);
     compiled(&mut window, true);
     // A reset that is asked for before there is a picture leaves frame 0 to the step after it.
     window.wait_until("frames", "frame", |e| e["frame"].as_u64() > Some(2));
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.keys(&["alt+Down"]);
     window.wait_until("frame 0", "frame", |e| e["playing"] == false && e["frame"] == 0);
     for frame in 1..=3 {
@@ -225,8 +217,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
         window.keys(&["ctrl+shift+r"]);
         window.shows("button:recording");
         window.draw_strokes_until(frames);
-        window.keys(&["alt+Up"]);
-        window.wait_until("the pause", "frame", |e| e["playing"] == false);
+        window.pause();
         let shot = image::open(saved(&mut window, "F12")).unwrap().to_rgba8();
         let replay = saved(&mut window, "ctrl+shift+r");
         assert_eq!(replay.extension().and_then(|e| e.to_str()), Some("replay"));
@@ -240,8 +231,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
 
 #[test]
 fn dragging_in_brick_breaker_moves_the_paddle() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["brick-breaker"]);
     compiled(&mut window, true);
     let mut paddle_at = |u: f64| {
@@ -264,8 +254,7 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
 
 #[test]
 fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 \
                 at\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red, tint.g, on ? 1.0 : 0.0, 1.0); }";
@@ -273,8 +262,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     let folder = folder.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[folder, "--set", "tint=0,1,0"]);
     compiled(&mut window, true);
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     // Held until it shows: a press and a release between two frames drag nothing.
     let slider = window.centre("uniform:red");
     window.move_to(slider);
@@ -298,8 +286,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
 /// The gallery draws its thumbnails on a thread of its own: the device is at work when the surface takes its new size.
 #[test]
 fn a_hundred_sizes_in_a_row_are_followed_without_a_complaint() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     for i in 0..100 {
         window.resize(360 + (i * 97) % 600, 240 + (i * 61) % 440);

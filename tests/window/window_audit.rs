@@ -1,6 +1,6 @@
 //! End to end: how wrong the picture is, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::fs;
 
 /// To the right of the middle almost equal numbers are subtracted; the left half is exact.
@@ -17,10 +17,8 @@ fn the_map_of_errors_lies_over_the_picture_and_its_worst_pixel_is_traced() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     for theme in ["dark", "light"] {
         let home = tempfile::tempdir().unwrap();
-        let settings = home.path().join(".config/eddy");
-        fs::create_dir_all(&settings).unwrap();
-        fs::write(settings.join("settings.toml"), format!("theme = \"{theme}\"\n")).unwrap();
         let file = home.path().join("cancels.glsl");
+        folder_of(home.path().join(".config/eddy"), &[("settings.toml", &format!("theme = \"{theme}\"\n"))]);
         fs::write(&file, CODE).unwrap();
         let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
         window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);

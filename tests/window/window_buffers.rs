@@ -1,6 +1,6 @@
 //! End to end: buffers down to their texels, the first NaN, and the render graph, by real keys, wheel and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::{Value, json};
 use std::{
     fs,
@@ -50,11 +50,9 @@ fn project(home: &Path) -> PathBuf {
 /// Opens it, lets some frames be drawn, and pauses.
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     let folder = project(home);
-    let mut window = Window::open_as(display, home, Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(display, home, "1280x800", folder.to_str().unwrap());
     window.wait_until("some frames", "frame", |e| e["frame"].as_i64() >= Some(8));
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window
 }
 
@@ -86,8 +84,7 @@ fn wheel_to_numbers(window: &mut Window, what: &str) -> Value {
 
 #[test]
 fn a_texel_shows_its_numbers_and_a_nan_its_cause() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+t"]);
     let begun = seen(&mut window, "the panel", |e| e["figures"]["nonfinite"] == 1);
@@ -141,11 +138,8 @@ fn a_texel_shows_its_numbers_and_a_nan_its_cause() {
 
 #[test]
 fn the_graph_says_what_is_read_and_why_a_pass_is_not_drawn() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
-    let settings = home.path().join(".config/eddy");
-    fs::create_dir_all(&settings).unwrap();
-    fs::write(settings.join("settings.toml"), "theme = \"light\"\n").unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
+    folder_of(home.path().join(".config/eddy"), &[("settings.toml", "theme = \"light\"\n")]);
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+t"]);
     seen(&mut window, "the panel", |e| e["figures"]["nonfinite"] == 1);

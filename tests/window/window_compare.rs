@@ -1,8 +1,7 @@
 //! End to end: an edit held against the last save and against another project, by real keys, clicks and a drag.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::{Value, json};
-use std::fs;
 
 fn seen(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
     window.wait_until(what, "compare", fits)
@@ -14,15 +13,11 @@ fn near(value: &Value, expected: f64) -> bool {
 
 #[test]
 fn an_edit_is_held_against_its_last_save_and_another_project() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let text = "void mainImage(out vec4 o, in vec2 p) {\n    float red = 0.25;\n    \
                 o = vec4(red, p / iResolution.xy, 1.0);\n}\n";
-    fs::write(folder.join("image.glsl"), text).unwrap();
-    let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", text)]);
+    let mut window = Window::of_size(&display, home.path(), "1280x800", folder.to_str().unwrap());
     window.click_on("editor");
     window.keys(&["ctrl+shift+o"]);
     window.shows("compare:begin");
@@ -71,14 +66,10 @@ fn an_edit_is_held_against_its_last_save_and_another_project() {
     window.click_on("compare:project");
     window.shows("compare:name");
     window.click_on("compare:name");
-    window.type_text("no-such-preset");
-    window.keys(&["Return"]);
+    window.submit("no-such-preset");
     let wrong = seen(&mut window, "the mistake", |e| e["state"] == "failed");
     assert!(wrong["why"].as_str().unwrap().contains("no-such-preset"), "{wrong}");
-    window.click_on("compare:name");
-    window.keys(&["ctrl+a"]);
-    window.type_text("gallery-of-tricks");
-    window.keys(&["Return"]);
+    window.fill("compare:name", "gallery-of-tricks");
     let other =
         seen(&mut window, "the preset", |e| e["state"] == "ended" && e["figures"]["against"] == "gallery-of-tricks");
     assert!(other["figures"]["flip"].as_f64() > Some(0.0), "{other}");

@@ -7,12 +7,11 @@ use crate::{
     random::number,
     support::{
         keyboard::Keyboard,
-        window::{Display, Window},
+        window::{Display, Window, folder_of},
     },
 };
 use std::{
     fmt::Write as _,
-    fs,
     path::Path,
     time::{Duration, Instant},
 };
@@ -21,9 +20,7 @@ const SPAN: Duration = Duration::from_secs(30);
 const TYPED: &str = "a typed letter costs so much, and one more the same";
 
 fn open<'a>(display: &'a Display, home: &Path, code: &str) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), code).unwrap();
+    let folder = folder_of(home.join("project"), &[("image.glsl", code)]);
     let mut window = Window::open_project(display, home, &folder);
     // The caret of code that has the keyboard blinks; the picture has it.
     let corner = window.picture_point(0.05, 0.05);

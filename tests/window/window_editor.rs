@@ -1,6 +1,6 @@
 //! End to end: help while writing, in the real window, by real key events, judged by the files it saves.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
 
 const COMMON: &str =
@@ -9,10 +9,7 @@ const IMAGE: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)\n{\n 
                      iResolution.xy;\n    fragColor = vec4(brightness(uv, 0.1));\n    \n}\n";
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("common.glsl"), COMMON).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.join("project"), &[("common.glsl", COMMON), ("image.glsl", IMAGE)]);
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("editor");
@@ -29,15 +26,13 @@ fn go_to(window: &mut Window, line: usize, column: usize) {
 /// Saves, and gives a file's text.
 pub fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     fs::read_to_string(home.join("project").join(file)).unwrap()
 }
 
 #[test]
 fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     // In the middle of the third line: lines come below and above it, and it stays whole.
     go_to(&mut window, 3, 8);
@@ -66,8 +61,7 @@ fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
 
 #[test]
 fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 5, 5);
     window.type_text("vec3 n = norm");
@@ -91,8 +85,7 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
     window.type_text("y, 1.0)));");
     window.hides("completions");
     window.keys(&["Return"]);
-    window.type_text("float speed = uv.x");
-    window.keys(&["Return"]);
+    window.submit("float speed = uv.x");
     window.type_text("+ spee");
     window.keys(&["Escape"]);
     window.hides("completions");
@@ -104,8 +97,7 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
 
 #[test]
 fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 4, 25);
     // The list has the declaration in Common and the use here.
@@ -126,8 +118,7 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
 
 #[test]
 fn a_pointer_at_rest_is_told_what_it_is_on() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     let layout = window.newest("layout").unwrap();
     let left = layout["rects"]["editor"][0].as_f64().unwrap();
@@ -143,22 +134,19 @@ fn a_pointer_at_rest_is_told_what_it_is_on() {
 /// The strip under the editor offers each target of a pass that draws meshes.
 #[test]
 fn a_channel_is_given_a_further_target_by_the_mouse() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir_all(&folder).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let toml = "[passes.buffer_scene]\ntargets = [\"rgba8\", \"rgba16f\"]\n\
                 draw = [{ mesh = \"builtin:cube\", vertex = \"cube.vert.glsl\" }]\n\n\
                 [passes.image]\nchannels.0 = { buffer = \"scene\" }\n";
-    fs::write(folder.join("eddy.toml"), toml).unwrap();
     let vertex =
         "in vec3 aPosition; void main() { gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0); }\n";
-    fs::write(folder.join("cube.vert.glsl"), vertex).unwrap();
     let fragment = "layout(location = 0) out vec4 a; layout(location = 1) out vec4 b;\n\
                     void main() { a = vec4(1, 0, 0, 1); b = vec4(0, 1, 0, 1); }\n";
-    fs::write(folder.join("buffer_scene.glsl"), fragment).unwrap();
     let image = "void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
-    fs::write(folder.join("image.glsl"), image).unwrap();
+    let folder = folder_of(
+        home.path().join("project"),
+        &[("eddy.toml", toml), ("cube.vert.glsl", vertex), ("buffer_scene.glsl", fragment), ("image.glsl", image)],
+    );
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("channel:0");

@@ -7,7 +7,7 @@ use crate::{
     random::{Random, number},
     support::{
         keyboard::Keyboard,
-        window::{Display, Window},
+        window::{Display, Window, folder_of},
     },
 };
 use serde_json::Value;
@@ -39,16 +39,13 @@ fn pid(window: &Window) -> u64 {
 }
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
     let image = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
                  void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n\
                  \x20   o = vec4(red * uv, 0.5 + 0.5 * sin(iTime), 1.0) * texture(iChannel0, uv).x;\n}\n";
     let buffer = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
-    fs::write(folder.join("image.glsl"), image).unwrap();
-    fs::write(folder.join("buffer_a.glsl"), buffer).unwrap();
     let manifest = "eddy = 1\nname = \"Endurance\"\n[passes.buffer_a]\n[passes.image.channels.0]\nbuffer = \"A\"\n";
-    fs::write(folder.join("eddy.toml"), manifest).unwrap();
+    let folder =
+        folder_of(home.join("project"), &[("image.glsl", image), ("buffer_a.glsl", buffer), ("eddy.toml", manifest)]);
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window
@@ -56,8 +53,7 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 
 #[test]
 fn a_paused_window_draws_nothing_and_takes_no_time() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
@@ -227,8 +223,7 @@ fn kept(home: &Path) -> Vec<Value> {
 
 #[test]
 fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let (secs, seed) = (number("EDDY_ENDURANCE_SECS", 20), number("EDDY_SEED", 7));
     let mut window = open(&display, home.path());
     let mut random = Random(seed);
@@ -272,9 +267,7 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
         if !is_there {
             // What was pasted beside the code, or a preset, took the project's place, and lies nowhere yet.
             window.shows("field:path");
-            window.keys(&["ctrl+a"]);
-            window.type_text(folder.to_str().unwrap());
-            window.keys(&["Return"]);
+            window.enter(folder.to_str().unwrap());
         }
         window.wait_until("the save", "dirty", |e| e["dirty"] == false);
         let saved = fs::read_to_string(folder.join("image.glsl")).unwrap();
@@ -288,8 +281,7 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
 #[test]
 #[ignore = "prints times; they mean something on a quiet machine only"]
 fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
     // `EDDY_SHADER=FILE` takes another text, whose fourth line ends in a number like that of this one.

@@ -24,8 +24,7 @@ fn open<'a>(display: &'a Display, home: &Path, files: &[(&str, &str)]) -> Window
 
 #[test]
 fn a_key_with_alt_acts_and_types_nothing() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path(), &[("image.glsl", IMAGE)]);
     for key in ["alt+period", "alt+comma", "alt+bracketleft", "alt+bracketright"] {
         window.keys(&[key]);
@@ -50,8 +49,7 @@ fn a_key_with_alt_acts_and_types_nothing() {
 /// On a German keyboard the brackets are typed with AltGr.
 #[test]
 fn alt_gr_types() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     if !display.layout("de") {
         return;
     }
@@ -71,8 +69,7 @@ fn alt_gr_types() {
 
 #[test]
 fn the_find_bar_keeps_the_keyboard_when_its_buttons_are_clicked() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path(), &[("image.glsl", IMAGE)]);
     window.keys(&["ctrl+h"]);
     window.shows("field:replace");
@@ -101,8 +98,7 @@ const TONE: &str = "float tone()\n{\n    return 0.5;\n}\n";
 
 #[test]
 fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let files = [("image.glsl", USES), ("buffer_a.glsl", USES), ("lib/tone.glsl", TONE)];
     let mut window = open(&display, home.path(), &files);
     window.hides("tab:lib/tone.glsl");
@@ -110,8 +106,7 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     window.keys(&["F12"]);
     window.shows("tab:lib/tone.glsl");
     display.shot("included.png");
-    window.type_text("// by hand");
-    window.keys(&["Return"]);
+    window.submit("// by hand");
     window.wait_until("its tab unsaved", "dirty", |e| {
         e["tabs"].as_array().is_some_and(|t| t.iter().any(|t| t == "lib/tone.glsl"))
     });

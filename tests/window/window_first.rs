@@ -11,8 +11,7 @@ use std::time::Instant;
 #[test]
 #[ignore = "prints a time; it means something on a quiet machine only"]
 fn first_start() {
-    let Some(display) = Display::of_size(1280, 800) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
     let began = Instant::now();
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[]);
     let started = began.elapsed();

@@ -1,6 +1,6 @@
 //! End to end: the keyboard alone, from the start to a saved picture. By real key events, judged by files.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
 
 fn focus(window: &mut Window, widget: &str) {
@@ -35,8 +35,7 @@ fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
 
 #[test]
 fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     // A preset of the gallery.
     go_to(&mut window, "Tab", "preset:feedback");
@@ -56,8 +55,7 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     focus(&mut window, "field:path");
     window.keys(&["ctrl+a"]);
     let folder = home.path().join("mine");
-    window.type_text(folder.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.submit(folder.to_str().unwrap());
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     let text = fs::read_to_string(folder.join("image.glsl")).unwrap();
     assert!(text.starts_with("// by keys "), "{text}");
@@ -79,13 +77,10 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
 
 #[test]
 fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let text = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }\n";
-    fs::write(folder.join("image.glsl"), text).unwrap();
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", text)]);
     let mut window = Window::open_project(&display, home.path(), &folder);
     go_to(&mut window, "F6", "code");
     // The help: searched, scrolled, closed.

@@ -1,16 +1,14 @@
 //! End to end: the command palette, finding and replacing, several carets and moved lines, by real key events, judged
 //! by the file that is saved.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
 
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n    float f = \
                      uv.x;\n    o = vec4(uv, f, 1.0);\n}\n";
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
-    let folder = home.join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let folder = folder_of(home.join("project"), &[("image.glsl", IMAGE)]);
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("editor");
@@ -20,19 +18,15 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 
 fn saved(window: &mut Window, home: &Path) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     fs::read_to_string(home.join("project/image.glsl")).unwrap()
 }
 
 #[test]
 fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
-    window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
-    window.type_text("cost");
+    window.search_palette("cost");
     window.shows("palette:costs");
     window.hides("palette:save");
     display.shot("palette.png");
@@ -41,9 +35,7 @@ fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
     window.wait_until("the table of costs", "layout", |e| e["rects"]["costs:sum"].is_array());
     // What had the keyboard has it again, and the code's own actions are in the list too.
     window.type_text("// ");
-    window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
-    window.type_text("copy down");
+    window.search_palette("copy down");
     window.shows("palette:copy-lines-down");
     window.keys(&["Return"]);
     window.hides("palette");
@@ -59,8 +51,7 @@ fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
 
 #[test]
 fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+h"]);
     window.shows("field:replace");
@@ -74,16 +65,7 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
     window.hides("field:find");
     // The word, its next occurrence, and the one after that.
     window.keys(&["ctrl+Home", "Down", "Down", "End"]);
-    window.keys(&[
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-        "ctrl+Left",
-    ]);
+    window.keys(&["ctrl+Left"; 8]);
     window.keys(&["ctrl+d", "ctrl+d", "ctrl+d"]);
     window.type_text("st");
     display.shot("carets.png");
@@ -95,8 +77,7 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
 
 #[test]
 fn lines_move_copy_and_go_and_f3_finds_on() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "Down", "alt+Down", "shift+alt+Down", "alt+Up", "alt+Up", "ctrl+shift+k"]);
     // The line moved below the next one, was copied there, and the copy went up two lines and away.
@@ -118,8 +99,7 @@ fn lines_move_copy_and_go_and_f3_finds_on() {
 
 #[test]
 fn a_folded_block_is_gone_past_and_long_lines_wrap() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "ctrl+shift+bracketleft", "Down"]);
     display.shot("folded.png");
@@ -137,11 +117,8 @@ fn a_folded_block_is_gone_past_and_long_lines_wrap() {
 
 #[test]
 fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join(".config/eddy");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("keybindings.toml"), "palette = \"F9\"\npalete = \"F10\"\n").unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    folder_of(home.path().join(".config/eddy"), &[("keybindings.toml", "palette = \"F9\"\npalete = \"F10\"\n")]);
     let mut window = open(&display, home.path());
     let is_told = |e: &serde_json::Value| e["event"] == "notice" && e["level"] == "error";
     let told = window.events.iter().find(|e| is_told(e)).cloned();

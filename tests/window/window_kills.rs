@@ -5,7 +5,7 @@
 
 use crate::{
     random::{Random, number},
-    support::window::{Display, Window},
+    support::window::{Display, Window, folder_of},
 };
 use std::{
     collections::BTreeSet,
@@ -94,9 +94,7 @@ fn whole(folder: &Path, expected: &Expected, is_new: bool) {
 /// Types a path into the field for it.
 fn type_path(window: &mut Window, path: &Path) {
     window.shows("field:path");
-    window.keys(&["ctrl+a"]);
-    window.type_text(path.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(path.to_str().unwrap());
 }
 
 /// Opens the project with what was left behind, if anything was. Returns whether it was.
@@ -118,10 +116,7 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> (Window<'a>, bo
 fn rename(window: &mut Window, from: &str, to: &str) {
     window.keys(&["ctrl+shift+b"]);
     window.click_on(&format!("passes:row:{}", title(from)));
-    window.click_on("passes:name");
-    window.keys(&["ctrl+a"]);
-    window.type_text(to);
-    window.keys(&["Return"]);
+    window.fill("passes:name", to);
     window.shows(&format!("tab:{}", title(to)));
     window.keys(&["ctrl+shift+b"]);
     window.hides("passes:name");
@@ -145,10 +140,8 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
     let (kills, seed) = (number("EDDY_KILLS", 4), number("EDDY_SEED", 1));
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    let folder = home.join("project");
-    fs::create_dir(&folder).unwrap();
     let files = [("image.glsl", IMAGE), ("buffer_a.glsl", BUFFER), ("eddy.toml", MANIFEST), ("notes.txt", NOTES)];
-    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
+    let folder = folder_of(home.join("project"), &files);
     let mut expected = Expected {
         image: IMAGE.into(),
         saved: [IMAGE.into()].into(),
@@ -167,8 +160,7 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
         window.click_on("tab:Image");
         window.click_on("editor");
         if is_left {
-            window.keys(&["ctrl+s"]);
-            window.wait_until("the save of what was recovered", "dirty", |e| e["dirty"] == false);
+            window.save();
         }
         let opened = window.newest("opened").unwrap();
         expected.folder = PathBuf::from(opened["origin"]["folder"].as_str().unwrap());
@@ -232,7 +224,6 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
     println!("{kills} kills: {recovered} texts recovered, {saved_at_once} saved before the kill");
     let (mut window, is_left) = open(&display, home, &expected.folder);
     if is_left {
-        window.keys(&["ctrl+s"]);
-        window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+        window.save();
     }
 }

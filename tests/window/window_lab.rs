@@ -1,6 +1,6 @@
 //! End to end: the lab's panel and the table of costs in the real window, by real mouse and key events.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::fs;
 
@@ -12,17 +12,16 @@ fn points(layout: &Value) -> Vec<String> {
 
 #[test]
 fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n").unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    let folder = folder_of(
+        home.path().join("project"),
+        &[("image.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n")],
+    );
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
     window.wait_until("the new size", "layout", |e| e["window"] == serde_json::json!([1000, 700]));
     // One processor draws both.
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
 
     window.keys(&["ctrl+shift+y"]);
     window.click_on("lab:study");
@@ -65,8 +64,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
 
 #[test]
 fn the_table_of_costs_names_every_pass_and_closes_again() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir_all(&folder).unwrap();
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();

@@ -1,6 +1,6 @@
 //! End to end: where panels are, the themes, presenting, and what is kept from one start to the next.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -10,8 +10,6 @@ use std::{
 
 /// Two passes, three channels in use, two uniforms.
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("waves");
-    fs::create_dir_all(&folder).unwrap();
     let buffer = "void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n    \
                   o = vec4(fract(uv * 4.0), 0.5 + 0.5 * sin(iTime), 1.0);\n}\n";
     let image = "#iUniform float speed = 1.0 in { 0.0, 4.0 }\n#iUniform color3 tint = color3(1.0, 0.8, 0.6)\n\n\
@@ -20,12 +18,9 @@ fn project(home: &Path) -> PathBuf {
                  void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n    \
                  vec3 grid = texture(iChannel0, uv).rgb;\n    vec3 stone = texture(iChannel1, uv * 2.0).rgb;\n    \
                  float w = wave(uv, iTime);\n    o = vec4(mix(grid, stone, w) * tint, 1.0);\n}\n";
-    fs::write(folder.join("buffer_a.glsl"), buffer).unwrap();
-    fs::write(folder.join("image.glsl"), image).unwrap();
     let manifest = "name = \"Waves\"\n\n[passes.buffer_a]\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n\
                     channels.1 = { texture = \"pebbles\" }\n";
-    fs::write(folder.join("eddy.toml"), manifest).unwrap();
-    folder
+    folder_of(home.join("waves"), &[("buffer_a.glsl", buffer), ("image.glsl", image), ("eddy.toml", manifest)])
 }
 
 fn rect(event: &Value) -> [f64; 4] {
@@ -78,8 +73,7 @@ fn every_size_has_room_for_the_picture_and_the_code() {
 
 #[test]
 fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["F9"]);
@@ -115,8 +109,7 @@ fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
 
 #[test]
 fn the_window_comes_back_as_it_was_closed() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
     let size = |e: &Value| e["window"].as_array().map(|s| (s[0].as_u64().unwrap(), s[1].as_u64().unwrap()));
@@ -173,12 +166,9 @@ fn f64_max(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 
 #[test]
 fn what_is_wrong_in_the_settings_is_said_with_its_line() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let settings = home.path().join(".config/eddy");
-    fs::create_dir_all(&settings).unwrap();
-    fs::write(settings.join("settings.toml"), "code-size = 16\nthem = \"light\"\n").unwrap();
+    folder_of(home.path().join(".config/eddy"), &[("settings.toml", "code-size = 16\nthem = \"light\"\n")]);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     let is_told = |e: &Value| e["event"] == "notice" && e["level"] == "error";
     let told = window.events.iter().find(|e| is_told(e)).cloned();
@@ -190,8 +180,7 @@ fn what_is_wrong_in_the_settings_is_said_with_its_line() {
 /// A hand moves the line between picture and code, and a panel by its title; the next start has them there.
 #[test]
 fn panels_are_dragged_and_stay() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
     let mut moved = [0.0; 4];
@@ -238,8 +227,7 @@ fn panels_are_dragged_and_stay() {
 /// Paused and left alone, a window draws nothing and takes no processor.
 #[test]
 fn a_window_at_rest_takes_no_time() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     let corner = window.picture_point(0.5, 0.5);
@@ -261,14 +249,10 @@ fn a_window_at_rest_takes_no_time() {
 /// A channel that a buffer feeds shows that buffer as it is drawn, and as it is while paused.
 #[test]
 fn a_channel_shows_its_buffer_live() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("live");
-    fs::create_dir_all(&folder).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let green = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
-    fs::write(folder.join("buffer_a.glsl"), green).unwrap();
     let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0).bgra; }\n";
-    fs::write(folder.join("image.glsl"), image).unwrap();
+    let folder = folder_of(home.path().join("live"), &[("buffer_a.glsl", green), ("image.glsl", image)]);
     fs::write(folder.join("eddy.toml"), "[passes.buffer_a]\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n")
         .unwrap();
     let mut window = Window::open_project(&display, home.path(), &folder);
@@ -333,8 +317,7 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
 /// The code of Image is in front at the start, however many tabs come before its own.
 #[test]
 fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("twenty");
     fs::create_dir_all(&folder).unwrap();
     let mut manifest = String::new();

@@ -1,6 +1,6 @@
 //! End to end: numbers of passes over time, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::{Value, json};
 use std::{
     fs,
@@ -43,8 +43,7 @@ fn project(home: &Path) -> PathBuf {
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     let folder = project(home);
-    let mut window = Window::open_as(display, home, Some("1280x1000"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(display, home, "1280x1000", folder.to_str().unwrap());
     window.wait_until("some frames", "frame", |e| e["frame"].as_i64() >= Some(3));
     window
 }
@@ -60,8 +59,7 @@ fn pause(window: &mut Window) -> i64 {
 
 #[test]
 fn comments_have_their_numbers_over_time() {
-    let Some(display) = Display::of_size(1280, 1000) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+j"]);
     window.shows("panel:measurements");
@@ -110,11 +108,8 @@ fn comments_have_their_numbers_over_time() {
 
 #[test]
 fn a_closed_panel_measures_nothing_and_leaves_a_gap() {
-    let Some(display) = Display::of_size(1280, 1000) else { return };
-    let home = tempfile::tempdir().unwrap();
-    let settings = home.path().join(".config/eddy");
-    fs::create_dir_all(&settings).unwrap();
-    fs::write(settings.join("settings.toml"), "theme = \"light\"\n").unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
+    folder_of(home.path().join(".config/eddy"), &[("settings.toml", "theme = \"light\"\n")]);
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+j"]);
     window.shows("panel:measurements");

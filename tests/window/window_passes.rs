@@ -1,6 +1,6 @@
 //! End to end: the window of passes and what comes in from outside, by real keys and clicks, judged by what is on disk.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -20,13 +20,8 @@ channels.1 = { buffer = \"B\" }
 ";
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("waves");
-    fs::create_dir(&folder).unwrap();
     let files = [("eddy.toml", MANIFEST), ("buffer_a.glsl", BUFFER), ("buffer_b.glsl", BUFFER), ("image.glsl", IMAGE)];
-    for (name, text) in files {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("waves"), &files)
 }
 
 /// Opens a popup by its button and clicks on one of its items.
@@ -45,17 +40,13 @@ fn drawn_before(window: &mut Window, first: &str, second: &str) {
 
 #[test]
 fn passes_are_renamed_moved_set_removed_and_brought_back() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
-    window.click_on("passes:name");
-    window.keys(&["ctrl+a"]);
-    window.type_text("Glow");
-    window.keys(&["Return"]);
+    window.fill("passes:name", "Glow");
     window.shows("passes:row:Buffer glow");
     window.shows("tab:Buffer glow");
     display.shot("passes.png");
@@ -78,8 +69,7 @@ fn passes_are_renamed_moved_set_removed_and_brought_back() {
     window.shows("tab:Buffer B");
     display.shot("passes-back.png");
     window.click_on("passes:row:Image");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
     let at = |what: &str| text.find(what).unwrap_or_else(|| panic!("no {what} in\n{text}"));
     assert!(at("[passes.buffer_b]") < at("[passes.buffer_glow]"), "moved:\n{text}");
@@ -96,32 +86,23 @@ fn passes_are_renamed_moved_set_removed_and_brought_back() {
 
 #[test]
 fn what_a_pass_begins_with_and_its_edges_are_typed() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
     choose(&mut window, "passes:initial", "passes:initial:an expression");
-    window.click_on("passes:initial:text");
-    window.keys(&["ctrl+a"]);
-    window.type_text("vec4(0.5, wrong)");
-    window.keys(&["Return"]);
+    window.fill("passes:initial:text", "vec4(0.5, wrong)");
     window.wait_until("the mistake", "compiled", |e| {
         e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("wrong"))
     });
-    window.click_on("passes:initial:text");
-    window.keys(&["ctrl+a"]);
-    window.type_text("vec4(0.5)");
-    window.keys(&["Return"]);
+    window.fill("passes:initial:text", "vec4(0.5)");
     window.compiled();
     choose(&mut window, "passes:boundary", "passes:boundary:an expression");
     window.shows("passes:boundary:width");
     display.shot("passes-fills.png");
     window.compiled();
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
     for line in ["initial = \"vec4(0.5)\"", "boundary = { width = 1, value = \"vec4(0.0)\" }"] {
         assert!(text.contains(line), "no {line} in\n{text}");
@@ -130,19 +111,14 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
 
 #[test]
 fn region_steps_filter_and_wrap_are_set_by_hand() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
     // A number that is clicked can be typed.
     let number = |window: &mut Window, name: &str, value: &str| {
-        window.click_on(name);
-        window.keys(&["ctrl+a"]);
-        window.type_text(value);
-        window.keys(&["Return"]);
+        window.fill(name, value);
         window.drain();
     };
     window.click_on("passes:region");
@@ -156,8 +132,7 @@ fn region_steps_filter_and_wrap_are_set_by_hand() {
     choose(&mut window, "passes:wrap", "passes:wrap:repeat");
     display.shot("passes-numbers.png");
     window.compiled();
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
     for part in ["region = [2, 0, 64, 32]", "steps = 3", "filter = \"nearest\"", "wrap = \"repeat\""] {
         assert!(text.contains(part), "no {part} in\n{text}");
@@ -167,11 +142,9 @@ fn region_steps_filter_and_wrap_are_set_by_hand() {
 /// Another program takes a pass out of `eddy.toml`: what read it is drawn without it, and says so.
 #[test]
 fn a_pass_that_vanishes_leaves_an_empty_card_a_warning_and_a_redrawn_picture() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
-    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    window.compiled();
+    let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     window.shows("channel:1");
@@ -208,8 +181,7 @@ fn a_pass_that_vanishes_leaves_an_empty_card_a_warning_and_a_redrawn_picture() {
 
 #[test]
 fn a_pass_of_any_name_is_added_and_typed_into() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.click_on("button:add-tab");
@@ -218,8 +190,7 @@ fn a_pass_of_any_name_is_added_and_typed_into() {
     display.shot("add-pass.png");
     window.keys(&["Return"]);
     window.shows("tab:Buffer velocity");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert!(folder.join("buffer_velocity.glsl").exists());
     assert!(fs::read_to_string(folder.join("eddy.toml")).unwrap().contains("[passes.buffer_velocity]"));
 }
@@ -261,8 +232,7 @@ fn what_is_on_the_clipboard_is_opened_from_the_gallery() {
 
 #[test]
 fn the_gallery_finds_opens_and_remembers() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);

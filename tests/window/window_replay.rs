@@ -1,7 +1,7 @@
 //! End to end: a recording is played in the window, a project is exported from its menu, and the page with the
 //! bookmarklet is written, by real clicks and keys.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -19,12 +19,7 @@ const MANIFEST: &str =
     "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("sum");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("sum"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)])
 }
 
 fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
@@ -36,9 +31,7 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
 
 fn type_path(window: &mut Window, path: &Path) {
     window.shows("field:path");
-    window.keys(&["ctrl+a"]);
-    window.type_text(path.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(path.to_str().unwrap());
 }
 
 /// Waits for a notice from now on, and returns its text and its path.
@@ -64,8 +57,7 @@ fn render(home: &Path, arguments: &[&str]) -> image::RgbaImage {
 
 #[test]
 fn a_recording_is_played_in_the_window_and_ends_at_the_rendered_picture() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     from_menu(&mut window, "button:export", "export:record-input");
@@ -94,9 +86,7 @@ fn a_recording_is_played_in_the_window_and_ends_at_the_rendered_picture() {
     let rendered = render(home.path(), &[folder.to_str().unwrap(), "--replay", replay.to_str().unwrap()]);
     assert!(shot == rendered, "the pictures differ");
     // Once more, stopped on the way: the picture goes on live.
-    window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
-    window.type_text("play rec");
+    window.search_palette("play rec");
     window.shows("palette:play-recording");
     window.hides("palette:save");
     window.keys(&["Return"]);
@@ -118,8 +108,7 @@ fn a_recording_is_played_in_the_window_and_ends_at_the_rendered_picture() {
 
 #[test]
 fn a_project_is_exported_by_the_menu_and_draws_the_same() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     let file = home.path().join("sum.json");
@@ -156,8 +145,7 @@ fn a_project_is_exported_by_the_menu_and_draws_the_same() {
 
 #[test]
 fn the_bookmarklet_page_is_written_and_told_of_where_no_browser_starts() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     from_menu(&mut window, "button:open", "open:bookmarklet");

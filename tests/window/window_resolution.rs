@@ -1,6 +1,6 @@
 //! End to end: a picture of a size that is typed, which may be larger than the window.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::json;
 use std::{fs, path::Path};
 
@@ -12,9 +12,7 @@ const MOUSE: &str = "void mainImage(out vec4 o, in vec2 p) {
 ";
 
 fn light(home: &Path) {
-    let folder = home.join(".config/eddy");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("settings.toml"), "theme = \"light\"\n").unwrap();
+    folder_of(home.join(".config/eddy"), &[("settings.toml", "theme = \"light\"\n")]);
 }
 
 /// Types a size into the field of the menu.
@@ -22,8 +20,7 @@ fn type_size(window: &mut Window, size: &str) {
     window.click_on("combo:size");
     window.click_on("size:field");
     window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
-    window.type_text(size);
-    window.keys(&["Return"]);
+    window.submit(size);
 }
 
 fn screenshot_size(window: &mut Window) -> (u32, u32) {
@@ -34,8 +31,7 @@ fn screenshot_size(window: &mut Window) -> (u32, u32) {
 
 #[test]
 fn a_typed_size_is_drawn_shown_whole_and_saved() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = home.path().join("mouse.glsl");
     fs::write(&file, MOUSE).unwrap();
     let mut window = Window::open(&display, home.path(), &["--paused", file.to_str().unwrap()]);
@@ -83,8 +79,7 @@ fn a_typed_size_is_drawn_shown_whole_and_saved() {
 #[test]
 fn what_is_not_a_size_is_said_at_the_field() {
     for is_light in [false, true] {
-        let Some(display) = Display::of_size(1300, 900) else { return };
-        let home = tempfile::tempdir().unwrap();
+        let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
         if is_light {
             light(home.path());
         }
@@ -109,14 +104,11 @@ fn what_is_not_a_size_is_said_at_the_field() {
         }
         assert_eq!(window.newest("layout").unwrap()["canvas"], before);
         // By the palette, whose entry leads into the field.
-        window.keys(&["ctrl+shift+p"]);
-        window.shows("field:palette");
-        window.type_text("portrait");
+        window.search_palette("portrait");
         window.shows("palette:picture-size");
         window.keys(&["Return"]);
         window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
-        window.type_text("90x160");
-        window.keys(&["Return"]);
+        window.submit("90x160");
         window.wait_until("the size", "layout", |e| e["canvas"] == json!([90, 160]));
     }
 }

@@ -1,7 +1,7 @@
 //! End to end: typing reaches the code, saving always finds a way, and what was typed outlives the process. By real
 //! keys in the real window, on a machine with no file dialogs, judged by the files.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -24,9 +24,7 @@ fn type_at_start(window: &mut Window, text: &str) {
 /// Types a path into the field for it.
 fn type_path(window: &mut Window, path: &Path) {
     window.wait_until("the field for a path", "layout", |e| e["rects"]["field:path"].is_array());
-    window.keys(&["ctrl+a"]);
-    window.type_text(path.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(path.to_str().unwrap());
 }
 
 fn recovery_files(home: &Path) -> Vec<PathBuf> {
@@ -36,8 +34,7 @@ fn recovery_files(home: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     // From the gallery.
     window.click_on("gallery:new");
@@ -70,12 +67,11 @@ fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
 
 #[test]
 fn save_as_calls_everything_by_the_new_folder() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let old = home.path().join("old");
-    fs::create_dir(&old).unwrap();
-    fs::write(old.join("image.glsl"), IMAGE).unwrap();
-    fs::write(old.join("eddy.toml"), "eddy = 1\nname = \"The old one\"\n[passes.image]\n").unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    let old = folder_of(
+        home.path().join("old"),
+        &[("image.glsl", IMAGE), ("eddy.toml", "eddy = 1\nname = \"The old one\"\n[passes.image]\n")],
+    );
     // By a relative path, and saved to one.
     let mut window = Window::open(&display, home.path(), &["old"]);
     window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
@@ -95,11 +91,8 @@ fn save_as_calls_everything_by_the_new_folder() {
 
 #[test]
 fn a_killed_window_offers_what_was_typed_at_the_next_start() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", IMAGE)]);
     let project = folder.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[project]);
     window.click_on("editor");
@@ -121,8 +114,7 @@ fn a_killed_window_offers_what_was_typed_at_the_next_start() {
     window.wait_until("the recovered work", "dirty", |e| e["dirty"] == true);
     window.wait_until("a pause", "frame", |e| e["playing"] == false);
     display.shot("recovered.png");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), format!("// typed and never saved {IMAGE}"));
     let end = Instant::now() + Duration::from_secs(20);
     while !recovery_files(home.path()).is_empty() {
@@ -155,11 +147,8 @@ fn kept(home: &Path) -> Option<String> {
 fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     const MORE: &str = "/* and what was being typed */ ";
     let kills = std::env::var("EDDY_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(3);
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("project");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", IMAGE)]);
     let mut expected = IMAGE.to_owned();
     let recover = |window: &mut Window| {
         question(window, "recover");
@@ -197,18 +186,14 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     }
     let mut window = Window::open(&display, home.path(), &[]);
     recover(&mut window);
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), expected);
 }
 
 #[test]
 fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("w");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("edit.glsl"), IMAGE).unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
+    let folder = folder_of(home.path().join("w"), &[("edit.glsl", IMAGE)]);
     let mut window = Window::open(&display, home.path(), &["w/edit.glsl"]);
     window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window.click_on("editor");
@@ -226,7 +211,6 @@ fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path(
     }
     assert!(!folder.join("w").exists(), "not in a folder of that name within it");
     window.click_on("editor");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("edit.glsl")).unwrap(), format!("/* mine */ {IMAGE}"));
 }

@@ -1,6 +1,6 @@
 //! End to end: the page of settings writes the file and follows it, and the list of recent projects has their pictures.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -12,9 +12,7 @@ const RED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.9, 0.2, p.
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.1, 0.8, 0.1, 1.0); }\n";
 
 fn settings_file(home: &Path, text: &str) -> PathBuf {
-    let folder = home.join(".config/eddy");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("settings.toml"), text).unwrap();
+    let folder = folder_of(home.join(".config/eddy"), &[("settings.toml", text)]);
     folder.join("settings.toml")
 }
 
@@ -38,8 +36,7 @@ fn shader(home: &Path, name: &str, text: &str) -> PathBuf {
 
 #[test]
 fn the_page_of_settings_writes_the_file_and_follows_it() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = settings_file(home.path(), "# mine\ntheme = \"dark\" # at night\n\nmine-too = 3\n");
     let project = shader(home.path(), "red.glsl", RED);
     let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
@@ -60,10 +57,7 @@ fn the_page_of_settings_writes_the_file_and_follows_it() {
     says(&file, "word-wrap = true");
     display.shot("settings-light.png");
     // A number is typed.
-    window.click_on("setting:frame-timeout");
-    window.keys(&["ctrl+a"]);
-    window.type_text("7.5");
-    window.keys(&["Return"]);
+    window.fill("setting:frame-timeout", "7.5");
     says(&file, "frame-timeout = 7.5");
     // A number is dragged, and written once the hand lets go.
     let [x, y, width, height] = window.rect("setting:code-size");
@@ -113,17 +107,14 @@ fn first_row(layout: &Value) -> Option<&str> {
 
 #[test]
 fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = home.path().join(".config/eddy/settings.toml");
     let project = shader(home.path(), "red.glsl", RED);
     let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
     window.resize(1300, 900);
     window.compiled();
     for word in ["settings", "preferences", "options"] {
-        window.keys(&["ctrl+shift+p"]);
-        window.shows("field:palette");
-        window.type_text(word);
+        window.search_palette(word);
         // Return takes the first row, which stands while letters are still to come.
         let is_first = |layout: &Value| first_row(layout) == Some("palette:open-settings");
         window.wait_until("the settings on top", "layout", is_first);
@@ -135,8 +126,7 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
     assert!(!file.exists(), "looking writes nothing");
     window.keys(&["ctrl+comma"]);
     window.click_on("setting:code-font");
-    window.type_text("/no/such/font.ttf");
-    window.keys(&["Return"]);
+    window.submit("/no/such/font.ttf");
     window.shows("setting:code-font:error");
     display.shot("settings-font.png");
     assert!(!file.exists(), "what cannot be used is not written");
@@ -145,9 +135,7 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
     fs::write(&font, epaint_default_fonts::UBUNTU_LIGHT).unwrap();
     window.click_on("setting:code-font:choose");
     window.shows("field:path");
-    window.keys(&["ctrl+a"]);
-    window.type_text(font.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(font.to_str().unwrap());
     says(&file, &format!("\ncode-font = \"{}\"\n", font.display()));
     window.hides("setting:code-font:error");
     window.shows("settings:page");
@@ -158,8 +146,7 @@ fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
 #[test]
 fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
     for theme in ["dark", "light"] {
-        let Some(display) = Display::of_size(1300, 900) else { return };
-        let home = tempfile::tempdir().unwrap();
+        let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
         settings_file(home.path(), &format!("theme = \"{theme}\"\n"));
         let (red, green) = (shader(home.path(), "red.glsl", RED), shader(home.path(), "green.glsl", GREEN));
         let cache = home.path().join(".cache/eddy/pictures");

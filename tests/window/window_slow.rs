@@ -1,7 +1,7 @@
 //! End to end: code that the device does not come back from, and a device that is lost, in the real window, by real key
 //! events.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use std::{
     fs,
     path::Path,
@@ -77,8 +77,7 @@ fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
         window.keys(&["alt+Return"]);
         window.wait_until("the picture of the mended code", "compiled", |e| e["ok"] == true && e["compiling"] == false);
         window.wait_until("the end of the halt", "halt", |e| e["kind"].is_null());
-        window.keys(&["ctrl+s"]);
-        window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+        window.save();
         window.keys(&["ctrl+q"]);
         assert_eq!(window.ends(), Some(0), "{}", window.complaints());
     }
@@ -93,11 +92,8 @@ const SHOWN: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iCha
 fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
     let Some(display) = Display::open() else { return };
     let (home, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let folder = home.path().join("many");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", GREEN)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
+    let folder =
+        folder_of(home.path().join("many"), &[("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", GREEN)]);
     // What it was before is read, as each of the steps would be the same otherwise.
     let endless = ENDLESS.replace("float a = p.x;", "float a = p.x + texelFetch(iChannel0, ivec2(p), 0).y;");
     let _source = copied(&display, there.path(), &endless);
@@ -134,8 +130,7 @@ fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
         std::thread::sleep(Duration::from_millis(200));
     }
     display.shot("given-up.png");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert_eq!(fs::read_to_string(folder.join("buffer_a.glsl")).unwrap(), endless, "the text is as it was pasted");
     window.keys(&["ctrl+q"]);
     assert_eq!(window.ends(), Some(0), "{}", window.complaints());
@@ -143,8 +138,7 @@ fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
 
 #[test]
 fn a_paused_start_draws_nothing_before_one_says_so() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let file = home.path().join("image.glsl");
     fs::write(&file, GREEN).unwrap();
     let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap(), "--paused"]);
@@ -157,8 +151,7 @@ fn a_paused_start_draws_nothing_before_one_says_so() {
 
 #[test]
 fn a_window_whose_device_is_lost_goes_on_with_another() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let (file, loss) = (home.path().join("image.glsl"), home.path().join("lose-it"));
     fs::write(&file, GREEN).unwrap();
     let arguments = [file.to_str().unwrap(), "--lose-device", loss.to_str().unwrap()];
@@ -166,8 +159,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
     window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
     // What is shown while paused is to be shown again, and what is not saved is to be kept.
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
     window.type_text("// not saved");
@@ -204,8 +196,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
 
     window.keys(&["Return"]);
     window.type_text("// and more");
-    window.keys(&["ctrl+s"]);
-    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    window.save();
     assert!(fs::read_to_string(&file).unwrap().ends_with("// not saved\n// and more"));
     window.click_on("button:play");
     window.wait_until("it to play", "frame", |e| e["playing"] == true);

@@ -39,8 +39,7 @@ fn at_frame_90<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'
     window.compiled();
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
-    window.type_text("1.5");
-    window.keys(&["Return"]);
+    window.submit("1.5");
     window.wait_until("a second and a half", "frame", |e| e["frame"] == 90);
     window.keys(&["Escape"]);
     window.hides("time:field");
@@ -70,9 +69,7 @@ fn comes_to(display: &Display, window: &mut Window, home: &Path, wanted: [u8; 3]
 
 fn type_path(window: &mut Window, path: &Path) {
     window.wait_until("the field for a path", "layout", |e| e["rects"]["field:path"].is_array());
-    window.keys(&["ctrl+a"]);
-    window.type_text(path.to_str().unwrap());
-    window.keys(&["Return"]);
+    window.enter(path.to_str().unwrap());
 }
 
 fn question(window: &mut Window, kind: &str) {
@@ -90,8 +87,7 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 
 #[test]
 fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let mine = project(home.path(), "mine");
     let theirs = home.path().join("theirs");
     fs::create_dir(&theirs).unwrap();
@@ -129,8 +125,7 @@ fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
 
 #[test]
 fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), "count");
     let mut window = at_frame_90(&display, home.path(), &folder);
     assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
@@ -182,8 +177,7 @@ fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
 
 #[test]
 fn a_project_that_was_closed_paused_is_as_it_was_left() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let (folder, other) = (project(home.path(), "count"), project(home.path(), "other"));
     let mut window = at_frame_90(&display, home.path(), &folder);
     assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
@@ -209,8 +203,7 @@ fn a_project_that_was_closed_paused_is_as_it_was_left() {
 
 #[test]
 fn what_was_done_to_a_project_is_not_done_to_the_next() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let (first, second) = (project(home.path(), "first"), project(home.path(), "second"));
     let mut window = at_frame_90(&display, home.path(), &first);
     let whole = window.newest("layout").unwrap()["canvas"].clone();
@@ -245,8 +238,7 @@ fn what_was_done_to_a_project_is_not_done_to_the_next() {
 /// A dialog that changes its size while it is there makes the first click miss.
 #[test]
 fn the_question_of_recovered_work_stands_where_it_came() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), "project");
     let long: String = (0..120).map(|n| format!("// line {n} of a text that is longer than the dialog\n")).collect();
     fs::write(folder.join("image.glsl"), format!("{long}{SHOW}")).unwrap();
@@ -255,8 +247,7 @@ fn the_question_of_recovered_work_stands_where_it_came() {
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
     for line in 0..6 {
-        window.type_text(&format!("// typed {line}"));
-        window.keys(&["Return"]);
+        window.submit(&format!("// typed {line}"));
     }
     // A second text with a short difference.
     window.click_on("tab:Buffer A");

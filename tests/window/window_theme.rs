@@ -84,8 +84,7 @@ fn is(window: &mut Window, theme: &str) {
 
 #[test]
 fn the_window_follows_what_the_desktop_prefers_until_one_chooses() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let bus = Bus::start();
     let scheme = Arc::new(AtomicU32::new(LIGHT));
     let connection = pollster::block_on(async {

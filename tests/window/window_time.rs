@@ -1,6 +1,6 @@
 //! End to end: time that is typed, dragged, looped and kept over an edit, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -24,12 +24,7 @@ fn time(frame: &Value) -> f64 {
 }
 
 fn project(home: &Path) -> PathBuf {
-    let folder = home.join("count");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    folder
+    folder_of(home.join("count"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)])
 }
 
 /// Opens it paused, before its first frame.
@@ -44,14 +39,12 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
 fn go_to(window: &mut Window, text: &str) {
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
-    window.type_text(text);
-    window.keys(&["Return"]);
+    window.submit(text);
 }
 
 #[test]
 fn time_is_typed_dragged_and_looped() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     // Frame by frame on the way there, as the state has to.
@@ -109,8 +102,7 @@ fn time_is_typed_dragged_and_looped() {
 
 #[test]
 fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
     go_to(&mut window, "1.5");

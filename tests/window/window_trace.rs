@@ -1,6 +1,6 @@
 //! End to end: the way of a pixel and the value of an expression, by real keys and clicks.
 
-use crate::support::window::{Display, Window};
+use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
 use std::{
     fs,
@@ -35,17 +35,13 @@ const PROBED: &str = "void mainImage(out vec4 o, in vec2 c) {
 ";
 
 fn project(home: &Path, code: &str) -> PathBuf {
-    let folder = home.join("marcher");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("image.glsl"), code).unwrap();
-    folder
+    folder_of(home.join("marcher"), &[("image.glsl", code)])
 }
 
 /// Puts the caret at a line, or a line and a column.
 fn go_to(window: &mut Window, place: &str) {
     window.keys(&["ctrl+g"]);
-    window.type_text(place);
-    window.keys(&["Return"]);
+    window.submit(place);
 }
 
 fn traced(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
@@ -60,8 +56,7 @@ fn number(event: &Value, name: &str) -> f64 {
 
 #[test]
 fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
@@ -107,13 +102,11 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
 
     // A watch of an expression that calls the author's own function, and one that is wrong.
     window.click_on("trace:watch:new");
-    window.type_text("map(rd * t) * 2.0");
-    window.keys(&["Return"]);
+    window.submit("map(rd * t) * 2.0");
     let told = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
     let watched = traced(&mut window, "the watch", |e| told(e).is_some());
     assert!((told(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
-    window.type_text("nonsense");
-    window.keys(&["Return"]);
+    window.submit("nonsense");
     let wrong = |e: &Value| e["watches"]["nonsense"].as_str().is_some_and(|text| text.contains("nonsense"));
     traced(&mut window, "what is wrong", wrong);
     display.shot("trace-stopped.png");
@@ -170,8 +163,7 @@ channels.0 = { buffer = "scene" }
 
 #[test]
 fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let folder = project(home.path(), image);
     for (name, text) in [("scene.vert.glsl", VERTEX), ("scene.frag.glsl", FRAGMENT), ("eddy.toml", MESHES)] {
@@ -197,8 +189,7 @@ fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
 
 #[test]
 fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
@@ -214,8 +205,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     traced(&mut window, "the breakpoint", |e| e["breakpoints"][0]["line"] == 16);
     // A line more at the begin of the text.
     window.keys(&["ctrl+Home"]);
-    window.type_text("float scale = 2.0;");
-    window.keys(&["Return"]);
+    window.submit("float scale = 2.0;");
     traced(&mut window, "the breakpoint below", |e| e["breakpoints"][0]["line"] == 17);
     traced(&mut window, "the new code", |e| e["line"] == 6);
     window.keys(&["F5"]);
@@ -225,12 +215,10 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
 
 #[test]
 fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
-    let Some(display) = Display::open() else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path(), PROBED);
     let mut window = Window::open_project(&display, home.path(), &folder);
-    window.keys(&["alt+Up"]);
-    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.pause();
     window.resize(1000, 700);
     window.click_on("editor");
     go_to(&mut window, "2:11");
@@ -257,8 +245,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.wait_until("the vector", "probe", |e| e["type"] == "vec3" && e["range"][2].is_array());
     // What is typed before it moves it.
     window.keys(&["ctrl+Home"]);
-    window.type_text("// more");
-    window.keys(&["Return"]);
+    window.submit("// more");
     window.wait_until("the line below", "probe", |e| e["line"] == 4);
     window.compiled();
     // Without its line there is no value, and with it again there is.
@@ -287,8 +274,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
 /// Drivers make `atan` of a polynomial; the walker's is the nearest number.
 #[test]
 fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
-    let Some(display) = Display::of_size(1300, 900) else { return };
-    let home = tempfile::tempdir().unwrap();
+    let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let code = "void mainImage(out vec4 o, in vec2 c) {\n    float s = c.x * 0.5;\n    vec3 t = atan(vec3(0.3, 0.7, 1.9) * c.x / c.y);\n    \
                 o = vec4(t, s);\n}\n";
     let folder = project(home.path(), code);

@@ -41,12 +41,10 @@ pub struct BornAt {
 /// A search ended with one of these.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SearchEnd {
+    /// The first texel that is not finite.
     Found(Box<FirstNonfinite>),
     /// Every texel is finite in the frames from the one to the other.
-    Nowhere {
-        first: i32,
-        last: i32,
-    },
+    Nowhere { first: i32, last: i32 },
 }
 
 /// Frames, and what they are drawn by.

@@ -18,7 +18,6 @@
 mod arena;
 mod names;
 mod position;
-mod rank;
 
 pub use arena::{List, Pooled};
 pub(crate) use arena::{arenas, ids, with_room};
@@ -121,6 +120,32 @@ impl Ast {
         ExprId::new(self.exprs.len() - 1)
     }
 
+    /// Calls `visit` for each expression that one consists of, in text order.
+    pub fn parts(&self, expr: ExprId, mut visit: impl FnMut(ExprId)) {
+        match self[expr].kind {
+            ExprKind::Error
+            | ExprKind::Int(_)
+            | ExprKind::Uint(_)
+            | ExprKind::Float(_)
+            | ExprKind::Bool(_)
+            | ExprKind::Name(_) => {}
+            ExprKind::Call { args, .. } => self[args].iter().copied().for_each(visit),
+            ExprKind::Construct { ty, args } => {
+                self[self[ty].dims].iter().filter_map(|dim| dim.size).for_each(&mut visit);
+                self[args].iter().copied().for_each(visit);
+            }
+            ExprKind::Method { base: of, .. }
+            | ExprKind::Member { base: of, .. }
+            | ExprKind::Unary { operand: of, .. }
+            | ExprKind::Postfix { operand: of, .. } => visit(of),
+            ExprKind::Index { base: a, index: b }
+            | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Comma { lhs: a, rhs: b }
+            | ExprKind::Assign { place: a, value: b, .. } => [a, b].into_iter().for_each(visit),
+            ExprKind::Ternary { cond, then, otherwise } => [cond, then, otherwise].into_iter().for_each(visit),
+        }
+    }
+
     #[inline]
     pub fn stmt(&mut self, kind: StmtKind, loc: Loc) -> StmtId {
         self.stmts.push(Stmt { kind, loc });
@@ -173,66 +198,33 @@ pub enum ExprKind {
     Uint(u32),
     /// `1.5`, `1e3`, `.5f`, rounded to nearest; too large is infinity.
     Float(f32),
+    /// `true` or `false`.
     Bool(bool),
     /// A variable, or a name that turns out to be something else (the checker reports it).
     Name(Symbol),
     /// `name(args)`: a function or, as the checker resolves it, a struct's constructor. The name is token `loc.first`.
-    Call {
-        name: Symbol,
-        args: List<ExprId>,
-    },
+    Call { name: Symbol, args: List<ExprId> },
     /// A constructor spelled with a type keyword or with array dimensions: `vec3(..)`, `float[](..)`, `S[2](..)`.
-    Construct {
-        ty: TypeSpecId,
-        args: List<ExprId>,
-    },
+    Construct { ty: TypeSpecId, args: List<ExprId> },
     /// `base.name(args)`; only `.length()` is legal, which the checker checks. The name is not `loc.last`, hence
     /// `Ident`.
-    Method {
-        base: ExprId,
-        name: Ident,
-    },
+    Method { base: ExprId, name: Ident },
     /// `base.name`, member or swizzle. The name is token `loc.last`.
-    Member {
-        base: ExprId,
-        name: Symbol,
-    },
-    Index {
-        base: ExprId,
-        index: ExprId,
-    },
+    Member { base: ExprId, name: Symbol },
+    /// `base[index]`.
+    Index { base: ExprId, index: ExprId },
     /// Prefix operators, `++x` and `--x` among them.
-    Unary {
-        op: UnaryOp,
-        operand: ExprId,
-    },
+    Unary { op: UnaryOp, operand: ExprId },
     /// `x++`, `x--`.
-    Postfix {
-        op: PostfixOp,
-        operand: ExprId,
-    },
+    Postfix { op: PostfixOp, operand: ExprId },
     /// Left-associative; the left spine may be of any length.
-    Binary {
-        op: BinaryOp,
-        lhs: ExprId,
-        rhs: ExprId,
-    },
+    Binary { op: BinaryOp, lhs: ExprId, rhs: ExprId },
     /// `place = value`, or `place op= value` with the operator (arithmetic, shift or bitwise only).
-    Assign {
-        op: Option<BinaryOp>,
-        place: ExprId,
-        value: ExprId,
-    },
-    Ternary {
-        cond: ExprId,
-        then: ExprId,
-        otherwise: ExprId,
-    },
+    Assign { op: Option<BinaryOp>, place: ExprId, value: ExprId },
+    /// `cond ? then : otherwise`.
+    Ternary { cond: ExprId, then: ExprId, otherwise: ExprId },
     /// `lhs, rhs` as an operator (never an argument list). The left spine may be of any length.
-    Comma {
-        lhs: ExprId,
-        rhs: ExprId,
-    },
+    Comma { lhs: ExprId, rhs: ExprId },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -324,42 +316,32 @@ pub enum StmtKind {
     Empty,
     /// `{ .. }`, a scope. A function's body is one too, which shares the scope of the parameters (section 4.2.2).
     Block(List<StmtId>),
+    /// `a = b;`
     Expr(ExprId),
+    /// `float a = 1.0;`
     Decl(DeclId),
     /// Branches may be any statement; one that is no `Block` still opens a scope.
-    If {
-        cond: ExprId,
-        then: StmtId,
-        otherwise: Option<StmtId>,
-    },
+    If { cond: ExprId, then: StmtId, otherwise: Option<StmtId> },
     /// `init` is an `Expr`, `Decl`, `Empty` or `Error` statement. Names of `init` and `cond` share one scope with the
     /// body, as section 6.3 has it.
-    For {
-        init: StmtId,
-        cond: Option<Condition>,
-        step: Option<ExprId>,
-        body: StmtId,
-    },
-    While {
-        cond: Condition,
-        body: StmtId,
-    },
-    DoWhile {
-        body: StmtId,
-        cond: ExprId,
-    },
+    For { init: StmtId, cond: Option<Condition>, step: Option<ExprId>, body: StmtId },
+    /// `while (cond) body`
+    While { cond: Condition, body: StmtId },
+    /// `do body while (cond);`
+    DoWhile { body: StmtId, cond: ExprId },
     /// The body's statements with `Case` and `Default` labels among them.
-    Switch {
-        value: ExprId,
-        body: List<StmtId>,
-    },
+    Switch { value: ExprId, body: List<StmtId> },
     /// `case value:`, a label that stands for itself.
     Case(ExprId),
     /// `default:`
     Default,
+    /// `return;` or `return value;`
     Return(Option<ExprId>),
+    /// `break;`
     Break,
+    /// `continue;`
     Continue,
+    /// `discard;`
     Discard,
 }
 
@@ -443,6 +425,21 @@ pub enum QualifierKind {
     Invariant,
     Precision(Precision),
     Layout(List<LayoutItem>),
+}
+
+impl QualifierKind {
+    /// Position in the order that section 4.7 and the grammar demand.
+    pub fn rank(self) -> u8 {
+        match self {
+            QualifierKind::Layout(_) => 0,
+            QualifierKind::Invariant => 1,
+            QualifierKind::Flat | QualifierKind::Smooth => 2,
+            QualifierKind::Centroid => 3,
+            QualifierKind::Const => 4,
+            QualifierKind::In | QualifierKind::Out | QualifierKind::Inout | QualifierKind::Uniform => 5,
+            QualifierKind::Precision(_) => 6,
+        }
+    }
 }
 
 /// `location = 0` or `std140` in a `layout(..)`.

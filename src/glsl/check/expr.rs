@@ -72,24 +72,12 @@ impl<'a> Checker<'a> {
 
     /// Post-order, so the first node of an expression is its leftmost leaf.
     fn first_of(&self, root: ast::ExprId) -> usize {
-        let ast = self.ast;
         let mut at = root;
         loop {
-            let next = match ast[at].kind {
-                A::Error | A::Int(_) | A::Uint(_) | A::Float(_) | A::Bool(_) | A::Name(_) => None,
-                A::Call { args, .. } => ast[args].first().copied(),
-                A::Construct { ty, args } => {
-                    let size = ast[ast[ty].dims].iter().find_map(|dim| dim.size);
-                    size.or_else(|| ast[args].first().copied())
-                }
-                A::Method { base, .. } | A::Member { base, .. } | A::Index { base, .. } => Some(base),
-                A::Unary { operand, .. } | A::Postfix { operand, .. } => Some(operand),
-                A::Binary { lhs, .. } | A::Comma { lhs, .. } => Some(lhs),
-                A::Assign { place, .. } => Some(place),
-                A::Ternary { cond, .. } => Some(cond),
-            };
-            match next {
-                Some(child) => at = child,
+            let mut first = None;
+            self.ast.parts(at, |part| first = first.or(Some(part)));
+            match first {
+                Some(part) => at = part,
                 None => return at.index(),
             }
         }
@@ -99,36 +87,17 @@ impl<'a> Checker<'a> {
     /// root counts.
     #[cold]
     fn expr_in_broken_tree(&mut self, first: usize, root: usize) {
-        let ast = self.ast;
         let mut wanted = vec![false; root + 1 - first];
         wanted[root - first] = true;
         for i in (first..=root).rev() {
             if !wanted[i - first] {
                 continue;
             }
-            let mut want = |child: ast::ExprId| {
-                if let Some(at) = child.index().checked_sub(first) {
+            self.ast.parts(ast::ExprId::new(i), |part| {
+                if let Some(at) = part.index().checked_sub(first) {
                     wanted[at] = true;
                 }
-            };
-            match ast.exprs[i].kind {
-                A::Error | A::Int(_) | A::Uint(_) | A::Float(_) | A::Bool(_) | A::Name(_) => {}
-                A::Call { args, .. } => ast[args].iter().copied().for_each(&mut want),
-                A::Construct { ty, args } => {
-                    ast[ast[ty].dims].iter().filter_map(|dim| dim.size).for_each(&mut want);
-                    ast[args].iter().copied().for_each(&mut want);
-                }
-                A::Method { base, .. } | A::Member { base, .. } => want(base),
-                A::Unary { operand, .. } | A::Postfix { operand, .. } => want(operand),
-                A::Index { base: a, index: b }
-                | A::Binary { lhs: a, rhs: b, .. }
-                | A::Comma { lhs: a, rhs: b }
-                | A::Assign { place: a, value: b, .. } => {
-                    want(a);
-                    want(b);
-                }
-                A::Ternary { cond, then, otherwise } => [cond, then, otherwise].into_iter().for_each(&mut want),
-            }
+            });
         }
         for (i, _) in wanted.into_iter().enumerate().filter(|(_, wanted)| *wanted) {
             self.node(first + i);

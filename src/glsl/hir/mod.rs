@@ -153,6 +153,52 @@ impl Module {
         let function = &self[func];
         &self.locals[function.locals.start as usize..][..function.param_count as usize]
     }
+
+    /// Adds what an expression consists of.
+    pub fn parts(&self, expr: ExprId, out: &mut Vec<ExprId>) {
+        match self[expr].kind {
+            ExprKind::Error
+            | ExprKind::Literal(_)
+            | ExprKind::Const(_)
+            | ExprKind::Local(_)
+            | ExprKind::Global(_)
+            | ExprKind::Uniform(_)
+            | ExprKind::CustomUniform(_)
+            | ExprKind::Channel(_)
+            | ExprKind::BuiltinVar(_) => {}
+            ExprKind::Member { base: of, .. }
+            | ExprKind::Swizzle { base: of, .. }
+            | ExprKind::Unary { operand: of, .. }
+            | ExprKind::IncDec { place: of, .. }
+            | ExprKind::Convert(of)
+            | ExprKind::Splat(of)
+            | ExprKind::MatrixDiagonal(of)
+            | ExprKind::MatrixResize(of) => out.push(of),
+            ExprKind::Index { base: a, index: b }
+            | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Comma { lhs: a, rhs: b }
+            | ExprKind::Assign { place: a, value: b }
+            | ExprKind::AssignOp { place: a, value: b, .. }
+            | ExprKind::Logical { lhs: a, rhs: b, .. } => out.extend([a, b]),
+            ExprKind::Ternary { cond, then, otherwise } => out.extend([cond, then, otherwise]),
+            ExprKind::Vector(args)
+            | ExprKind::Matrix(args)
+            | ExprKind::Struct(args)
+            | ExprKind::Array(args)
+            | ExprKind::Builtin { args, .. }
+            | ExprKind::Call { args, .. } => out.extend(&self[args]),
+        }
+    }
+
+    /// Returns the variable that a place is or lies in.
+    pub fn root(&self, mut place: ExprId) -> ExprId {
+        while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
+            self[place].kind
+        {
+            place = base;
+        }
+        place
+    }
 }
 
 /// A struct type. Member types are complete and none is void; names are distinct.
@@ -234,75 +280,37 @@ pub enum ExprKind {
     CustomUniform(u16),
     /// `iChannel0` to `iChannel3` (also `iCh0.sampler`); `ty` is the sampler type. Occurs only as an argument.
     Channel(u8),
+    /// A `gl_` variable.
     BuiltinVar(BuiltinVar),
 
     // Parts.
     /// Member `index` of a struct.
-    Member {
-        base: ExprId,
-        index: u32,
-    },
+    Member { base: ExprId, index: u32 },
     /// Components of a vector. One component gives a scalar.
-    Swizzle {
-        base: ExprId,
-        swizzle: Swizzle,
-    },
+    Swizzle { base: ExprId, swizzle: Swizzle },
     /// An element of an array, a column of a matrix or a component of a vector. `index` is int or uint; a `Literal` is
     /// in range (the checker guarantees it), anything else lowering clamps into range.
-    Index {
-        base: ExprId,
-        index: ExprId,
-    },
+    Index { base: ExprId, index: ExprId },
 
     // Operators.
     /// Operand and result have the same type. Unary plus leaves no node.
-    Unary {
-        op: UnaryOp,
-        operand: ExprId,
-    },
+    Unary { op: UnaryOp, operand: ExprId },
     /// Eager operators.
-    Binary {
-        op: BinaryOp,
-        shape: Shape,
-        lhs: ExprId,
-        rhs: ExprId,
-    },
+    Binary { op: BinaryOp, shape: Shape, lhs: ExprId, rhs: ExprId },
     /// `&&` and `||`: the right side is evaluated only if needed.
-    Logical {
-        op: LogicalOp,
-        lhs: ExprId,
-        rhs: ExprId,
-    },
+    Logical { op: LogicalOp, lhs: ExprId, rhs: ExprId },
     /// `cond` is bool; one branch is evaluated; both have type `ty` (which may be void, an array or a struct).
-    Ternary {
-        cond: ExprId,
-        then: ExprId,
-        otherwise: ExprId,
-    },
+    Ternary { cond: ExprId, then: ExprId, otherwise: ExprId },
     /// Evaluates both, gives `rhs`. Never a place.
-    Comma {
-        lhs: ExprId,
-        rhs: ExprId,
-    },
+    Comma { lhs: ExprId, rhs: ExprId },
     /// `place = value`, all three types equal (arrays and structs too). The value is what was stored; not a place.
-    Assign {
-        place: ExprId,
-        value: ExprId,
-    },
+    Assign { place: ExprId, value: ExprId },
     /// `place op= value`: the place is found once, before `value` is evaluated, and read after. `ty` and `place` have
     /// the same type; `shape` is that of `place op value`.
-    AssignOp {
-        op: BinaryOp,
-        shape: Shape,
-        place: ExprId,
-        value: ExprId,
-    },
+    AssignOp { op: BinaryOp, shape: Shape, place: ExprId, value: ExprId },
     /// `++` and `--` on int, uint or float scalars, vectors or matrices; the value is the new one for prefix, the old
     /// for postfix. Not a place.
-    IncDec {
-        op: IncDec,
-        place: ExprId,
-    },
+    IncDec { op: IncDec, place: ExprId },
 
     // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in
     // `Convert`. `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a
@@ -332,17 +340,11 @@ pub enum ExprKind {
     /// A user function: one argument a parameter ([`Module::params`]), types equal. An argument to `out` or `inout` is
     /// a place: it is found (indices evaluated) in argument order before the call, copied back in argument order after
     /// it. A sampler argument is a `Channel` or a `Local`.
-    Call {
-        func: FuncId,
-        args: List<ExprId>,
-    },
+    Call { func: FuncId, args: List<ExprId> },
     /// A built-in: argument and result types are those of one overload of chapter 8, which they tell apart. `modf`'s
     /// second argument is a place. Texture calls have the sampler first; constant offsets are `Literal`/`Const` in the
     /// legal range.
-    Builtin {
-        builtin: Builtin,
-        args: List<ExprId>,
-    },
+    Builtin { builtin: Builtin, args: List<ExprId> },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -430,44 +432,29 @@ pub struct Stmt {
 /// Says what a statement is. Scopes are resolved, so a `Block` only groups.
 #[derive(Clone, Copy, Debug)]
 pub enum StmtKind {
+    /// Statements that run one after the other.
     Block(List<StmtId>),
     /// Evaluated for its effects.
     Expr(ExprId),
     /// One variable of a declaration. Each execution sets it anew: to `init`, or to zero.
-    Declare {
-        local: LocalId,
-        init: Option<ExprId>,
-    },
-    If {
-        cond: ExprId,
-        then: List<StmtId>,
-        otherwise: List<StmtId>,
-    },
+    Declare { local: LocalId, init: Option<ExprId> },
+    /// `cond` is bool.
+    If { cond: ExprId, then: List<StmtId>, otherwise: List<StmtId> },
     /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool, absent: true) before each
     /// round; `step` after each, also after `continue`. A condition that declares, `while (bool b = e)`, has become an
     /// `Assign` to `b` as `test`.
-    For {
-        init: List<StmtId>,
-        test: Option<ExprId>,
-        step: Option<ExprId>,
-        body: List<StmtId>,
-    },
+    For { init: List<StmtId>, test: Option<ExprId>, step: Option<ExprId>, body: List<StmtId> },
     /// `continue` goes to the test.
-    DoWhile {
-        body: List<StmtId>,
-        test: ExprId,
-    },
+    DoWhile { body: List<StmtId>, test: ExprId },
     /// `value` is int or uint, evaluated once.
-    Switch {
-        value: ExprId,
-        cases: List<Case>,
-    },
+    Switch { value: ExprId, cases: List<Case> },
     /// `Some` in functions that return a value, of type `Function::result`, unless the call returns void itself.
     Return(Option<ExprId>),
     /// Leaves the nearest loop or switch; the checker guarantees there is one.
     Break,
     /// Goes on with the nearest loop, through any switch.
     Continue,
+    /// Ends the invocation, which draws nothing.
     Discard,
 }
 

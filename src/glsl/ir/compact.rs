@@ -50,33 +50,19 @@ impl Compact<'_> {
 
     fn block(&mut self, block: &mut Block) {
         for stmt in block {
-            match stmt {
-                Stmt::Let(value) => {
-                    let mut op = self.take(*value);
-                    op.operands_mut(|operand| *operand = self.value(*operand));
-                    *value = self.append(*value, op);
-                }
-                Stmt::Store { place, value } => {
-                    *place = self.value(*place);
-                    *value = self.value(*value);
-                }
-                Stmt::If { condition, accept, reject } => {
-                    *condition = self.value(*condition);
-                    self.block(accept);
-                    self.block(reject);
-                }
-                Stmt::Loop { body, continuing, break_if } => {
-                    self.block(body);
-                    self.block(continuing);
-                    *break_if = break_if.map(|value| self.value(value));
-                }
-                Stmt::Switch { selector, cases } => {
-                    *selector = self.value(*selector);
-                    cases.iter_mut().for_each(|case| self.block(&mut case.body));
-                }
-                Stmt::Return(value) => *value = value.map(|value| self.value(value)),
-                Stmt::Output(parts) => parts.iter_mut().for_each(|(_, value)| *value = self.value(*value)),
-                Stmt::Break | Stmt::Continue | Stmt::Discard => {}
+            if let Stmt::Let(value) = stmt {
+                let mut op = self.take(*value);
+                op.operands_mut(|operand| *operand = self.value(*operand));
+                *value = self.append(*value, op);
+                continue;
+            }
+            // The test at the end of a loop is computed within.
+            if matches!(stmt, Stmt::Loop { .. }) {
+                stmt.blocks_mut(|block| self.block(block));
+                stmt.operands_mut(|operand| *operand = self.value(*operand));
+            } else {
+                stmt.operands_mut(|operand| *operand = self.value(*operand));
+                stmt.blocks_mut(|block| self.block(block));
             }
         }
     }

@@ -194,30 +194,18 @@ pub enum Stmt {
     /// Computes a value.
     Let(Value),
     /// Writes a value to a place.
-    Store {
-        place: Value,
-        value: Value,
-    },
-    If {
-        condition: Value,
-        accept: Block,
-        reject: Block,
-    },
+    Store { place: Value, value: Value },
+    /// Runs one of two blocks.
+    If { condition: Value, accept: Block, reject: Block },
     /// Runs `body`, then `continuing`, until a `Break`, or until `break_if` is true after `continuing`.
-    Loop {
-        body: Block,
-        continuing: Block,
-        break_if: Option<Value>,
-    },
+    Loop { body: Block, continuing: Block, break_if: Option<Value> },
     /// Runs the case that has the selector's value, or the default.
-    Switch {
-        selector: Value,
-        cases: Vec<Case>,
-    },
+    Switch { selector: Value, cases: Vec<Case> },
     /// Leaves the innermost loop or switch.
     Break,
     /// Goes to the `continuing` part of the innermost loop.
     Continue,
+    /// Ends the function, with its result unless that is void.
     Return(Option<Value>),
     /// Ends the invocation; it draws nothing.
     Discard,

@@ -9,7 +9,9 @@ pub enum Op {
     // Free: no statement computes these.
     /// A scalar, bit for bit; bools are 0 or 1.
     Literal(Scalar, u32),
+    /// All zeros, of any type.
     Zero(TypeId),
+    /// A constant of the module.
     Const(ConstId),
     /// A parameter: a value, or an address.
     Param(u32),
@@ -22,106 +24,51 @@ pub enum Op {
 
     // Parts of values and of places.
     /// A member, an element, a column or a component, at an index that is in range.
-    Part {
-        base: Value,
-        index: u32,
-    },
+    Part { base: Value, index: u32 },
     /// The same at an index, int or uint, that is known when the program runs. Of values only vectors have such.
-    Element {
-        base: Value,
-        index: Value,
-    },
+    Element { base: Value, index: Value },
     /// Two to four components of a vector.
-    Swizzle {
-        vector: Value,
-        swizzle: Swizzle,
-    },
+    Swizzle { vector: Value, swizzle: Swizzle },
     /// A vector of `size` equal components.
-    Splat {
-        size: u8,
-        value: Value,
-    },
+    Splat { size: u8, value: Value },
     /// A value of its parts, in order. Of a vector they may be vectors themselves.
-    Compose {
-        ty: TypeId,
-        parts: Box<[Value]>,
-    },
+    Compose { ty: TypeId, parts: Box<[Value]> },
 
     // Arithmetic.
-    Unary {
-        op: Unary,
-        operand: Value,
-    },
-    Binary {
-        op: Binary,
-        left: Value,
-        right: Value,
-    },
-    Math {
-        fun: Math,
-        arg: Value,
-        arg1: Option<Value>,
-        arg2: Option<Value>,
-        arg3: Option<Value>,
-    },
+    /// An operator on one value, component by component.
+    Unary { op: Unary, operand: Value },
+    /// An operator on two values.
+    Binary { op: Binary, left: Value, right: Value },
+    /// A function that the device has, of as many arguments as it takes.
+    Math { fun: Math, arg: Value, arg1: Option<Value>, arg2: Option<Value>, arg3: Option<Value> },
     /// One of two values of one type; `condition` is a bool, or a vector of as many.
-    Select {
-        condition: Value,
-        accept: Value,
-        reject: Value,
-    },
+    Select { condition: Value, accept: Value, reject: Value },
     /// A scalar or vector of another component type.
-    Convert {
-        value: Value,
-        to: Scalar,
-    },
+    Convert { value: Value, to: Scalar },
     /// The same bits as another component type of 32 bits.
-    Bitcast {
-        value: Value,
-        to: Scalar,
-    },
+    Bitcast { value: Value, to: Scalar },
     /// True where all components of a vector of bools are true.
     All(Value),
     /// True where some component of a vector of bools is true.
     Any(Value),
     /// The change of a float from pixel to pixel.
-    Derivative {
-        axis: Axis,
-        value: Value,
-    },
+    Derivative { axis: Axis, value: Value },
 
     // Textures: of a channel, 0 to 3.
-    Sample {
-        channel: u8,
-        coordinate: Value,
-        level: Level,
-        offset: Option<Value>,
-    },
+    /// A filtered read.
+    Sample { channel: u8, coordinate: Value, level: Level, offset: Option<Value> },
     /// A texel; zeros outside of the texture.
-    Fetch {
-        channel: u8,
-        coordinate: Value,
-        level: Value,
-    },
+    Fetch { channel: u8, coordinate: Value, level: Value },
     /// Ints.
-    TextureSize {
-        channel: u8,
-        level: Option<Value>,
-    },
+    TextureSize { channel: u8, level: Option<Value> },
     /// A uint.
-    TextureLevels {
-        channel: u8,
-    },
+    TextureLevels { channel: u8 },
 
     // Memory and calls.
-    Load {
-        place: Value,
-    },
+    /// The value at a place.
+    Load { place: Value },
     /// Void if the function is; a parameter by reference takes a place.
-    Call {
-        function: FuncId,
-        args: Box<[Value]>,
-    },
+    Call { function: FuncId, args: Box<[Value]> },
 
     // Barriers.
     /// The int 0, which no compiler behind this one can know.
@@ -276,12 +223,12 @@ pub enum Axis {
 pub enum Level {
     /// By the derivatives of the coordinate.
     Auto,
+    /// This one.
     Exact(Value),
+    /// So much more than the change of the coordinate asks for.
     Bias(Value),
-    Gradient {
-        x: Value,
-        y: Value,
-    },
+    /// By these changes of the coordinate from pixel to pixel.
+    Gradient { x: Value, y: Value },
 }
 
 /// Calls `$visit` with a reference to each operand of the operation that `$op` refers to; `$iter` is `iter` or

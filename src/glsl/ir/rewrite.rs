@@ -12,7 +12,9 @@ use crate::types::{Scalar, Type, TypeId};
 pub trait Rule {
     /// Returns the value that stands for this one, whose operation has the operands that stand for its own. `None`: the
     /// operation itself stands.
-    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value>;
+    fn operation(&mut self, _: &mut Rewriter<'_>, _value: Value, _op: &Op) -> Option<Value> {
+        None
+    }
 
     /// The function has begun.
     fn begin(&mut self, _: &mut Rewriter<'_>) {}

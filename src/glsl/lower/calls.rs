@@ -8,7 +8,6 @@ use super::{
     access::Place,
     arguments::{Instance, Passed, Specialization, last_effect},
     function::{Builder, Slot},
-    walk as writes,
 };
 use crate::{
     hir::{ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, TypeId},
@@ -150,7 +149,7 @@ impl Builder<'_, '_> {
     }
 
     fn root_local(&self, place: ExprId) -> Option<LocalId> {
-        match self.cx.hir[writes::root(self.cx.hir, place)].kind {
+        match self.cx.hir[self.cx.hir.root(place)].kind {
             ExprKind::Local(local) => Some(local),
             _ => None,
         }

@@ -84,7 +84,7 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
     }
     for i in 0..module.exprs.len() {
         writes::places(module, ExprId::new(i), |place| {
-            if let ExprKind::Global(global) = module[writes::root(module, place)].kind
+            if let ExprKind::Global(global) = module[module.root(place)].kind
                 && let Some(array) = found.iter_mut().find(|array| array.global == global)
             {
                 array.written += 1;

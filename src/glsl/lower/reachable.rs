@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::{
     arguments::{Arguments, Instance, Passed, Specialization},
-    walk::{self as writes, Node, parts},
+    walk::{self as writes, Node},
 };
 use crate::{
     ast::List,
@@ -197,7 +197,7 @@ impl<'a> Walk<'a> {
     fn expr(&mut self, expr: ExprId) {
         let module = self.module;
         writes::places(module, expr, |place| {
-            if let ExprKind::Global(global) = module[writes::root(module, place)].kind {
+            if let ExprKind::Global(global) = module[module.root(place)].kind {
                 self.facts.writes.insert(global);
             }
         });
@@ -215,7 +215,7 @@ impl<'a> Walk<'a> {
             _ => {}
         }
         let mut within = std::mem::take(&mut self.within);
-        parts(module, expr, &mut within);
+        module.parts(expr, &mut within);
         self.exprs(within.drain(..));
         self.within = within;
     }

@@ -21,7 +21,7 @@ pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visi
         visit(node, at);
         let stmt = match node {
             Node::Expr(expr) => {
-                parts(module, expr, &mut exprs);
+                module.parts(expr, &mut exprs);
                 continue;
             }
             Node::Stmt(stmt) => stmt,
@@ -51,42 +51,6 @@ pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visi
     }
 }
 
-/// Adds what an expression consists of.
-pub(super) fn parts(module: &Module, expr: ExprId, out: &mut Vec<ExprId>) {
-    match module[expr].kind {
-        ExprKind::Error
-        | ExprKind::Literal(_)
-        | ExprKind::Const(_)
-        | ExprKind::Local(_)
-        | ExprKind::Global(_)
-        | ExprKind::Uniform(_)
-        | ExprKind::CustomUniform(_)
-        | ExprKind::Channel(_)
-        | ExprKind::BuiltinVar(_) => {}
-        ExprKind::Member { base: of, .. }
-        | ExprKind::Swizzle { base: of, .. }
-        | ExprKind::Unary { operand: of, .. }
-        | ExprKind::IncDec { place: of, .. }
-        | ExprKind::Convert(of)
-        | ExprKind::Splat(of)
-        | ExprKind::MatrixDiagonal(of)
-        | ExprKind::MatrixResize(of) => out.push(of),
-        ExprKind::Index { base: a, index: b }
-        | ExprKind::Binary { lhs: a, rhs: b, .. }
-        | ExprKind::Comma { lhs: a, rhs: b }
-        | ExprKind::Assign { place: a, value: b }
-        | ExprKind::AssignOp { place: a, value: b, .. }
-        | ExprKind::Logical { lhs: a, rhs: b, .. } => out.extend([a, b]),
-        ExprKind::Ternary { cond, then, otherwise } => out.extend([cond, then, otherwise]),
-        ExprKind::Vector(args)
-        | ExprKind::Matrix(args)
-        | ExprKind::Struct(args)
-        | ExprKind::Array(args)
-        | ExprKind::Builtin { args, .. }
-        | ExprKind::Call { args, .. } => out.extend(&module[args]),
-    }
-}
-
 /// Calls `visit` for each place that an expression writes by itself: what it consists of and what it calls left out.
 pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId)) {
     match module[expr].kind {
@@ -103,14 +67,4 @@ pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId
         }
         _ => {}
     }
-}
-
-/// Returns the variable that a place is or lies in.
-pub(super) fn root(module: &Module, mut place: ExprId) -> ExprId {
-    while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
-        module[place].kind
-    {
-        place = base;
-    }
-    place
 }

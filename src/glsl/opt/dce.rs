@@ -1,7 +1,7 @@
 //! Dead code elimination: drops what is computed and used by nothing that has an effect. The passes before it leave the
 //! operations that they replaced.
 
-use crate::ir::{Block, Function, Module, Op, Stmt, Value};
+use crate::ir::{Block, Function, Module, Op, Stmt};
 
 pub(super) fn run(module: &mut Module) {
     for function in &mut module.functions {
@@ -17,35 +17,20 @@ pub(super) fn run(module: &mut Module) {
 fn block(f: &Function, body: &mut Block, live: &mut [bool]) {
     let mut kept = Vec::with_capacity(body.len());
     for mut stmt in std::mem::take(body).into_iter().rev() {
-        let mut used = |value: Value| live[value.index()] = true;
-        match &mut stmt {
-            Stmt::Let(value) => {
-                let has_effect = matches!(f[*value], Op::Call { .. });
-                if !live[value.index()] && !has_effect {
-                    continue;
-                }
-                f[*value].operands(|operand| live[operand.index()] = true);
+        if let Stmt::Let(value) = stmt {
+            if !live[value.index()] && !matches!(f[value], Op::Call { .. }) {
+                continue;
             }
-            Stmt::Store { place, value } => [*place, *value].into_iter().for_each(used),
-            Stmt::If { condition, accept, reject } => {
-                used(*condition);
-                block(f, accept, live);
-                block(f, reject, live);
-            }
-            Stmt::Switch { selector, cases } => {
-                used(*selector);
-                cases.iter_mut().for_each(|case| block(f, &mut case.body, live));
-            }
-            Stmt::Loop { body, continuing, break_if } => {
-                // Values are used where they dominate: what a round computes, no earlier statement of the next one
-                // uses.
-                break_if.iter().for_each(|value| live[value.index()] = true);
-                block(f, continuing, live);
-                block(f, body, live);
-            }
-            Stmt::Return(value) => value.iter().for_each(|value| used(*value)),
-            Stmt::Output(parts) => parts.iter().for_each(|(_, value)| used(*value)),
-            Stmt::Break | Stmt::Continue | Stmt::Discard => {}
+            f[value].operands(|operand| live[operand.index()] = true);
+        }
+        stmt.operands_mut(|operand| live[operand.index()] = true);
+        // Values are used where they dominate: what a round of a loop computes, no earlier statement of the next one
+        // uses.
+        if let Stmt::Loop { body, continuing, .. } = &mut stmt {
+            block(f, continuing, live);
+            block(f, body, live);
+        } else {
+            stmt.blocks_mut(|inner| block(f, inner, live));
         }
         kept.push(stmt);
     }

@@ -8,14 +8,11 @@ use crate::{
 /// A mip level, as a sample asks for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lod {
+    /// The level itself.
     Exact(f64),
     /// By how much the coordinate changes from pixel to pixel, along x and along y, and what is added to the level
     /// (section 3.8.11 of the OpenGL ES 3.0 specification).
-    Derivatives {
-        x: [f64; 3],
-        y: [f64; 3],
-        bias: f64,
-    },
+    Derivatives { x: [f64; 3], y: [f64; 3], bias: f64 },
 }
 
 /// Uniforms, textures and inputs of a frame.

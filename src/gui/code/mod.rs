@@ -30,6 +30,7 @@ use fixes::{Chosen, Fixes};
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
+#[derive(Default)]
 pub struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
@@ -70,31 +71,7 @@ pub struct CodePanel {
 
 impl CodePanel {
     pub fn new() -> Self {
-        Self {
-            editors: HashMap::new(),
-            current: Tab::Pass(PassId::Image),
-            files: Vec::new(),
-            was_compiling: false,
-            generation: None,
-            project: (String::new(), Origin::Unsaved),
-            font_size: 13.0,
-            wraps: false,
-            find: FindBar::default(),
-            everywhere: Everywhere::default(),
-            fixes: None,
-            rename: None,
-            order: Vec::new(),
-            go_to_line: None,
-            bar_takes_focus: false,
-            takes_focus: false,
-            begun: 0,
-            problem: None,
-            uses: None,
-            told_front: None,
-            followed: 0,
-            debug: Debug::default(),
-            pointed: None,
-        }
+        Self { font_size: 13.0, ..Self::default() }
     }
 
     pub fn current(&self) -> &Tab {

@@ -1,11 +1,13 @@
-//! Places of widgets: they keep to their order and grid, and what there is no room for can still be reached.
+//! Places of widgets: they keep to their order and grid, and what there is no room for can still be reached. Numbers of
+//! a paused picture are not shown as if they were of now.
 
-use super::harness::{Stage, choose, click, open, press};
+use super::harness::{CTRL_SHIFT, Stage, choose, click, open, press, texts};
 use crate::{
     gui::theme::{DARK, LIGHT},
     session::Command,
 };
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
+use egui_kittest::kittest::NodeT as _;
 
 fn place(stage: &Stage, name: &str) -> egui::Rect {
     stage.state().shell.place(name).unwrap_or_else(|| panic!("no {name}"))
@@ -121,4 +123,54 @@ fn a_pass_is_added_without_a_window_over_the_picture() {
     stage.run_steps(3);
     assert_eq!(stage.state().shell.caret().0.title(), "Buffer B");
     assert!(stage.state().shell.place("passes").is_none());
+}
+
+fn is_shown(stage: &Stage, part: &str) -> bool {
+    texts(stage).iter().any(|text| text.contains(part))
+}
+
+#[test]
+fn times_of_passes_are_gone_or_said_to_be_old() {
+    let Some(mut stage) = open(false) else { return };
+    press(&mut stage, CTRL_SHIFT, Key::M);
+    stage.state_mut().session.apply(Command::Play);
+    stage.run_steps(12);
+    assert!(stage.state().shell.place("costs:paused").is_none());
+    let has_timestamps = !stage.state().session.pass_times().is_empty();
+    let tab = stage.state().shell.place("tab:Image").unwrap().center();
+    stage.hover_at(tab);
+    stage.run_steps(8);
+    assert_eq!(is_shown(&stage, "ms on the GPU"), has_timestamps, "{:?}", texts(&stage));
+
+    stage.state_mut().session.apply(Command::Pause);
+    stage.run_steps(8);
+    assert!(is_shown(&stage, "image.glsl"), "the tab's tip is open: {:?}", texts(&stage));
+    assert!(!is_shown(&stage, "ms on the GPU"), "{:?}", texts(&stage));
+    assert!(stage.state().shell.place("costs:paused").is_some() && is_shown(&stage, "from before the pause"));
+    press(&mut stage, CTRL_SHIFT, Key::T);
+    click(&mut stage, "buffers:page:graph");
+    assert!(stage.state().shell.place("buffers:graph:paused").is_some());
+    stage.state_mut().session.apply(Command::Play);
+    stage.run_steps(3);
+    assert!(stage.state().shell.place("buffers:graph:paused").is_none());
+    assert!(stage.state().shell.place("costs:paused").is_none() && !is_shown(&stage, "from before the pause"));
+}
+
+#[test]
+fn what_the_lab_says_of_a_study_ends_within_the_window() {
+    let Some(mut stage) = open(false) else { return };
+    press(&mut stage, CTRL_SHIFT, Key::Y);
+    for width in [620.0, 900.0, 1100.0, 1280.0, 1920.0] {
+        stage.set_size(vec2(width, 800.0));
+        stage.run_steps(3);
+        let nodes = stage.root().children_recursive();
+        let texts = nodes.map(|node| node.accesskit_node()).filter_map(|node| {
+            let said = node.value().or_else(|| node.label())?;
+            said.starts_with("A Gaussian of standard deviation").then(|| node.raw_bounds())
+        });
+        let rights: Vec<f64> = texts.flatten().map(|bounds| bounds.x1).collect();
+        assert!(!rights.is_empty(), "{width} wide: the study is not told of");
+        let right = rights.into_iter().fold(0.0, f64::max);
+        assert!(right <= f64::from(width), "{width} wide: the text ends at {right}");
+    }
 }

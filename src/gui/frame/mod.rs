@@ -60,10 +60,6 @@ mod looks;
 #[cfg(test)]
 mod names;
 #[cfg(test)]
-mod paused;
-#[cfg(test)]
 mod reach;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod widths;

@@ -38,18 +38,17 @@ fn study(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     let response = ComboBox::from_id_salt("lab study")
         .width(170.0)
         .height(420.0)
-        .selected_text(lab.study().about().title)
+        .selected_text(lab.study().title)
         .show_ui(ui, |ui| {
             for (n, study) in lab.studies.iter().enumerate() {
-                let about = study.about();
-                let entry = ui.selectable_label(n == lab.study, about.title).on_hover_text(about.text);
-                if out.clicked(&format!("lab:study:{}", about.name), &entry) {
+                let entry = ui.selectable_label(n == lab.study, study.title).on_hover_text(study.text);
+                if out.clicked(&format!("lab:study:{}", study.name), &entry) {
                     chosen = n;
                 }
             }
         })
         .response
-        .on_hover_text(lab.study().about().text);
+        .on_hover_text(lab.study().text);
     out.place("lab:study", response.rect);
     lab.choose(chosen, lab.extent);
 }
@@ -101,7 +100,7 @@ fn progress(ui: &mut Ui, lab: &Lab) {
     let Some(run) = &lab.run else { return };
     let (part, words) = model::progress_text(&run.progress);
     let is_other = (run.study, run.extent) != (lab.study, lab.extent);
-    let words = if is_other { format!("{}: {words}", lab.studies[run.study].about().title) } else { words };
+    let words = if is_other { format!("{}: {words}", lab.studies[run.study].title) } else { words };
     let width = ui.available_width() - 8.0;
     if width < 60.0 {
         return;

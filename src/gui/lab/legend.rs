@@ -19,7 +19,7 @@ pub fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
             }
         }
         ui.label(
-            RichText::new(format!("settings: {}", shown.table.about.parameter)).size(11.5).color(theme::of(ui).weak),
+            RichText::new(format!("settings: {}", shown.table.study.parameter)).size(11.5).color(theme::of(ui).weak),
         );
         ui.add_space(5.0);
         key(ui);

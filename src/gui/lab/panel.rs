@@ -43,18 +43,18 @@ impl Lab {
 
     /// Before there is anything to plot.
     fn show_about(&self, ui: &mut Ui) {
-        let (study, about) = (self.study(), self.study().about());
+        let study = self.study();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(6.0);
             ui.set_max_width(ui.available_width().min(760.0));
-            ui.label(RichText::new(about.title).size(17.0).color(theme::of(ui).strong));
-            ui.label(about.text);
+            ui.label(RichText::new(study.title).size(17.0).color(theme::of(ui).strong));
+            ui.label(study.text);
             ui.add_space(4.0);
-            for method in study.methods() {
+            for method in study.methods {
                 let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
                 ui.horizontal_wrapped(|ui| {
                     ui.label(method.title);
-                    ui.colored_label(theme::of(ui).weak, format!("{}: {}", about.parameter, settings.join(", ")));
+                    ui.colored_label(theme::of(ui).weak, format!("{}: {}", study.parameter, settings.join(", ")));
                 });
             }
             ui.add_space(4.0);

@@ -48,9 +48,9 @@ pub fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiOutput) 
         let label = RichText::new(label).size(12.0).color(theme::of(ui).weak);
         hints.label(label).formatter(tick).tick_label_color(theme::of(ui).text).label_spacing(Rangef::new(9.0, 12.0))
     };
-    let x = axis(AxisHints::new_x(), format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid));
-    let y = axis(AxisHints::new_y(), format!("relative L2 error {}", table.about.error)).min_thickness(52.0);
-    let mut plot = Plot::new(("lab plot", table.about.name, view.extent == Extent::Quick))
+    let x = axis(AxisHints::new_x(), format!("{} ({} x {} texels)", table.study.unit.label(), table.grid, table.grid));
+    let y = axis(AxisHints::new_y(), format!("relative L2 error {}", table.study.error)).min_thickness(52.0);
+    let mut plot = Plot::new(("lab plot", table.study.name, view.extent == Extent::Quick))
         .custom_x_axes(vec![x])
         .custom_y_axes(vec![y])
         .x_grid_spacer(axis::marks)
@@ -164,13 +164,13 @@ fn target(painter: &Painter, palette: &Palette, area: Rect, transform: &PlotTran
 }
 
 fn tooltip(ui: &mut Ui, shown: &PlotData, dot: &Dot) {
-    let (row, about) = (shown.row(dot), shown.table.about);
+    let (row, study) = (shown.row(dot), shown.table.study);
     ui.set_max_width(360.0);
     ui.colored_label(theme::of(ui).strong, row.method.title);
-    ui.label(format!("{} = {}", about.parameter, row.point.setting));
+    ui.label(format!("{} = {}", study.parameter, row.point.setting));
     let cost = row.millis.map_or(String::new(), |t| short(t.median));
     let estimate = if dot.is_estimate { ", an estimate" } else { "" };
-    ui.label(format!("{cost} {}{estimate}", about.unit.label()));
+    ui.label(format!("{cost} {}{estimate}", study.unit.label()));
     ui.label(format!("error {}", row.error().map_or(String::new(), short)));
     if let Some(measured) = &row.measured {
         for (name, value) in &measured.values {

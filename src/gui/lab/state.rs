@@ -29,7 +29,7 @@ use std::{
 pub struct Lab {
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     pub(super) adapter: wgpu::AdapterInfo,
-    pub(super) studies: Vec<&'static dyn Study>,
+    pub(super) studies: Vec<&'static Study>,
     pub(super) study: usize,
     pub(super) extent: Extent,
     /// Quick, then full.
@@ -93,7 +93,7 @@ impl Lab {
         &mut self.known[usize::from(extent == Extent::Full)]
     }
 
-    pub(super) fn study(&self) -> &'static dyn Study {
+    pub(super) fn study(&self) -> &'static Study {
         self.studies[self.study]
     }
 
@@ -173,7 +173,7 @@ impl Lab {
         let out = self.out(extent)?;
         if self.known(extent).is_whole(study, extent) {
             let known = self.known_mut(extent);
-            known.results.forget(study.about().name);
+            known.results.forget(study.name);
             known.results.write(&out).map_err(|e| e.to_string())?;
             self.draw_anew();
         }
@@ -266,9 +266,9 @@ impl Lab {
     pub fn report(&self) -> Value {
         let dots = self.shown.as_ref().map_or(&[][..], |s| &s.dots);
         json!({
-            "study": self.study().about().name,
+            "study": self.study().name,
             "extent": name_of(self.extent),
-            "running": self.run.as_ref().map(|r| self.studies[r.study].about().name),
+            "running": self.run.as_ref().map(|r| self.studies[r.study].name),
             "points": dots.len(),
             "estimates": dots.iter().filter(|d| d.is_estimate).count(),
             "told": self.message.as_ref().map(|(words, _)| words),
@@ -285,7 +285,7 @@ pub(super) fn name_of(extent: Extent) -> &'static str {
     if extent == Extent::Quick { "quick" } else { "full" }
 }
 
-fn write_report(folder: &Path, studies: &[&dyn Study], results: &Results, is_own: bool) -> Result<(), String> {
+fn write_report(folder: &Path, studies: &[&'static Study], results: &Results, is_own: bool) -> Result<(), String> {
     let taken = [lab::RESULTS_FILE, "index.html"].into_iter().find(|name| folder.join(name).exists());
     if let (Some(name), false) = (taken, is_own) {
         return Err(format!("{} already holds {name}; choose another folder", folder.display()));

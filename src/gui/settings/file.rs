@@ -34,8 +34,9 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
             wrong(format!("{name} takes one value: {name} = {}", key.usual));
             continue;
         };
-        if let Err(what) = (key.read)(&mut settings, value) {
-            wrong(format!("{name} {what}"));
+        match (key.read)(value) {
+            Ok(change) => change.apply(&mut settings),
+            Err(what) => wrong(format!("{name} {what}")),
         }
     }
     (settings, mistakes)

@@ -146,8 +146,8 @@ pub struct Key {
     pub about: &'static str,
     /// As the file writes what holds without it.
     pub usual: &'static str,
-    /// Takes a value over. Err: what it must be.
-    pub read: fn(&mut Settings, &Value) -> Result<(), String>,
+    /// The change that a value of the file makes. Err: what it must be.
+    pub read: fn(&Value) -> Result<Change, String>,
 }
 
 pub const KEYS: &[Key] = &[
@@ -158,10 +158,9 @@ pub const KEYS: &[Key] = &[
         control: Control::Theme,
         about: "Theme: \"system\", \"dark\" or \"light\"",
         usual: "\"system\"",
-        read: |settings, value| {
+        read: |value| {
             let theme = Theme::ALL.into_iter().find(|theme| value.as_str() == Some(theme.name()));
-            settings.theme = theme.ok_or("must be \"system\", \"dark\" or \"light\"")?;
-            Ok(())
+            theme.map(Change::Theme).ok_or_else(|| "must be \"system\", \"dark\" or \"light\"".into())
         },
     },
     Key {
@@ -178,10 +177,7 @@ pub const KEYS: &[Key] = &[
         }),
         about: "Zoom of the window, from 0.5 to 4",
         usual: "1.0",
-        read: |settings, value| {
-            settings.zoom = number(value, &ZOOMS)?;
-            Ok(())
-        },
+        read: |value| number(value, &ZOOMS).map(Change::Zoom),
     },
     Key {
         name: "code-size",
@@ -197,10 +193,7 @@ pub const KEYS: &[Key] = &[
         }),
         about: "Code size in points, from 8 to 32",
         usual: "13.0",
-        read: |settings, value| {
-            settings.code_size = number(value, &CODE_SIZES)?;
-            Ok(())
-        },
+        read: |value| number(value, &CODE_SIZES).map(Change::CodeSize),
     },
     Key {
         name: "code-font",
@@ -209,10 +202,9 @@ pub const KEYS: &[Key] = &[
         control: Control::Font,
         about: "Font file for code (.ttf or .otf); \"\" for the built-in font",
         usual: "\"\"",
-        read: |settings, value| {
+        read: |value| {
             let path = value.as_str().ok_or("must be the path of a font file: \"/home/me/fonts/mono.ttf\"")?;
-            settings.code_font = (!path.is_empty()).then(|| path.to_owned());
-            Ok(())
+            Ok(Change::CodeFont((!path.is_empty()).then(|| path.to_owned())))
         },
     },
     Key {
@@ -222,10 +214,7 @@ pub const KEYS: &[Key] = &[
         control: Control::Switch { get: |settings| settings.word_wrap, change: Change::WordWrap },
         about: "Wrap long lines of code: true or false",
         usual: "false",
-        read: |settings, value| {
-            settings.word_wrap = value.as_bool().ok_or("must be true or false")?;
-            Ok(())
-        },
+        read: |value| switch(value).map(Change::WordWrap),
     },
     Key {
         name: "compile-on-save",
@@ -234,10 +223,7 @@ pub const KEYS: &[Key] = &[
         control: Control::Switch { get: |settings| settings.compile_on_save, change: Change::CompileOnSave },
         about: "Compile edits when they are saved and not while typing: true or false",
         usual: "false",
-        read: |settings, value| {
-            settings.compile_on_save = value.as_bool().ok_or("must be true or false")?;
-            Ok(())
-        },
+        read: |value| switch(value).map(Change::CompileOnSave),
     },
     Key {
         name: "frame-timeout",
@@ -253,11 +239,10 @@ pub const KEYS: &[Key] = &[
         }),
         about: "Pause when a frame takes longer than this many seconds; --frame-timeout overrides it",
         usual: "2.0",
-        read: |settings, value| {
+        read: |value| {
             let secs = float(value).filter(|secs| *secs > 0.0 && *secs <= MOST_SECONDS);
             let secs = secs.ok_or_else(|| format!("must be a number of seconds above 0, at most {MOST_SECONDS}"))?;
-            settings.frame_timeout = Duration::from_secs_f64(secs);
-            Ok(())
+            Ok(Change::FrameTimeout(Duration::from_secs_f64(secs)))
         },
     },
 ];
@@ -285,6 +270,10 @@ impl Key {
 
 fn float(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
+}
+
+fn switch(value: &Value) -> Result<bool, String> {
+    value.as_bool().ok_or_else(|| "must be true or false".into())
 }
 
 fn number(value: &Value, range: &std::ops::RangeInclusive<f32>) -> Result<f32, String> {

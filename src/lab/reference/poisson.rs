@@ -2,16 +2,25 @@
 
 use super::fft::{Complex, Fft};
 
-/// Numbers from -1 to 1 that are the same everywhere: SplitMix64 (Steele, Lea and Flood 2014).
+/// Numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(pub u64);
 
 impl Random {
-    pub fn number(&mut self) -> f64 {
+    fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as f64 / u64::MAX as f64 * 2.0 - 1.0
+        z ^ (z >> 31)
+    }
+
+    pub fn below(&mut self, limit: usize) -> usize {
+        (self.next() % limit.max(1) as u64) as usize
+    }
+
+    /// From -1 to 1.
+    pub fn number(&mut self) -> f64 {
+        self.next() as f64 / u64::MAX as f64 * 2.0 - 1.0
     }
 }
 

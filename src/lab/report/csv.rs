@@ -21,7 +21,7 @@ pub fn text(table: &Table) -> String {
         let (passed, all) = row.hard();
         let best = table.best(row.method);
         let mut cells = vec![
-            table.about.name.to_owned(),
+            table.study.name.to_owned(),
             row.method.name.to_owned(),
             row.point.setting.to_string(),
             row.point.grid.to_string(),

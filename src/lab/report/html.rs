@@ -99,9 +99,9 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
         let _ = writeln!(
             out,
             "<tr class=\"study\"><td colspan=\"13\"><a href=\"#{}\">{}</a> <small>{}, {} x {} texels</small></td></tr>",
-            table.about.name,
-            escaped(table.about.title),
-            table.about.unit.label(),
+            table.study.name,
+            escaped(table.study.title),
+            table.study.unit.label(),
             table.grid,
             table.grid
         );
@@ -115,7 +115,7 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
                 Reach::Never => ("", "never".into()),
             };
             let best = table.best(method).map_or("<td>&ndash;</td>".into(), |best| {
-                let title = format!("{} = {}, {} ms", table.about.parameter, best.setting, number(best.millis));
+                let title = format!("{} = {}, {} ms", table.study.parameter, best.setting, number(best.millis));
                 format!("<td title=\"{}\">{}</td>", escaped(&title), number(best.error))
             });
             cells(out, table, row, &format!("<td{class}>{reach}</td>{best}"));
@@ -153,8 +153,8 @@ fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
 }
 
 fn section(out: &mut String, table: &Table, svg: Option<&str>) {
-    let about = table.about;
-    let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", about.name, escaped(about.title), escaped(about.text));
+    let study = table.study;
+    let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", study.name, escaped(study.title), escaped(study.text));
     out.push_str(svg.unwrap_or("<p>Nothing to plot yet: costs are missing.</p>"));
     if let Some(verdict) = table.verdict() {
         let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&verdict));
@@ -166,7 +166,7 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
             "<p>Between {} = {coarse} and {fine} {} passes from one side of the truth to the other: there an error of \
              time and one of space cancel, and shorter steps give back what is left of the second. Its best error is \
              what they keep, {}, not the least of the plot.</p>",
-            escaped(table.about.parameter),
+            escaped(table.study.parameter),
             escaped(method.title),
             number(best.error)
         );

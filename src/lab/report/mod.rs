@@ -15,7 +15,7 @@ pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
 /// the files.
-pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Vec<String>, LabError> {
+pub fn write(out: &Path, studies: &[&'static Study], results: &Results) -> Result<Vec<String>, LabError> {
     fs::create_dir_all(out).map_err(LabError::io("make", out))?;
     let mut written = Vec::new();
     let mut save = |name: String, bytes: &[u8]| {
@@ -25,14 +25,14 @@ pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Ve
         Ok::<(), LabError>(())
     };
     let mut sections = Vec::new();
-    for table in studies.iter().filter_map(|study| Table::new(*study, results)) {
-        save(format!("{}.csv", table.about.name), csv::text(&table).as_bytes())?;
+    for table in studies.iter().filter_map(|study| Table::new(study, results)) {
+        save(format!("{}.csv", table.study.name), csv::text(&table).as_bytes())?;
         let svg = plot::svg(&table)?;
         if let Some(svg) = &svg {
-            save(format!("{}.svg", table.about.name), svg.as_bytes())?;
+            save(format!("{}.svg", table.study.name), svg.as_bytes())?;
         }
         if let Some(png) = plot::png(&table)? {
-            save(format!("{}.png", table.about.name), &png)?;
+            save(format!("{}.png", table.study.name), &png)?;
         }
         sections.push((table, svg));
     }

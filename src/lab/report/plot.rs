@@ -96,7 +96,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     area.fill(&WHITE).map_err(trouble)?;
     let (chart_area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let mut chart = ChartBuilder::on(&chart_area)
-        .caption(table.about.title, (FONT, 26, &INK))
+        .caption(table.study.title, (FONT, 26, &INK))
         .margin(14)
         .x_label_area_size(54)
         .y_label_area_size(76)
@@ -104,8 +104,8 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
         .map_err(trouble)?;
     chart
         .configure_mesh()
-        .x_desc(format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid))
-        .y_desc(&table.error_label)
+        .x_desc(format!("{} ({} x {} texels)", table.study.unit.label(), table.grid, table.grid))
+        .y_desc(table.study.error_label())
         .x_label_formatter(&|x| label(*x))
         .y_label_formatter(&|y| label(*y))
         .label_style((FONT, 17, &INK))
@@ -235,7 +235,7 @@ fn legend<B: DrawingBackend>(
         }
         y += entry_height(settings.len());
     }
-    area.draw(&Text::new(format!("settings: {}", table.about.parameter), (left, y + 4), text(15, &INK)))?;
+    area.draw(&Text::new(format!("settings: {}", table.study.parameter), (left, y + 4), text(15, &INK)))?;
     y += 36;
     for (fill, words) in
         [(INK, "best at its cost"), (GREY, "another is cheaper and closer"), (WHITE, "fails a hard case")]

@@ -14,8 +14,9 @@ use std::{path::PathBuf, sync::Arc};
 static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/lab");
 
 /// Says how the texels of all passes are to be stored, where that is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Storage {
+    #[default]
     AsWritten,
     /// Every 32-bit float format becomes the 16-bit one of as many components.
     Half,
@@ -34,7 +35,7 @@ struct Edit {
 type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 
 /// A project of `assets/lab` or a preset, at a size and with its settings.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Setup {
     folder: &'static str,
     size: (u32, u32),
@@ -57,23 +58,7 @@ impl Setup {
     /// `folder`: of `assets/lab`, or a preset's name. The pass `field` is what is looked at, unless [`Setup::wants`]
     /// says.
     pub fn new(folder: &'static str, size: (u32, u32)) -> Setup {
-        Setup {
-            folder,
-            size,
-            custom_uniforms: Vec::new(),
-            defines: Vec::new(),
-            steps: Vec::new(),
-            initial: Vec::new(),
-            texts: Vec::new(),
-            edits: Vec::new(),
-            states: Vec::new(),
-            storage: Storage::AsWritten,
-            wanted: vec![pass("field")],
-            skip: true,
-            given: Vec::new(),
-            value: None,
-            built: None,
-        }
+        Setup { folder, size, wanted: vec![pass("field")], skip: true, ..Setup::default() }
     }
 
     pub fn folder(&self) -> &'static str {

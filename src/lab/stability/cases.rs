@@ -20,7 +20,7 @@ pub enum Broken {
 }
 
 /// One thing that is done.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Case {
     pub kind: Kind,
     /// Unlike that of any other case of the project.
@@ -43,19 +43,7 @@ pub struct Case {
 
 impl Case {
     fn new(kind: Kind, name: impl Into<String>, size: (u32, u32), frames: u32, every: u32) -> Case {
-        Case {
-            kind,
-            name: name.into(),
-            size,
-            frames,
-            every,
-            values: CustomUniformValues::new(),
-            hand: Hand::Away,
-            steps: Steps::Usual,
-            resizes: Vec::new(),
-            poison: None,
-            disturbed: None,
-        }
+        Case { kind, name: name.into(), size, frames, every, ..Case::default() }
     }
 
     fn disturbed(mut self, from: u32, to: u32) -> Case {

@@ -69,11 +69,7 @@ impl<'s> Driver<'s> {
             frames: case.frames,
             settings: case.settings(),
             excuses,
-            outcome: None,
-            trouble: None,
-            recovery: None,
-            extremes: BTreeMap::new(),
-            courant: None,
+            ..StabilityRecord::default()
         };
         if let Err(trouble) = self.fill(case, &situation, &mut record) {
             record.trouble = Some(trouble.to_string());

@@ -8,8 +8,9 @@ const FRAMES_A_SECOND: f64 = 60.0;
 
 /// Says what the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
 /// frame after.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hand {
+    #[default]
     Away,
     /// Half of the canvas, in one even stroke.
     Slow,
@@ -54,9 +55,10 @@ impl Hand {
 }
 
 /// Says how long frames are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Steps {
     /// A sixtieth of a second.
+    #[default]
     Usual,
     /// So many times that, while the disturbance lasts.
     Times(f64),

@@ -5,6 +5,7 @@
 //! (D. Cohen, S. Dalal, M. Fredman, G. Patton, "The AETG System", IEEE TSE 23(7), 1997). Sliders that a row does not
 //! turn stay at their defaults, so that one that quiets everything cannot hide what the others do in every row.
 
+use crate::reference::poisson::Random;
 use std::collections::BTreeSet;
 
 /// A slider by its number, and whether it stands at its upper end.
@@ -66,19 +67,6 @@ pub fn rows(count: usize, most: usize, seed: u64) -> Vec<Vec<End>> {
 
 fn ordered(a: End, b: End) -> Pair {
     if a.0 < b.0 { (a, b) } else { (b, a) }
-}
-
-/// SplitMix64: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % limit.max(1) as u64) as usize
-    }
 }
 
 #[cfg(test)]

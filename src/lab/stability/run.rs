@@ -169,12 +169,9 @@ mod tests {
             size: case.size,
             frames: case.frames,
             settings: case.settings(),
-            excuses: Vec::new(),
             outcome: Some(Outcome::Held),
-            trouble: None,
-            recovery: None,
             extremes,
-            courant: None,
+            ..StabilityRecord::default()
         };
         assert!(judge::still_holds(&subject, &case, &record));
         // A picture of 1.5 where 1 is all there may be: it is drawn again, and told.

@@ -5,7 +5,7 @@ use super::{
     ao_setup::{ROOM_RADIUS, TABLE_RADIUS, room_falloff, setup, texel},
 };
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::{
         rays::{Errors, Meshes, add, hidden, on_all_cores, unit},
@@ -13,8 +13,6 @@ use crate::{
     },
     three_of,
 };
-
-pub struct Ao;
 
 /// Rays a point along either side of the square of strata.
 const SIDE: u32 = 32;
@@ -115,65 +113,49 @@ pub fn occlusion(rig: &Rig, method: &str, samples: f64, size: (u32, u32)) -> Res
     if method == "horizons" { on_the_table(rig, &setup) } else { in_the_room(rig, &setup) }
 }
 
-impl Study for Ao {
-    fn about(&self) -> About {
-        About {
-            name: "ao",
-            title: "Ambient occlusion",
-            text: "Some 900 points of each preset's scene, the still life on its table and the meshes in their room, \
-                   against 1,024 stratified rays a point, weighted by the cosine, of the preset's radius and falloff, \
-                   in f64. The error is the root mean square of the hidden part of the sky, of which 1 is all. The \
-                   table gives the mean of the error, the points that are hidden by .1 too much (a halo), and the most \
-                   where nothing hides; and, each in scenes of its own, the largest errors beside a wall and below a \
-                   sphere. Of the slices, with a radius of 4, these are from (1 - cos t) / 2 and R² h / (r² + \
-                   h²)^(3/2); of the samples, with the preset's radius, from the mean of a disc's segments over their \
-                   lengths and from the sphere itself by rays. Hard cases: at most .05 from the rays; an \
-                   open plane less than .01; a halo on at most 1 % of the points. Costs are those of the whole preset, \
-                   every pass drawn.",
-            parameter: "samples",
-            unit: Unit::Frame,
-            error: "of the hidden part of the sky, of which 1 is all",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "ao",
+    title: "Ambient occlusion",
+    text: "Some 900 points of each preset's scene, the still life on its table and the meshes in their room, \
+           against 1,024 stratified rays a point, weighted by the cosine, of the preset's radius and falloff, \
+           in f64. The error is the root mean square of the hidden part of the sky, of which 1 is all. The \
+           table gives the mean of the error, the points that are hidden by .1 too much (a halo), and the most \
+           where nothing hides; and, each in scenes of its own, the largest errors beside a wall and below a \
+           sphere. Of the slices, with a radius of 4, these are from (1 - cos t) / 2 and R² h / (r² + \
+           h²)^(3/2); of the samples, with the preset's radius, from the mean of a disc's segments over their \
+           lengths and from the sphere itself by rays. Hard cases: at most .05 from the rays; an \
+           open plane less than .01; a halo on at most 1 % of the points. Costs are those of the whole preset, \
+           every pass drawn.",
+    parameter: "samples",
+    unit: Unit::Frame,
+    error: "of the hidden part of the sky, of which 1 is all",
+    methods: METHODS,
+    grids: three_of([80, 160, 320, 640]),
+    // The radius is as many times the scene on every grid, and so are the errors.
+    has_order: false,
+    ..Study::of(|point| setup(&point.method, point.setting, (point.grid, point.grid)), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[80, 160, 320, 640])
-    }
-
-    /// The radius is as many times the scene on every grid, and so are the errors.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(&point.method, point.setting, (point.grid, point.grid))
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let found = occlusion(rig, &point.method, point.setting, (point.grid, point.grid))?;
-        let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
-        let size = found.iter().map(|o| (o.measured - o.expected).abs()).sum::<f64>() / found.len() as f64;
-        let halo = found.iter().filter(|o| o.measured - o.expected > 0.1).count() as f64 / found.len() as f64;
-        let open = open_most(&found);
-        let norms = Norms { l1: size, l2: off.rms, linf: off.most };
-        let measured = Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("bias", off.mean)
-            .value("halo_share", halo)
-            .value("open_most", open)
-            .hard(HardCase::at_most("rays", off.rms, 0.05))
-            .hard(HardCase::at_most("an open plane", open, 0.01))
-            .hard(HardCase::at_most("points in a halo", halo, 0.01));
-        let closed = match point.method.as_str() {
-            "horizons" => closed(rig, point.setting, point.grid)?,
-            method => closed_of_meshes(rig, method, point.setting, point.grid)?,
-        };
-        let measured = measured.value("wall_error", closed.wall).value("sphere_error", closed.sphere);
-        Ok(measured.hard(HardCase::at_most("an endless plane", closed.open, 0.01)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let found = occlusion(rig, &point.method, point.setting, (point.grid, point.grid))?;
+    let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
+    let size = found.iter().map(|o| (o.measured - o.expected).abs()).sum::<f64>() / found.len() as f64;
+    let halo = found.iter().filter(|o| o.measured - o.expected > 0.1).count() as f64 / found.len() as f64;
+    let open = open_most(&found);
+    let norms = Norms { l1: size, l2: off.rms, linf: off.most };
+    let measured = Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("bias", off.mean)
+        .value("halo_share", halo)
+        .value("open_most", open)
+        .hard(HardCase::at_most("rays", off.rms, 0.05))
+        .hard(HardCase::at_most("an open plane", open, 0.01))
+        .hard(HardCase::at_most("points in a halo", halo, 0.01));
+    let closed = match point.method.as_str() {
+        "horizons" => closed(rig, point.setting, point.grid)?,
+        method => closed_of_meshes(rig, method, point.setting, point.grid)?,
+    };
+    let measured = measured.value("wall_error", closed.wall).value("sphere_error", closed.sphere);
+    Ok(measured.hard(HardCase::at_most("an endless plane", closed.open, 0.01)))
 }
 
 #[cfg(test)]

@@ -2,12 +2,10 @@
 
 use super::blur::pyramid;
 use crate::{
-    About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
+    Field, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, mean},
     three_of,
 };
-
-pub struct Bloom;
 
 /// Texels of the canvas that a texel of the widest level stands for: a pyramid of five levels repeats its phases so
 /// often.
@@ -203,81 +201,69 @@ fn firefly(rig: &Rig, setup: &Setup) -> Result<f64, LabError> {
     Ok(wall("1e6")? - wall("0.05")?)
 }
 
-impl Study for Bloom {
-    fn about(&self) -> About {
-        About {
-            name: "bloom",
-            title: "Bloom",
-            text: "A bright texel on black, at phases of the pyramid (all 1,024 for the usual setting of a full run, \
-                   else 64), on the canvas of the plot and on one of odd sides. Whatever the shape of a glow, it must \
-                   not depend on where it is: the error is that of the pictures, moved to the middle, from their mean. \
-                   Hard cases: a spot's total stays within 1 % and its centroid within .25 pixel at every phase; its \
-                   total stays within 1 % at the edges of the odd canvas, where what leaves comes back; a texel of a \
-                   million in a wall makes the mean no brighter than by .005. The peers are the plain pyramids of the \
-                   study of blurs.",
-            parameter: "weight of the wider levels, or levels",
-            unit: Unit::Frame,
-            error: "of a spot's glow from its mean over the phases",
+pub static STUDY: Study = Study {
+    name: "bloom",
+    title: "Bloom",
+    text: "A bright texel on black, at phases of the pyramid (all 1,024 for the usual setting of a full run, \
+           else 64), on the canvas of the plot and on one of odd sides. Whatever the shape of a glow, it must \
+           not depend on where it is: the error is that of the pictures, moved to the middle, from their mean. \
+           Hard cases: a spot's total stays within 1 % and its centroid within .25 pixel at every phase; its \
+           total stays within 1 % at the edges of the odd canvas, where what leaves comes back; a texel of a \
+           million in a wall makes the mean no brighter than by .005. The peers are the plain pyramids of the \
+           study of blurs.",
+    parameter: "weight of the wider levels, or levels",
+    unit: Unit::Frame,
+    error: "of a spot's glow from its mean over the phases",
+    methods: METHODS,
+    grids: three_of([64, 128, 256, 512]),
+    // A pyramid's kernel is as wide in texels on every canvas.
+    has_order: false,
+    ..Study::of(drawn, measure)
+};
+
+fn drawn(point: &Point) -> Setup {
+    let setup = whole(&point.method, point.setting, (point.grid, point.grid));
+    let source = source(&setup);
+    // Something to draw in every frame, as a scene has.
+    let scene = "void mainImage(out vec4 light, in vec2 fragCoord) {
+        light = vec4(vec3(fract(sin(dot(floor(fragCoord / 8.0), vec2(12.9898, 78.233)) + iTime) * 43758.5453)), 1.0);
+    }";
+    setup.text(source, scene)
+}
+
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let n = point.grid;
+    let is_usual = METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting);
+    let count = if is_usual && n >= 512 { PERIOD * PERIOD } else { COMPARED };
+    let (mut worst, mut compared) = (Worst::NONE, Vec::new());
+    let at = |size, count| (0..count).map(|i| phase(i, size)).collect::<Vec<_>>();
+    let on_grid = setup(&point.method, point.setting, (n, n));
+    spots(rig, &on_grid, &at((n, n), count), |spot| {
+        worst.add(&spot);
+        if compared.len() < COMPARED as usize {
+            compared.push(spot);
         }
-    }
-
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[64, 128, 256, 512])
-    }
-
-    /// A pyramid's kernel is as wide in texels on every canvas.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        let setup = whole(&point.method, point.setting, (point.grid, point.grid));
-        let source = source(&setup);
-        // Something to draw in every frame, as a scene has.
-        let scene = "void mainImage(out vec4 light, in vec2 fragCoord) {
-            light = vec4(vec3(fract(sin(dot(floor(fragCoord / 8.0), vec2(12.9898, 78.233)) + iTime) * 43758.5453)), 1.0);
-        }";
-        setup.text(source, scene)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let n = point.grid;
-        let is_usual = METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting);
-        let count = if is_usual && n >= 512 { PERIOD * PERIOD } else { COMPARED };
-        let (mut worst, mut compared) = (Worst::NONE, Vec::new());
-        let at = |size, count| (0..count).map(|i| phase(i, size)).collect::<Vec<_>>();
-        let on_grid = setup(&point.method, point.setting, (n, n));
-        spots(rig, &on_grid, &at((n, n), count), |spot| {
-            worst.add(&spot);
-            if compared.len() < COMPARED as usize {
-                compared.push(spot);
-            }
-        })?;
-        let (all, middle) = moved_to_the_middle(&compared, n as usize);
-        let peaks: Vec<f64> = compared.iter().map(|s| s.light.iter().copied().fold(0.0, f64::max)).collect();
-        let (low, high) = peaks.iter().fold((f64::MAX, 0.0f64), |(lo, hi), p| (lo.min(*p), hi.max(*p)));
-        let variance = compared.iter().map(|s| s.variance).sum::<f64>() / compared.len() as f64;
-        let (size, mut beside) = (odd(n), Worst::NONE);
-        let on_odd = setup(&point.method, point.setting, size);
-        spots(rig, &on_odd, &at(size, PERIOD), |spot| worst.add(&spot))?;
-        spots(rig, &on_odd, &edges(size), |spot| beside.add(&spot))?;
-        Ok(Measured { norms: Norms::of(&all, &middle), frames_per_unit: 1.0, ..Measured::default() }
-            .value("total_low", worst.low)
-            .value("total_high", worst.high)
-            .value("centroid_px", worst.shift)
-            .value("peak_spread", (high - low) / mean(&peaks))
-            .value("sigma_px", variance.sqrt())
-            .value("edge_total_low", beside.low)
-            .value("edge_total_high", beside.high)
-            .hard(HardCase::at_most("total at every phase", worst.gain(), 0.01))
-            .hard(HardCase::at_most("centroid at every phase, pixels", worst.shift, 0.25))
-            .hard(HardCase::at_most("total at the edges of odd sizes", beside.gain(), 0.01))
-            .hard(HardCase::at_most("a texel of a million", firefly(rig, &on_grid)?, 0.005)))
-    }
+    })?;
+    let (all, middle) = moved_to_the_middle(&compared, n as usize);
+    let peaks: Vec<f64> = compared.iter().map(|s| s.light.iter().copied().fold(0.0, f64::max)).collect();
+    let (low, high) = peaks.iter().fold((f64::MAX, 0.0f64), |(lo, hi), p| (lo.min(*p), hi.max(*p)));
+    let variance = compared.iter().map(|s| s.variance).sum::<f64>() / compared.len() as f64;
+    let (size, mut beside) = (odd(n), Worst::NONE);
+    let on_odd = setup(&point.method, point.setting, size);
+    spots(rig, &on_odd, &at(size, PERIOD), |spot| worst.add(&spot))?;
+    spots(rig, &on_odd, &edges(size), |spot| beside.add(&spot))?;
+    Ok(Measured { norms: Norms::of(&all, &middle), frames_per_unit: 1.0, ..Measured::default() }
+        .value("total_low", worst.low)
+        .value("total_high", worst.high)
+        .value("centroid_px", worst.shift)
+        .value("peak_spread", (high - low) / mean(&peaks))
+        .value("sigma_px", variance.sqrt())
+        .value("edge_total_low", beside.low)
+        .value("edge_total_high", beside.high)
+        .hard(HardCase::at_most("total at every phase", worst.gain(), 0.01))
+        .hard(HardCase::at_most("centroid at every phase, pixels", worst.shift, 0.25))
+        .hard(HardCase::at_most("total at the edges of odd sizes", beside.gain(), 0.01))
+        .hard(HardCase::at_most("a texel of a million", firefly(rig, &on_grid)?, 0.005)))
 }
 
 #[cfg(test)]

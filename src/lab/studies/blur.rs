@@ -2,14 +2,12 @@
 //! filter.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, drift},
     three_of,
 };
 use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap};
 use std::f64::consts::TAU;
-
-pub struct Blur;
 
 /// The blur that is asked for has the standard deviation of the nine taps; and the widest that the preset's slider has,
 /// of the methods that take one.
@@ -170,60 +168,44 @@ fn phases(n: usize, field: &[f64]) -> Phases {
     Phases { shift: worst, spread: (high - low) / mean, sigma: variance.sqrt() }
 }
 
-impl Study for Blur {
-    fn about(&self) -> About {
-        About {
-            name: "blur",
-            title: "Blur",
-            text: "Single bright texels at many places, against a Gaussian of standard deviation 2.138, which is that \
-                   of the well-known nine taps. The table gives what became of the sum, how far a centroid moved, by \
-                   how much peaks differ from place to place, and the standard deviation that is delivered, about the \
-                   centroid; of methods that take one also the error and what is delivered where 2.5 is asked for. The \
-                   hard case is that an even picture stays what it was, within 1e-5.",
-            parameter: "cut-off in standard deviations, levels, or the preset's variant",
-            unit: Unit::Frame,
-            error: "of the blurred texels",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "blur",
+    title: "Blur",
+    text: "Single bright texels at many places, against a Gaussian of standard deviation 2.138, which is that \
+           of the well-known nine taps. The table gives what became of the sum, how far a centroid moved, by \
+           how much peaks differ from place to place, and the standard deviation that is delivered, about the \
+           centroid; of methods that take one also the error and what is delivered where 2.5 is asked for. The \
+           hard case is that an even picture stays what it was, within 1e-5.",
+    parameter: "cut-off in standard deviations, levels, or the preset's variant",
+    unit: Unit::Frame,
+    error: "of the blurred texels",
+    methods: METHODS,
+    grids: three_of([64, 128, 256, 512]),
+    // The Gaussian is asked for in texels.
+    has_order: false,
+    ..Study::of(|point| setup(point, SIGMA), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let n = point.grid as usize;
+    let (source, result) = ends(&point.method);
+    let after = rig.after(&(STUDY.setup)(point), 1, result)?.component(0);
+    let phases = self::phases(n, &after);
+    let even = rig.after(&(STUDY.setup)(point).initial(source, "vec4(1.0)"), 1, result)?.component(0);
+    let worst = even.iter().fold(0.0f64, |a, b| a.max((b - 1.0).abs()));
+    let norms = Norms::of(&after, &exact(n, SIGMA));
+    let mut measured = Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("mass_drift", drift(&spots(n), &after))
+        .value("centroid_texels", phases.shift)
+        .value("peak_spread", phases.spread)
+        .value("sigma", phases.sigma);
+    if takes_sigma(&point.method) {
+        let wide = rig.after(&setup(point, WIDE_SIGMA), 1, result)?.component(0);
+        measured = measured
+            .value("l2_at_2.5", Norms::of(&wide, &exact(n, WIDE_SIGMA)).l2)
+            .value("sigma_at_2.5", self::phases(n, &wide).sigma);
     }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[64, 128, 256, 512])
-    }
-
-    /// The Gaussian is asked for in texels.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(point, SIGMA)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let n = point.grid as usize;
-        let (source, result) = ends(&point.method);
-        let after = rig.after(&self.setup(point), 1, result)?.component(0);
-        let phases = self::phases(n, &after);
-        let even = rig.after(&self.setup(point).initial(source, "vec4(1.0)"), 1, result)?.component(0);
-        let worst = even.iter().fold(0.0f64, |a, b| a.max((b - 1.0).abs()));
-        let norms = Norms::of(&after, &exact(n, SIGMA));
-        let mut measured = Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("mass_drift", drift(&spots(n), &after))
-            .value("centroid_texels", phases.shift)
-            .value("peak_spread", phases.spread)
-            .value("sigma", phases.sigma);
-        if takes_sigma(&point.method) {
-            let wide = rig.after(&setup(point, WIDE_SIGMA), 1, result)?.component(0);
-            measured = measured
-                .value("l2_at_2.5", Norms::of(&wide, &exact(n, WIDE_SIGMA)).l2)
-                .value("sigma_at_2.5", self::phases(n, &wide).sigma);
-        }
-        Ok(measured.hard(HardCase::at_most("an even picture", worst, 1e-5)))
-    }
+    Ok(measured.hard(HardCase::at_most("an even picture", worst, 1e-5)))
 }
 
 #[cfg(test)]

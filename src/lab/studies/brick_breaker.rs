@@ -1,11 +1,9 @@
 //! The ball of a game of bricks against one that is computed in fractions.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit, metrics::Norms,
+    HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit, metrics::Norms,
     reference::billiard::Billiard,
 };
-
-pub struct BrickBreaker;
 
 /// Units a frame; the preset's ball does 3 in its first level.
 const SPEEDS: &[f64] = &[1.0, 3.0, 10.0, 30.0, 100.0, 300.0];
@@ -177,65 +175,46 @@ pub fn unfolded(rig: &Rig, side: u32, frames: u32) -> Result<(f64, f64), LabErro
     Ok((f64::from(frames / 4 * 4) * (way(0) + way(1)), off))
 }
 
-impl Study for BrickBreaker {
-    fn about(&self) -> About {
-        About {
-            name: "brick-breaker",
-            title: "Brick breaker",
-            text: "A ball flies 1,200 units among 96 bricks and four walls, at 1 to 300 units a frame; the bricks are \
-                   18.4 x 7.4. The reference is event-driven and computed in fractions, so that nothing is rounded \
-                   but the way of a frame, to 2^-15 units. The error is that of the ball's place in all frames; half \
-                   of 2^-15 units is added, as no place is known closer. The preset finds the time of each impact; \
-                   its peers move the ball and look what it overlaps. The hard cases: the same bricks are broken, no \
-                   brick comes back, the ball stays within the walls, its velocity changes sign and nothing else; and \
-                   for the preset, at its usual setting, that at 10,000 units a frame it is within .001 units of the \
-                   unfolded path after 10,000 bounces.",
-            parameter: "units a frame",
-            unit: Unit::Scene,
-            error: "of the ball's place",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "brick-breaker",
+    title: "Brick breaker",
+    text: "A ball flies 1,200 units among 96 bricks and four walls, at 1 to 300 units a frame; the bricks are \
+           18.4 x 7.4. The reference is event-driven and computed in fractions, so that nothing is rounded \
+           but the way of a frame, to 2^-15 units. The error is that of the ball's place in all frames; half \
+           of 2^-15 units is added, as no place is known closer. The preset finds the time of each impact; \
+           its peers move the ball and look what it overlaps. The hard cases: the same bricks are broken, no \
+           brick comes back, the ball stays within the walls, its velocity changes sign and nothing else; and \
+           for the preset, at its usual setting, that at 10,000 units a frame it is within .001 units of the \
+           unfolded path after 10,000 bounces.",
+    parameter: "units a frame",
+    unit: Unit::Scene,
+    error: "of the ball's place",
+    methods: METHODS,
+    grids: [[16, 32, 64]; 2],
+    // The state has one size.
+    main_grid: Some(16),
+    has_order: false,
+    ..Study::of(|point| playing(&point.method, point.grid, point.setting), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let frames = (PATH / point.setting).round();
+    let game = played(rig, &point.method, point.grid, point.setting, frames as u32)?;
+    let mut norms = game.norms;
+    let half_tick = 0.5 / TICKS / 160.0;
+    (norms.l1, norms.l2, norms.linf) = (norms.l1 + half_tick, norms.l2 + half_tick, norms.linf + half_tick);
+    let mut measured = Measured { norms, frames_per_unit: frames, ..Measured::default() }
+        .value("bricks_hit", game.bricks_hit as f64)
+        .value("bricks_wrong", game.bricks_wrong as f64)
+        .value("units_off", game.off)
+        .hard(HardCase::at_most("bricks unlike the exact game's", game.bricks_wrong as f64, 0.0))
+        .hard(HardCase::at_most("bricks that come back", game.came_back as f64, 0.0))
+        .hard(HardCase::at_most("units beyond a wall", game.outside, 1e-4))
+        .hard(HardCase::at_most("change of speed", game.speed_drift, 0.0));
+    if is_preset(&point.method) && point.setting == METHODS[0].usual {
+        let (bounces, off) = unfolded(rig, point.grid, 144)?;
+        measured = measured.value("unfolded_bounces", bounces).value("unfolded_off", off);
+        measured = measured.hard(HardCase::at_most("units off the unfolded path", off, 1e-3));
     }
-
-    fn grids(&self, _: Extent) -> &'static [u32] {
-        &[16, 32, 64]
-    }
-
-    /// The state has one size.
-    fn main_grid(&self, _: Extent) -> u32 {
-        16
-    }
-
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        playing(&point.method, point.grid, point.setting)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let frames = (PATH / point.setting).round();
-        let game = played(rig, &point.method, point.grid, point.setting, frames as u32)?;
-        let mut norms = game.norms;
-        let half_tick = 0.5 / TICKS / 160.0;
-        (norms.l1, norms.l2, norms.linf) = (norms.l1 + half_tick, norms.l2 + half_tick, norms.linf + half_tick);
-        let mut measured = Measured { norms, frames_per_unit: frames, ..Measured::default() }
-            .value("bricks_hit", game.bricks_hit as f64)
-            .value("bricks_wrong", game.bricks_wrong as f64)
-            .value("units_off", game.off)
-            .hard(HardCase::at_most("bricks unlike the exact game's", game.bricks_wrong as f64, 0.0))
-            .hard(HardCase::at_most("bricks that come back", game.came_back as f64, 0.0))
-            .hard(HardCase::at_most("units beyond a wall", game.outside, 1e-4))
-            .hard(HardCase::at_most("change of speed", game.speed_drift, 0.0));
-        if is_preset(&point.method) && point.setting == METHODS[0].usual {
-            let (bounces, off) = unfolded(rig, point.grid, 144)?;
-            measured = measured.value("unfolded_bounces", bounces).value("unfolded_off", off);
-            measured = measured.hard(HardCase::at_most("units off the unfolded path", off, 1e-3));
-        }
-        Ok(measured)
-    }
+    Ok(measured)
 }

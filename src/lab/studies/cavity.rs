@@ -2,12 +2,10 @@
 
 use super::flow::{Flow, Solver, Watched, largest};
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Study, Unit,
     metrics::Norms,
     reference::cavity::{REYNOLDS, SUSPECT, U, U_HIGH, V, V_HIGH, extrema},
 };
-
-pub struct Cavity;
 
 const METHODS: &[Method] = &[
     Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: &[1.0, 2.0, 4.0], usual: 2.0 },
@@ -142,88 +140,72 @@ pub fn lines(rig: &Rig, name: &str, n: u32, courant: f64, reynolds: f64, time: f
     Ok((Lines::of(&solver, n as usize, watched), frames))
 }
 
-impl Study for Cavity {
-    fn about(&self) -> About {
-        About {
-            name: "cavity",
-            title: "Lid-driven cavity",
-            text: "A box of side 1 whose lid has speed 1, from rest until the flow stands still. The error is that of \
-                   three extrema at Re = 100 (least u on the vertical middle line, largest and least v on the \
-                   horizontal one) against those of high-order methods; ghia_u and ghia_v are the largest differences \
-                   from the tables of Ghia, Ghia and Shin 1982. At its usual step each method is asked for Re = 400 and \
-                   1000 too, on 128 x 128 texels, with high_ for the lines and extrema of high-order methods \
-                   at Re = 1000, from which the table's v is up to .0185 off, and v where the table of Re = 400 has a \
-                   misprint (-.238; it is not scored). noise is the largest fourth difference of u along x under the \
-                   lid. Hard cases, on 128 x 128: u and v within .01 of the tables of Re = 100 and 400 and of the \
-                   high-order lines of Re = 1000, noise at most .0005. Guay's program has no walls of its own; with \
-                   walls it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is \
-                   compressible: mach is the greatest speed that was met over that of sound.",
-            parameter: "Courant number of the lid",
-            unit: Unit::Scene,
-            error: "of the extrema at Re = 100",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "cavity",
+    title: "Lid-driven cavity",
+    text: "A box of side 1 whose lid has speed 1, from rest until the flow stands still. The error is that of \
+           three extrema at Re = 100 (least u on the vertical middle line, largest and least v on the \
+           horizontal one) against those of high-order methods; ghia_u and ghia_v are the largest differences \
+           from the tables of Ghia, Ghia and Shin 1982. At its usual step each method is asked for Re = 400 and \
+           1000 too, on 128 x 128 texels, with high_ for the lines and extrema of high-order methods \
+           at Re = 1000, from which the table's v is up to .0185 off, and v where the table of Re = 400 has a \
+           misprint (-.238; it is not scored). noise is the largest fourth difference of u along x under the \
+           lid. Hard cases, on 128 x 128: u and v within .01 of the tables of Re = 100 and 400 and of the \
+           high-order lines of Re = 1000, noise at most .0005. Guay's program has no walls of its own; with \
+           walls it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is \
+           compressible: mach is the greatest speed that was met over that of sound.",
+    parameter: "Courant number of the lid",
+    unit: Unit::Scene,
+    error: "of the extrema at Re = 100",
+    methods: METHODS,
+    // Two texels a step on fewer would be beyond the slider of `fluid-accurate`.
+    grids: [[12, 24, 48], [32, 64, 128]],
+    ..Study::of(|point| solver(&point.method, point.grid, point.setting, REYNOLDS[0]).setup, measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (n, courant) = (point.grid, point.setting);
+    let run = |column: usize| lines(rig, &point.method, n, courant, REYNOLDS[column], TIMES[column]);
+    let (slow, frames) = run(0)?;
+    let norms = |lines: &Lines, exact: Option<[f64; 3]>| exact.map(|e| Norms::of(&lines.extrema(), &e));
+    let (u, v) = slow.off_tables(0);
+    let mut measured = Measured {
+        norms: norms(&slow, extrema(REYNOLDS[0])).unwrap_or_default(),
+        frames_per_unit: f64::from(frames),
+        ..Measured::default()
     }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            // Two texels a step on fewer would be beyond the slider of `fluid-accurate`.
-            Extent::Quick => &[12, 24, 48],
-            Extent::Full => &[32, 64, 128],
-        }
+    .value("ghia_u_100", u)
+    .value("ghia_v_100", v)
+    .value("noise", slow.noise);
+    measured = slow.watched.add_to(measured);
+    if n < FINE {
+        return Ok(measured);
     }
-
-    fn setup(&self, point: &Point) -> Setup {
-        solver(&point.method, point.grid, point.setting, REYNOLDS[0]).setup
+    let within = |column: usize, (u, v): (f64, f64)| {
+        HardCase::at_most(&format!("lines of Re = {}", REYNOLDS[column]), u.max(v), 0.01)
+    };
+    let quiet = |noise: f64| HardCase::at_most("noise under the lid", noise, 5e-4);
+    measured = measured.hard(within(0, (u, v)));
+    if !is_usual(point) {
+        return Ok(measured.hard(quiet(slow.noise)));
     }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (n, courant) = (point.grid, point.setting);
-        let run = |column: usize| lines(rig, &point.method, n, courant, REYNOLDS[column], TIMES[column]);
-        let (slow, frames) = run(0)?;
-        let norms = |lines: &Lines, exact: Option<[f64; 3]>| exact.map(|e| Norms::of(&lines.extrema(), &e));
-        let (u, v) = slow.off_tables(0);
-        let mut measured = Measured {
-            norms: norms(&slow, extrema(REYNOLDS[0])).unwrap_or_default(),
-            frames_per_unit: f64::from(frames),
-            ..Measured::default()
-        }
-        .value("ghia_u_100", u)
-        .value("ghia_v_100", v)
-        .value("noise", slow.noise);
-        measured = slow.watched.add_to(measured);
-        if n < FINE {
-            return Ok(measured);
-        }
-        let within = |column: usize, (u, v): (f64, f64)| {
-            HardCase::at_most(&format!("lines of Re = {}", REYNOLDS[column]), u.max(v), 0.01)
-        };
-        let quiet = |noise: f64| HardCase::at_most("noise under the lid", noise, 5e-4);
-        measured = measured.hard(within(0, (u, v)));
-        if !is_usual(point) {
-            return Ok(measured.hard(quiet(slow.noise)));
-        }
-        let (middle, fast) = (run(1)?.0, run(2)?.0);
-        let ((u4, v4), (u10, v10), high) = (middle.off_tables(1), fast.off_tables(2), fast.off_high());
-        if let Some(mach) = fast.watched.mach {
-            measured = measured.value("mach_1000", mach);
-        }
-        Ok(measured
-            .value("ghia_u_400", u4)
-            .value("ghia_v_400", v4)
-            .value("v_400_at_misprint", middle.at_suspect())
-            .value("ghia_u_1000", u10)
-            .value("ghia_v_1000", v10)
-            .value("high_u_1000", high.0)
-            .value("high_v_1000", high.1)
-            .value("high_extrema_1000", norms(&fast, extrema(REYNOLDS[2])).unwrap_or_default().l2)
-            .hard(within(1, (u4, v4)))
-            .hard(within(2, high))
-            .hard(quiet(slow.noise.max(middle.noise).max(fast.noise))))
+    let (middle, fast) = (run(1)?.0, run(2)?.0);
+    let ((u4, v4), (u10, v10), high) = (middle.off_tables(1), fast.off_tables(2), fast.off_high());
+    if let Some(mach) = fast.watched.mach {
+        measured = measured.value("mach_1000", mach);
     }
+    Ok(measured
+        .value("ghia_u_400", u4)
+        .value("ghia_v_400", v4)
+        .value("v_400_at_misprint", middle.at_suspect())
+        .value("ghia_u_1000", u10)
+        .value("ghia_v_1000", v10)
+        .value("high_u_1000", high.0)
+        .value("high_v_1000", high.1)
+        .value("high_extrema_1000", norms(&fast, extrema(REYNOLDS[2])).unwrap_or_default().l2)
+        .hard(within(1, (u4, v4)))
+        .hard(within(2, high))
+        .hard(quiet(slow.noise.max(middle.noise).max(fast.noise))))
 }
 
 #[cfg(test)]

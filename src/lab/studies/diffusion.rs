@@ -2,14 +2,12 @@
 //! error.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, checkerboard, drift},
     reference::gaussian_on_torus,
     setup::{Storage, frames_of},
     three_of,
 };
-
-pub struct Diffusion;
 
 /// Standard deviation at first, as a part of the width, and how much the variance grows in units of its square.
 const START: f64 = 1.0 / 32.0;
@@ -36,55 +34,46 @@ fn steps(point: &Point) -> (u32, f64) {
     (steps as u32, steps * point.setting)
 }
 
-impl Study for Diffusion {
-    fn about(&self) -> About {
-        About {
-            name: "diffusion",
-            title: "Diffusion",
-            text: "A Gaussian of standard deviation N/32 on a torus of N x N texels spreads until its variance is 13.5 \
-                   times that at first. The exact solution is a Gaussian again, with its images. The hard case adds a \
-                   checkerboard of amplitude 0.01, which no scheme may amplify.",
-            parameter: "D dt / h²",
-            unit: Unit::Scene,
-            error: "of the concentration",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "diffusion",
+    title: "Diffusion",
+    text: "A Gaussian of standard deviation N/32 on a torus of N x N texels spreads until its variance is 13.5 \
+           times that at first. The exact solution is a Gaussian again, with its images. The hard case adds a \
+           checkerboard of amplitude 0.01, which no scheme may amplify.",
+    parameter: "D dt / h²",
+    unit: Unit::Scene,
+    error: "of the concentration",
+    methods: METHODS,
+    grids: three_of([32, 64, 128, 256]),
+    ..Study::of(setup, measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn setup(point: &Point) -> Setup {
+    let folder = if point.method == "blur" { "diffusion_blur" } else { "diffusion_stencil" };
+    let setup = Setup::new(folder, (point.grid, point.grid)).uniform("rate", point.setting);
+    let setup = setup.steps("solver", frames_of(steps(point).0, 25).1);
+    match point.method.as_str() {
+        "five-point" => setup.define("STENCIL", 5),
+        "mehrstellen" => setup.define("STENCIL", 9),
+        "five-point-r16f" => setup.define("STENCIL", 5).storage(Storage::Half),
+        _ => setup,
     }
+}
 
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[32, 64, 128, 256])
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        let folder = if point.method == "blur" { "diffusion_blur" } else { "diffusion_stencil" };
-        let setup = Setup::new(folder, (point.grid, point.grid)).uniform("rate", point.setting);
-        let setup = setup.steps("solver", frames_of(steps(point).0, 25).1);
-        match point.method.as_str() {
-            "five-point" => setup.define("STENCIL", 5),
-            "mehrstellen" => setup.define("STENCIL", 9),
-            "five-point-r16f" => setup.define("STENCIL", 5).storage(Storage::Half),
-            _ => setup,
-        }
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (total, time) = steps(point);
-        let (frames, _) = frames_of(total, 25);
-        let mut running = rig.open(&self.setup(point))?;
-        let before = running.read("field")?.component(0);
-        running.frames(frames)?;
-        let after = running.read("field")?.component(0);
-        let n = point.grid as usize;
-        let start = START * n as f64;
-        let exact = gaussian_on_torus(n, start, start * start + 2.0 * time);
-        let noisy = rig.after(&self.setup(point).uniform("noise", 0.01), frames, "field")?.component(0);
-        // What is left of a wave that explicit Euler keeps stable is at most what there was.
-        let left = checkerboard(&noisy, n).abs();
-        Ok(Measured { norms: Norms::of(&after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
-            .value("mass_drift", drift(&before, &after))
-            .hard(HardCase::at_most("checkerboard of 0.01 after the run", left, 0.0101)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (total, time) = steps(point);
+    let (frames, _) = frames_of(total, 25);
+    let mut running = rig.open(&setup(point))?;
+    let before = running.read("field")?.component(0);
+    running.frames(frames)?;
+    let after = running.read("field")?.component(0);
+    let n = point.grid as usize;
+    let start = START * n as f64;
+    let exact = gaussian_on_torus(n, start, start * start + 2.0 * time);
+    let noisy = rig.after(&setup(point).uniform("noise", 0.01), frames, "field")?.component(0);
+    // What is left of a wave that explicit Euler keeps stable is at most what there was.
+    let left = checkerboard(&noisy, n).abs();
+    Ok(Measured { norms: Norms::of(&after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
+        .value("mass_drift", drift(&before, &after))
+        .hard(HardCase::at_most("checkerboard of 0.01 after the run", left, 0.0101)))
 }

@@ -2,12 +2,10 @@
 
 use super::silhouettes::Found;
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     reference::shapes::{Placed, Shape, V, along, dot, first_hit, is_seen, turned},
     three_of,
 };
-
-pub struct Edges;
 
 const SENSITIVITIES: &[f64] = &[0.25, 0.5, 1.0, 2.0, 4.0];
 
@@ -143,58 +141,39 @@ pub fn judged(found: &[bool], n: u32) -> (Found, f64) {
     (all, wrong / open.len().max(1) as f64)
 }
 
-impl Study for Edges {
-    fn about(&self) -> About {
-        About {
-            name: "edges",
-            title: "Edges",
-            text: "A sphere, a cube and a torus hover before a wall, over a floor seen at 8 to 20 degrees. Normals and \
-                   depths of each texel are computed in f64 and handed to all methods. The lines there are follow from \
-                   geometry: the circle in which a cone touches the sphere, the cube's edges, the torus's contour in \
-                   closed form, each where nothing hides it, and the corner of the room. Precision is the part of the \
-                   texels found that lie within 1.5 texels of such a line, recall the part of the lines that has a \
-                   texel found within 1.5. The error, as L2, is 1 - F1, F1 the harmonic mean of both; Linf is the \
-                   worse of 1 - precision and 1 - recall, each with half of a point of the lines added, as less is not \
-                   resolved. The hard case is that the open floor is no line, on .1 % of its texels at most. At \
-                   sensitivity 1 a step of 2 % of the depth and a turn of 32 degrees are lines.",
-            parameter: "sensitivity",
-            unit: Unit::Frame,
-            error: "1 - F1 of the lines found",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "edges",
+    title: "Edges",
+    text: "A sphere, a cube and a torus hover before a wall, over a floor seen at 8 to 20 degrees. Normals and \
+           depths of each texel are computed in f64 and handed to all methods. The lines there are follow from \
+           geometry: the circle in which a cone touches the sphere, the cube's edges, the torus's contour in \
+           closed form, each where nothing hides it, and the corner of the room. Precision is the part of the \
+           texels found that lie within 1.5 texels of such a line, recall the part of the lines that has a \
+           texel found within 1.5. The error, as L2, is 1 - F1, F1 the harmonic mean of both; Linf is the \
+           worse of 1 - precision and 1 - recall, each with half of a point of the lines added, as less is not \
+           resolved. The hard case is that the open floor is no line, on .1 % of its texels at most. At \
+           sensitivity 1 a step of 2 % of the depth and a turn of 32 degrees are lines.",
+    parameter: "sensitivity",
+    unit: Unit::Frame,
+    error: "1 - F1 of the lines found",
+    methods: METHODS,
+    grids: three_of([64, 128, 256, 512]),
+    // A line is as many texels wide on each.
+    has_order: false,
+    is_relative: false,
+    ..Study::of(|point| setup(&point.method, point.grid, point.setting), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[64, 128, 256, 512])
-    }
-
-    /// A line is as many texels wide on each.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn error_label(&self) -> String {
-        self.about().error.into()
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(&point.method, point.grid, point.setting)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (all, floor) = judged(&found(rig, &point.method, point.grid, point.setting)?, point.grid);
-        // Less than half of a point of the lines is not told from nothing.
-        let least = 0.5 / lines(point.grid).len() as f64;
-        let mut norms = all.norms();
-        (norms.l1, norms.l2, norms.linf) = (norms.l1 + least, norms.l2 + least, norms.linf + least);
-        Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("precision", all.precision)
-            .value("recall", all.recall)
-            .value("f1", all.f1())
-            .value("floor", floor)
-            .hard(HardCase::at_most("lines on the open floor", floor, 1e-3)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (all, floor) = judged(&found(rig, &point.method, point.grid, point.setting)?, point.grid);
+    // Less than half of a point of the lines is not told from nothing.
+    let least = 0.5 / lines(point.grid).len() as f64;
+    let mut norms = all.norms();
+    (norms.l1, norms.l2, norms.linf) = (norms.l1 + least, norms.l2 + least, norms.linf + least);
+    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("precision", all.precision)
+        .value("recall", all.recall)
+        .value("f1", all.f1())
+        .value("floor", floor)
+        .hard(HardCase::at_most("lines on the open floor", floor, 1e-3)))
 }

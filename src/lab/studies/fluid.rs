@@ -5,13 +5,11 @@ use super::{
     waves,
 };
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Race, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Race, Rig, Study, Unit,
     metrics::{Norms, mean, square_drift, viscosity_ratio},
     reference::{poisson::Random, taylor_green},
 };
 use std::f64::consts::{LN_2, TAU};
-
-pub struct Fluid;
 
 const NU: f64 = 0.55;
 const SPEED: f64 = 0.5;
@@ -151,99 +149,77 @@ fn fastest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
     Ok(fastest)
 }
 
-impl Study for Fluid {
-    fn about(&self) -> About {
-        About {
-            name: "fluid",
-            title: "Fluid: the Taylor-Green vortex",
-            text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of \
-                   time, until the exact velocity has halved. The observed order is at that speed in texels, so that a \
-                   finer grid is a larger Reynolds number. Guay's density begins even, as its programs do: the sound \
-                   that this makes is about half of its error. In balance it begins with the vortex's own pressure; K \
-                   is the stiffness, and .55 the stiffest that is stable at rest. The presets run as they ship, \
-                   without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
-                   one wave. Mach is the greatest speed that was met over that of sound; growth/theory compares the growth of sound in the \
-                   one-pass fluid without viscosity with linear theory; shear_wave-1 is what the exact decay of a \
-                   shear wave is missed by. Hard cases: a fluid at rest without viscosity keeps noise of .001 within \
-                   .01 for 90 units of time; at four times the speed the velocity never exceeds 1.5 times that at \
-                   first; of a checkerboard in the pressure or density at most .1 is left after 100 steps.",
-            parameter: "dt",
-            unit: Unit::Scene,
-            error: "of the velocity",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "fluid",
+    title: "Fluid: the Taylor-Green vortex",
+    text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of \
+           time, until the exact velocity has halved. The observed order is at that speed in texels, so that a \
+           finer grid is a larger Reynolds number. Guay's density begins even, as its programs do: the sound \
+           that this makes is about half of its error. In balance it begins with the vortex's own pressure; K \
+           is the stiffness, and .55 the stiffest that is stable at rest. The presets run as they ship, \
+           without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
+           one wave. Mach is the greatest speed that was met over that of sound; growth/theory compares the growth of sound in the \
+           one-pass fluid without viscosity with linear theory; shear_wave-1 is what the exact decay of a \
+           shear wave is missed by. Hard cases: a fluid at rest without viscosity keeps noise of .001 within \
+           .01 for 90 units of time; at four times the speed the velocity never exceeds 1.5 times that at \
+           first; of a checkerboard in the pressure or density at most .1 is left after 100 steps.",
+    parameter: "dt",
+    unit: Unit::Scene,
+    error: "of the velocity",
+    methods: METHODS,
+    grids: [[16, 32, MAIN_GRIDS[0]], [32, 64, MAIN_GRIDS[1]]],
+    // Too much energy is left where steps are short, as the grid's viscosity falls short of the fluid's, and too
+    // little where they are long.
+    signed: Some("energy_error"),
+    race: Some(Race {
+        method: "fluid-accurate",
+        peers: &["guay", "guay-balanced", "guay-stiff", "guay-rgba16f"],
+        peers_are: "one-pass settings",
+    }),
+    ..Study::of(|point| solver(&point.method, point.grid, point.setting, Begin::USUAL).setup, measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let solver = solver(&point.method, point.grid, point.setting, Begin::USUAL);
+    let (frames, time) = frames(&solver, point.grid);
+    let k = TAU / f64::from(point.grid);
+    let mut running = rig.open(&solver.setup)?;
+    let before = solver.velocity(&mut running)?;
+    let watched = solver.watched(&mut running, frames)?;
+    let after = &watched.velocity;
+    let exact = exact(&solver, point.grid, (-2.0 * NU * k * k * time).exp());
+    let energy = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+    let mut measured =
+        Measured { norms: Norms::of(after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
+            .value("nu_eff/nu", viscosity_ratio(energy(&before), energy(after), NU, k, time))
+            .value("energy_error", square_drift(&exact, after))
+            .value("divergence", divergence(&solver, after, SPEED))
+            .value("momentum", mean(after) / SPEED);
+    measured = watched.add_to(measured);
+    // The hard cases and the single waves are the same on every grid.
+    if !MAIN_GRIDS.contains(&point.grid) {
+        return Ok(measured);
     }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[16, 32, MAIN_GRIDS[0]],
-            Extent::Full => &[32, 64, MAIN_GRIDS[1]],
-        }
+    let (base, stiffness) = base(&point.method);
+    let dt = point.setting;
+    let n = if dt > LONG_STEP { HARD_GRID_OF_LONG_STEPS } else { HARD_GRID };
+    let still = Flow { n, dt, viscosity: 0.0 };
+    if base == "guay" {
+        let growth = waves::growth_of_sound(rig, still, stiffness, (20.0 / dt) as u32)?;
+        measured = measured.value("growth/theory", growth);
     }
-
-    /// Too much energy is left where steps are short, as the grid's viscosity falls short of the fluid's, and too
-    /// little where they are long.
-    fn signed(&self) -> Option<&'static str> {
-        Some("energy_error")
+    if without_format(base) != "mip-fluid" {
+        let left = waves::shear_wave(rig, base, Flow { viscosity: NU, ..still }, WAVE_TIME)?;
+        measured = measured.value("shear_wave-1", left - 1.0);
     }
-
-    fn race(&self) -> Option<Race> {
-        Some(Race {
-            method: "fluid-accurate",
-            peers: &["guay", "guay-balanced", "guay-stiff", "guay-rgba16f"],
-            peers_are: "one-pass settings",
-        })
+    if let Some(left) = waves::checkerboard_left(rig, base, still, 100)? {
+        measured = measured.hard(HardCase::at_most("left of a checkerboard in the pressure", left, 0.1));
     }
-
-    fn setup(&self, point: &Point) -> Setup {
-        solver(&point.method, point.grid, point.setting, Begin::USUAL).setup
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let solver = solver(&point.method, point.grid, point.setting, Begin::USUAL);
-        let (frames, time) = frames(&solver, point.grid);
-        let k = TAU / f64::from(point.grid);
-        let mut running = rig.open(&solver.setup)?;
-        let before = solver.velocity(&mut running)?;
-        let watched = solver.watched(&mut running, frames)?;
-        let after = &watched.velocity;
-        let exact = exact(&solver, point.grid, (-2.0 * NU * k * k * time).exp());
-        let energy = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
-        let mut measured =
-            Measured { norms: Norms::of(after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
-                .value("nu_eff/nu", viscosity_ratio(energy(&before), energy(after), NU, k, time))
-                .value("energy_error", square_drift(&exact, after))
-                .value("divergence", divergence(&solver, after, SPEED))
-                .value("momentum", mean(after) / SPEED);
-        measured = watched.add_to(measured);
-        // The hard cases and the single waves are the same on every grid.
-        if !MAIN_GRIDS.contains(&point.grid) {
-            return Ok(measured);
-        }
-        let (base, stiffness) = base(&point.method);
-        let dt = point.setting;
-        let n = if dt > LONG_STEP { HARD_GRID_OF_LONG_STEPS } else { HARD_GRID };
-        let still = Flow { n, dt, viscosity: 0.0 };
-        if base == "guay" {
-            let growth = waves::growth_of_sound(rig, still, stiffness, (20.0 / dt) as u32)?;
-            measured = measured.value("growth/theory", growth);
-        }
-        if without_format(base) != "mip-fluid" {
-            let left = waves::shear_wave(rig, base, Flow { viscosity: NU, ..still }, WAVE_TIME)?;
-            measured = measured.value("shear_wave-1", left - 1.0);
-        }
-        if let Some(left) = waves::checkerboard_left(rig, base, still, 100)? {
-            measured = measured.hard(HardCase::at_most("left of a checkerboard in the pressure", left, 0.1));
-        }
-        let at_rest = at_rest(rig, &point.method, n, dt)?;
-        let fastest = fastest(rig, &point.method, n, dt)?;
-        Ok(measured.hard(HardCase::at_most("at rest without viscosity", at_rest, 0.01)).hard(HardCase::at_most(
-            "four times the speed",
-            fastest,
-            1.5 * 4.0 * SPEED,
-        )))
-    }
+    let at_rest = at_rest(rig, &point.method, n, dt)?;
+    let fastest = fastest(rig, &point.method, n, dt)?;
+    Ok(measured.hard(HardCase::at_most("at rest without viscosity", at_rest, 0.01)).hard(HardCase::at_most(
+        "four times the speed",
+        fastest,
+        1.5 * 4.0 * SPEED,
+    )))
 }

@@ -1,7 +1,7 @@
 //! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler against Strang's splitting, and the preset.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, area_above, mean},
     reference::gray_scott::{DIFFUSION, FEED, KILL, five_point, growth, known, rest, seeded},
     setup::{Storage, frames_of, pass},
@@ -9,8 +9,6 @@ use crate::{
 };
 use eddy_project::TexelFormat;
 use std::f64::consts::TAU;
-
-pub struct GrayScott;
 
 const EULER: &[f64] = &[0.25, 0.5, 1.0];
 
@@ -144,64 +142,52 @@ fn fed(rig: &Rig, name: &str, feed: f64) -> Result<f64, LabError> {
     Ok(state(&mut running, name)?[0][0])
 }
 
-impl Study for GrayScott {
-    fn about(&self) -> About {
-        About {
-            name: "gray-scott",
-            title: "Gray-Scott",
-            text: "The coral pattern (F = .0545, k = .062, Du = .16, Dv = .08 texels² for a unit of time) from three \
-                   smooth spots, against a spectral f64 solver with Strang's splitting. The preset has its own rates \
-                   (Du = .2097, Dv = .1049) and walls that nothing goes through, and so has its reference; sway and \
-                   sower are 0. The table gives the growth of a wave of 12 texels over that of linear theory, .0100 in \
-                   the continuum. The hard case is that u returns to 1 where there is no v, within .001: 16 bits have \
-                   no room beside 1 for what a step feeds, and the preset keeps 1 - u instead.",
-            parameter: "dt",
-            unit: Unit::Scene,
-            error: "of v",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "gray-scott",
+    title: "Gray-Scott",
+    text: "The coral pattern (F = .0545, k = .062, Du = .16, Dv = .08 texels² for a unit of time) from three \
+           smooth spots, against a spectral f64 solver with Strang's splitting. The preset has its own rates \
+           (Du = .2097, Dv = .1049) and walls that nothing goes through, and so has its reference; sway and \
+           sower are 0. The table gives the growth of a wave of 12 texels over that of linear theory, .0100 in \
+           the continuum. The hard case is that u returns to 1 where there is no v, within .001: 16 bits have \
+           no room beside 1 for what a step feeds, and the preset keeps 1 - u instead.",
+    parameter: "dt",
+    unit: Unit::Scene,
+    error: "of v",
+    methods: METHODS,
+    grids: three_of([16, 32, 64, 128]),
+    // A larger grid is a larger box.
+    has_order: false,
+    ..Study::of(setup, measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn setup(point: &Point) -> Setup {
+    let total = (time(point.grid) / point.setting) as u32;
+    let (field, group) = parts(&point.method);
+    let setup = method(&point.method, (point.grid, point.grid), point.setting);
+    let setup = setup.steps(group, frames_of(total, 20).1);
+    if !is_preset(&point.method) {
+        return setup;
     }
+    let [u, v] = seeded(point.grid as usize);
+    let seeds: Vec<[f32; 4]> = u.iter().zip(&v).map(|(u, v)| texel(&point.method, *u, *v)).collect();
+    setup.state(field, &seeds)
+}
 
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[16, 32, 64, 128])
-    }
-
-    /// A larger grid is a larger box.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        let total = (time(point.grid) / point.setting) as u32;
-        let (field, group) = parts(&point.method);
-        let setup = method(&point.method, (point.grid, point.grid), point.setting);
-        let setup = setup.steps(group, frames_of(total, 20).1);
-        if !is_preset(&point.method) {
-            return setup;
-        }
-        let [u, v] = seeded(point.grid as usize);
-        let seeds: Vec<[f32; 4]> = u.iter().zip(&v).map(|(u, v)| texel(&point.method, *u, *v)).collect();
-        setup.state(field, &seeds)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let total = (time(point.grid) / point.setting) as u32;
-        let (frames, _) = frames_of(total, 20);
-        let mut running = rig.open(&self.setup(point))?;
-        running.frames(frames)?;
-        let [_, v] = state(&mut running, &point.method)?;
-        let walls = is_preset(&point.method).then(|| DIFFUSION.map(|d| FASTER * d));
-        let exact = known(point.grid as usize, walls, time(point.grid));
-        let (measured, _, continuum) = grown(rig, &point.method, point.setting)?;
-        let stall = fed(rig, &point.method, 0.037)?;
-        Ok(Measured { norms: Norms::of(&v, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
-            .value("mean_v", mean(&v) / mean(&exact) - 1.0)
-            .value("area", area_above(&v, 0.2) / area_above(&exact, 0.2) - 1.0)
-            .value("growth", measured)
-            .value("growth/theory", measured / continuum)
-            .hard(HardCase::at_most("1 - u without v", (1.0 - stall).abs(), 0.001)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let total = (time(point.grid) / point.setting) as u32;
+    let (frames, _) = frames_of(total, 20);
+    let mut running = rig.open(&setup(point))?;
+    running.frames(frames)?;
+    let [_, v] = state(&mut running, &point.method)?;
+    let walls = is_preset(&point.method).then(|| DIFFUSION.map(|d| FASTER * d));
+    let exact = known(point.grid as usize, walls, time(point.grid));
+    let (measured, _, continuum) = grown(rig, &point.method, point.setting)?;
+    let stall = fed(rig, &point.method, 0.037)?;
+    Ok(Measured { norms: Norms::of(&v, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
+        .value("mean_v", mean(&v) / mean(&exact) - 1.0)
+        .value("area", area_above(&v, 0.2) / area_above(&exact, 0.2) - 1.0)
+        .value("growth", measured)
+        .value("growth/theory", measured / continuum)
+        .hard(HardCase::at_most("1 - u without v", (1.0 - stall).abs(), 0.001)))
 }

@@ -29,38 +29,38 @@ use super::{LabError, Study};
 use eddy_project::{listed, nearest};
 
 /// Every study, in the order of the report.
-pub fn all() -> Vec<&'static dyn Study> {
+pub fn all() -> Vec<&'static Study> {
     vec![
-        &diffusion::Diffusion,
-        &advection::Advection,
-        &gray_scott::GrayScott,
-        &poisson::Poisson,
-        &fluid::Fluid,
-        &torus::Torus::TaylorGreen,
-        &torus::Torus::ShearLayer,
-        &torus::Torus::LambOseen,
-        &cavity::Cavity,
-        &blur::Blur,
-        &bloom::Bloom,
-        &taa::Taa,
-        &ao::Ao,
-        &ssr::Ssr,
-        &particles::Particles,
-        &brick_breaker::BrickBreaker,
-        &edges::Edges,
-        &outline::Outline,
-        &precision::Precision,
+        &diffusion::STUDY,
+        &advection::STUDY,
+        &gray_scott::STUDY,
+        &poisson::STUDY,
+        &fluid::STUDY,
+        &torus::TAYLOR_GREEN,
+        &torus::SHEAR_LAYER,
+        &torus::LAMB_OSEEN,
+        &cavity::STUDY,
+        &blur::STUDY,
+        &bloom::STUDY,
+        &taa::STUDY,
+        &ao::STUDY,
+        &ssr::STUDY,
+        &particles::STUDY,
+        &brick_breaker::STUDY,
+        &edges::STUDY,
+        &outline::STUDY,
+        &precision::STUDY,
     ]
 }
 
 /// The studies of these names; all for none.
-pub fn named(names: &[String]) -> Result<Vec<&'static dyn Study>, LabError> {
+pub fn named(names: &[String]) -> Result<Vec<&'static Study>, LabError> {
     if names.is_empty() {
         return Ok(all());
     }
-    let known: Vec<&str> = all().iter().map(|s| s.about().name).collect();
+    let known: Vec<&str> = all().iter().map(|s| s.name).collect();
     let find = |name: &String| {
-        all().into_iter().find(|s| s.about().name == name).ok_or_else(|| LabError::NoStudy {
+        all().into_iter().find(|s| s.name == name).ok_or_else(|| LabError::NoStudy {
             name: name.clone(),
             near: nearest(name, known.iter().copied()).map(str::to_owned),
             known: listed(&known),
@@ -77,20 +77,19 @@ mod tests {
     #[test]
     fn every_study_keeps_the_form() {
         for study in all() {
-            let about = study.about();
-            assert!(about.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{}", about.name);
+            assert!(study.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{}", study.name);
             for extent in [Extent::Quick, Extent::Full] {
                 let grids = study.grids(extent);
-                assert!(grids.len() >= 3 && grids.windows(2).all(|g| g[1] == 2 * g[0]), "{}: {grids:?}", about.name);
+                assert!(grids.len() >= 3 && grids.windows(2).all(|g| g[1] == 2 * g[0]), "{}: {grids:?}", study.name);
                 assert!(grids.contains(&study.main_grid(extent)));
                 let mut points = study.points(extent);
                 let count = points.len();
                 points.dedup();
-                assert_eq!(points.len(), count, "{}", about.name);
+                assert_eq!(points.len(), count, "{}", study.name);
                 for point in points {
-                    let method = study.methods().iter().find(|m| m.name == point.method).unwrap();
-                    assert!(method.settings.contains(&method.usual), "{} {}", about.name, method.name);
-                    study.setup(&point).project().unwrap_or_else(|e| panic!("{point:?}: {e}"));
+                    let method = study.methods.iter().find(|m| m.name == point.method).unwrap();
+                    assert!(method.settings.contains(&method.usual), "{} {}", study.name, method.name);
+                    (study.setup)(&point).project().unwrap_or_else(|e| panic!("{point:?}: {e}"));
                 }
             }
         }

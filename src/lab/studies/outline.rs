@@ -2,13 +2,11 @@
 
 use super::silhouettes::Found;
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     reference::shapes::{Placed, Shape, V, along, dot, first_hit, length, turned},
     three_of,
 };
 use eddy_project::{Camera, MeshDraw, MeshSource, Project};
-
-pub struct Outline;
 
 /// Units of the scene.
 const WIDTHS: &[f64] = &[0.02, 0.04, 0.08, 0.16];
@@ -180,62 +178,42 @@ pub fn judged(rig: &Rig, name: &str, n: u32, width: f64) -> Result<(Found, [Foun
     Ok((Found::of_regions(&found, &whole), each, wide(count(&of(0))) / wide(count(&regions[0]))))
 }
 
-impl Study for Outline {
-    fn about(&self) -> About {
-        About {
-            name: "outline",
-            title: "Outlines",
-            text: "The preset toon-outline draws a sphere, a cube and a torus with lines of so many units' width, \
-                   faded with distance as its formula says. The exact lines are found by f64 rays: a texel is one if \
-                   the far side of a shape whose vertices have moved by the width is seen before any surface. A \
-                   cube's vertices move along the faces' normals (its corners should close), or away from its middle. \
-                   Precision and recall are counted in texels; the error, as L2, is 1 - F1, F1 the harmonic mean of \
-                   both, and Linf is the worse of 1 - precision and 1 - recall. The hard cases: the sphere's line is \
-                   as wide as the formula within 3 %, or a quarter of a texel where that is more, and each shape's F1 \
-                   is at least .9: along split normals a cube's line comes apart.",
-            parameter: "width of the line",
-            unit: Unit::Frame,
-            error: "1 - F1 of the lines",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "outline",
+    title: "Outlines",
+    text: "The preset toon-outline draws a sphere, a cube and a torus with lines of so many units' width, \
+           faded with distance as its formula says. The exact lines are found by f64 rays: a texel is one if \
+           the far side of a shape whose vertices have moved by the width is seen before any surface. A \
+           cube's vertices move along the faces' normals (its corners should close), or away from its middle. \
+           Precision and recall are counted in texels; the error, as L2, is 1 - F1, F1 the harmonic mean of \
+           both, and Linf is the worse of 1 - precision and 1 - recall. The hard cases: the sphere's line is \
+           as wide as the formula within 3 %, or a quarter of a texel where that is more, and each shape's F1 \
+           is at least .9: along split normals a cube's line comes apart.",
+    parameter: "width of the line",
+    unit: Unit::Frame,
+    error: "1 - F1 of the lines",
+    methods: METHODS,
+    grids: three_of([48, 96, 192, 384]),
+    // More texels are another picture of the same lines.
+    has_order: false,
+    is_relative: false,
+    ..Study::of(|point| setup(&point.method, point.grid, point.setting), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (all, each, width) = judged(rig, &point.method, point.grid, point.setting)?;
+    // Texels in a unit, about, at the sphere's distance in the picture, which is drawn twice as large as the
+    // canvas.
+    let texels = f64::from(2 * point.grid) * FIT / (2.0 * (0.5 * FOV).to_radians().tan() * DISTANCE) * point.setting;
+    let mut measured = Measured { norms: all.norms(), frames_per_unit: 1.0, ..Measured::default() }
+        .value("precision", all.precision)
+        .value("recall", all.recall)
+        .value("f1", all.f1())
+        .value("width/formula", width)
+        .hard(HardCase::at_most("width off its formula", (width - 1.0).abs(), 0.03f64.max(0.25 / texels)));
+    for (name, found) in ["sphere", "cube", "torus"].into_iter().zip(each) {
+        measured = measured.value(&format!("f1_{name}"), found.f1());
+        measured = measured.hard(HardCase::at_most(&format!("1 - F1 of the {name}"), 1.0 - found.f1(), 0.1));
     }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[48, 96, 192, 384])
-    }
-
-    /// More texels are another picture of the same lines.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn error_label(&self) -> String {
-        self.about().error.into()
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(&point.method, point.grid, point.setting)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (all, each, width) = judged(rig, &point.method, point.grid, point.setting)?;
-        // Texels in a unit, about, at the sphere's distance in the picture, which is drawn twice as large as the
-        // canvas.
-        let texels =
-            f64::from(2 * point.grid) * FIT / (2.0 * (0.5 * FOV).to_radians().tan() * DISTANCE) * point.setting;
-        let mut measured = Measured { norms: all.norms(), frames_per_unit: 1.0, ..Measured::default() }
-            .value("precision", all.precision)
-            .value("recall", all.recall)
-            .value("f1", all.f1())
-            .value("width/formula", width)
-            .hard(HardCase::at_most("width off its formula", (width - 1.0).abs(), 0.03f64.max(0.25 / texels)));
-        for (name, found) in ["sphere", "cube", "torus"].into_iter().zip(each) {
-            measured = measured.value(&format!("f1_{name}"), found.f1());
-            measured = measured.hard(HardCase::at_most(&format!("1 - F1 of the {name}"), 1.0 - found.f1(), 0.1));
-        }
-        Ok(measured)
-    }
+    Ok(measured)
 }

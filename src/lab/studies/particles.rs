@@ -1,14 +1,12 @@
 //! Particles in flight and in orbit: the order of their time steps, and what becomes of their energy.
 
 use crate::{
-    About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    Field, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, mean, order},
     reference::motion::{Particle, flight, orbit, orbit_energy},
     setup::frames_of,
 };
 use std::f64::consts::TAU;
-
-pub struct Particles;
 
 /// Steps a second: 60 is what people see.
 const RATES: &[f64] = &[15.0, 30.0, 60.0, 120.0, 240.0];
@@ -139,57 +137,41 @@ fn bounds(rig: &Rig, side: u32, dt: f64) -> Result<[f64; 2], LabError> {
     Ok(worst)
 }
 
-impl Study for Particles {
-    fn about(&self) -> About {
-        About {
-            name: "particles",
-            title: "Particles",
-            text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the \
-                   velocity, those of the preset as it starts them, against the closed form; the error is that of the \
-                   way they went. order_in_dt is observed between half of the setting and the setting. The hard case \
-                   of the peers is 10,000 steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the \
-                   mean energy may drift by 1 % at most. The preset has no orbit; its hard cases are that in 600 \
-                   frames nothing is below the floor and nothing is faster than its limit of 3 heights a second.",
-            parameter: "steps per second",
-            unit: Unit::Scene,
-            error: "of the way gone",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "particles",
+    title: "Particles",
+    text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the \
+           velocity, those of the preset as it starts them, against the closed form; the error is that of the \
+           way they went. order_in_dt is observed between half of the setting and the setting. The hard case \
+           of the peers is 10,000 steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the \
+           mean energy may drift by 1 % at most. The preset has no orbit; its hard cases are that in 600 \
+           frames nothing is below the floor and nothing is faster than its limit of 3 heights a second.",
+    parameter: "steps per second",
+    unit: Unit::Scene,
+    error: "of the way gone",
+    methods: METHODS,
+    grids: [[8, 16, SIDE]; 2],
+    // A larger grid is more particles.
+    has_order: false,
+    ..Study::of(|point| flying(&point.method, point.grid, 1.0 / point.setting), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (name, side, dt) = (point.method.as_str(), point.grid, 1.0 / point.setting);
+    let norms = flown(rig, name, side, dt)?;
+    let coarse = flown(rig, name, side, 2.0 * dt)?;
+    let frames_per_unit = FLIGHT / dt;
+    let measured = Measured { norms, frames_per_unit, ..Measured::default() }
+        .value("order_in_dt", order(coarse.l2, norms.l2, 2.0));
+    if name == "preset" {
+        let [below, fastest] = bounds(rig, side, dt)?;
+        return Ok(measured.hard(HardCase::at_most("below the floor", below, 1e-6)).hard(HardCase::at_most(
+            "speed",
+            fastest,
+            3.0 + 1e-5,
+        )));
     }
-
-    fn grids(&self, _: Extent) -> &'static [u32] {
-        &[8, 16, SIDE]
-    }
-
-    /// A larger grid is more particles.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        flying(&point.method, point.grid, 1.0 / point.setting)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (name, side, dt) = (point.method.as_str(), point.grid, 1.0 / point.setting);
-        let norms = flown(rig, name, side, dt)?;
-        let coarse = flown(rig, name, side, 2.0 * dt)?;
-        let frames_per_unit = FLIGHT / dt;
-        let measured = Measured { norms, frames_per_unit, ..Measured::default() }
-            .value("order_in_dt", order(coarse.l2, norms.l2, 2.0));
-        if name == "preset" {
-            let [below, fastest] = bounds(rig, side, dt)?;
-            return Ok(measured.hard(HardCase::at_most("below the floor", below, 1e-6)).hard(HardCase::at_most(
-                "speed",
-                fastest,
-                3.0 + 1e-5,
-            )));
-        }
-        let drift = energy_drift(rig, name, side, dt)?;
-        let case = HardCase::at_most("energy drift of 10,000 steps on an orbit", drift.abs(), ENERGY_BOUND);
-        Ok(measured.value("energy_drift", drift).hard(case))
-    }
+    let drift = energy_drift(rig, name, side, dt)?;
+    let case = HardCase::at_most("energy drift of 10,000 steps on an orbit", drift.abs(), ENERGY_BOUND);
+    Ok(measured.value("energy_drift", drift).hard(case))
 }

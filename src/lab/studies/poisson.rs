@@ -2,7 +2,7 @@
 
 use super::cycle::{self, Component};
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, mean},
     reference::poisson::{residual, solution, source},
     run::SEED,
@@ -10,8 +10,6 @@ use crate::{
     three_of,
 };
 use std::f64::consts::PI;
-
-pub struct Poisson;
 
 const METHODS: &[Method] = &[
     Method { name: "jacobi", title: "Jacobi", settings: &[5.0, 20.0, 100.0, 500.0, 2000.0], usual: 20.0 },
@@ -56,55 +54,42 @@ pub fn solved(rig: &Rig, method: &str, n: u32, f: &[f64], count: u32, exact: &[f
     Ok(p.iter().map(|p| gain * p).collect())
 }
 
-impl Study for Poisson {
-    fn about(&self) -> About {
-        About {
-            name: "poisson",
-            title: "Poisson's equation",
-            text: "lap p = f on a torus, beginning with p = 0, where f is noise whose waves fall off as 1/k: the mix \
-                   that a projection meets. Against the exact solution of the same 5-point equation by Fourier \
-                   transform. The sum over mip levels is given the best gain. The hard case is a checkerboard for f, \
-                   to be solved within 20 %.",
-            parameter: "sweeps or cycles",
-            unit: Unit::Solve,
-            error: "of p",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "poisson",
+    title: "Poisson's equation",
+    text: "lap p = f on a torus, beginning with p = 0, where f is noise whose waves fall off as 1/k: the mix \
+           that a projection meets. Against the exact solution of the same 5-point equation by Fourier \
+           transform. The sum over mip levels is given the best gain. The hard case is a checkerboard for f, \
+           to be solved within 20 %.",
+    parameter: "sweeps or cycles",
+    unit: Unit::Solve,
+    error: "of p",
+    methods: METHODS,
+    grids: three_of([32, 64, 128, 256]),
+    // The equation is solved as it stands on a grid.
+    has_order: false,
+    ..Study::of(setup, measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
+fn setup(point: &Point) -> Setup {
+    let f = source(point.grid as usize, SEED);
+    solver(&point.method, point.grid, &f, point.setting as u32).0
+}
 
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[32, 64, 128, 256])
-    }
-
-    /// The equation is solved as it stands on a grid.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        let f = source(point.grid as usize, SEED);
-        solver(&point.method, point.grid, &f, point.setting as u32).0
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (n, count) = (point.grid as usize, point.setting as u32);
-        let f = source(n, SEED);
-        let exact = solution(n, &f);
-        let p = solved(rig, &point.method, point.grid, &f, count, &exact)?;
-        let left = residual(n, &p, &f);
-        let rms = |v: &[f64]| (v.iter().map(|v| v * v).sum::<f64>() / v.len() as f64).sqrt();
-        let checker: Vec<f64> =
-            (0..n * n).map(|i| if (i % n + i / n).is_multiple_of(2) { 1.0 } else { -1.0 }).collect();
-        let exact_checker: Vec<f64> = checker.iter().map(|f| -f / 8.0).collect();
-        let of_checker = solved(rig, &point.method, point.grid, &checker, count, &exact_checker)?;
-        let (_, frames) = solver(&point.method, point.grid, &f, count);
-        let relative = rms(&left) / rms(&f);
-        Ok(Measured { norms: Norms::of(&p, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
-            .value("residual", relative)
-            .value("residual_factor", relative.powf(1.0 / f64::from(count)))
-            .hard(HardCase::at_most("checkerboard source", Norms::of(&of_checker, &exact_checker).l2, 0.2)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (n, count) = (point.grid as usize, point.setting as u32);
+    let f = source(n, SEED);
+    let exact = solution(n, &f);
+    let p = solved(rig, &point.method, point.grid, &f, count, &exact)?;
+    let left = residual(n, &p, &f);
+    let rms = |v: &[f64]| (v.iter().map(|v| v * v).sum::<f64>() / v.len() as f64).sqrt();
+    let checker: Vec<f64> = (0..n * n).map(|i| if (i % n + i / n).is_multiple_of(2) { 1.0 } else { -1.0 }).collect();
+    let exact_checker: Vec<f64> = checker.iter().map(|f| -f / 8.0).collect();
+    let of_checker = solved(rig, &point.method, point.grid, &checker, count, &exact_checker)?;
+    let (_, frames) = solver(&point.method, point.grid, &f, count);
+    let relative = rms(&left) / rms(&f);
+    Ok(Measured { norms: Norms::of(&p, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
+        .value("residual", relative)
+        .value("residual_factor", relative.powf(1.0 / f64::from(count)))
+        .hard(HardCase::at_most("checkerboard source", Norms::of(&of_checker, &exact_checker).l2, 0.2)))
 }

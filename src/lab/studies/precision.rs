@@ -1,13 +1,11 @@
 //! Simulations stored in 16 bits against themselves in 32.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     precision::{Comparison, PrecisionError, compare, cuts_off},
     setup::Storage,
 };
 use eddy_engine::FrameInputs;
-
-pub struct Precision;
 
 /// Bits of a component.
 const BITS: &[f64] = &[16.0, 32.0];
@@ -53,62 +51,43 @@ fn compared(rig: &Rig, name: &'static str, grid: u32, bits: f64) -> Result<Compa
     })
 }
 
-impl Study for Precision {
-    fn about(&self) -> About {
-        About {
-            name: "precision",
-            title: "16 bits against 32",
-            text: "Presets with every 32-bit float format made a 16-bit one, against themselves as they are, \
-                   untouched; `eddy lab precision PROJECT` does the same to any project. The error is the picture's \
-                   in the last frame (40 frames in a quick run, 300 in a full one). The table gives the largest error \
-                   of a buffer, the largest drift of a buffer's sum, and the first frame whose picture differs by \
-                   more than 1/255 (-1: none). Chaotic flows part whatever the rounding; then the pattern counts, not \
-                   the texel. A device may round a 16-bit store to the nearest or cut it off (cuts_off is 1), and \
-                   errors of the second kind add up on one side: Gray-Scott's u, fed at .037, stalls at .9937 where \
-                   stores are rounded, as on GPUs, and at .98682 where they are cut off, as in Mesa's lavapipe. The \
-                   hard case at 32 bits is that two runs are equal, at 16 that the picture is finite.",
-            parameter: "bits a component",
-            unit: Unit::Frame,
-            error: "of the picture",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "precision",
+    title: "16 bits against 32",
+    text: "Presets with every 32-bit float format made a 16-bit one, against themselves as they are, \
+           untouched; `eddy lab precision PROJECT` does the same to any project. The error is the picture's \
+           in the last frame (40 frames in a quick run, 300 in a full one). The table gives the largest error \
+           of a buffer, the largest drift of a buffer's sum, and the first frame whose picture differs by \
+           more than 1/255 (-1: none). Chaotic flows part whatever the rounding; then the pattern counts, not \
+           the texel. A device may round a 16-bit store to the nearest or cut it off (cuts_off is 1), and \
+           errors of the second kind add up on one side: Gray-Scott's u, fed at .037, stalls at .9937 where \
+           stores are rounded, as on GPUs, and at .98682 where they are cut off, as in Mesa's lavapipe. The \
+           hard case at 32 bits is that two runs are equal, at 16 that the picture is finite.",
+    parameter: "bits a component",
+    unit: Unit::Frame,
+    error: "of the picture",
+    methods: METHODS,
+    grids: [[16, 32, 64], [64, 128, 256]],
+    // A larger canvas is another scene.
+    has_order: false,
+    ..Study::of(|point| setup(method(point).name, point.grid, point.setting), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[16, 32, 64],
-            Extent::Full => &[64, 128, 256],
-        }
-    }
-
-    /// A larger canvas is another scene.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(method(point).name, point.grid, point.setting)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let both = compared(rig, method(point).name, point.grid, point.setting)?;
-        let norms = both.last("image").map(|row| row.norms).unwrap_or_default();
-        let (buffer, drift) = both.worst();
-        let case = if point.setting < 32.0 {
-            HardCase::at_most("a picture that is finite", if norms.l2.is_finite() { 0.0 } else { 1.0 }, 0.0)
-        } else {
-            HardCase::at_most("difference of two runs", norms.linf, 0.0)
-        };
-        Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("mass_drift", drift)
-            .value("worst_buffer_l2", buffer)
-            .value("first_visible_frame", both.first_visible.map_or(-1.0, f64::from))
-            .value("cuts_off", if cuts_off(rig)? { 1.0 } else { 0.0 })
-            .hard(case))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let both = compared(rig, method(point).name, point.grid, point.setting)?;
+    let norms = both.last("image").map(|row| row.norms).unwrap_or_default();
+    let (buffer, drift) = both.worst();
+    let case = if point.setting < 32.0 {
+        HardCase::at_most("a picture that is finite", if norms.l2.is_finite() { 0.0 } else { 1.0 }, 0.0)
+    } else {
+        HardCase::at_most("difference of two runs", norms.linf, 0.0)
+    };
+    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("mass_drift", drift)
+        .value("worst_buffer_l2", buffer)
+        .value("first_visible_frame", both.first_visible.map_or(-1.0, f64::from))
+        .value("cuts_off", if cuts_off(rig)? { 1.0 } else { 0.0 })
+        .hard(case))
 }
 
 fn method(point: &Point) -> &'static Method {

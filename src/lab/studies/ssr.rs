@@ -1,7 +1,7 @@
 //! Reflections by marching through the picture: how far from the exactly reflected ray's end they look.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::{
         rays::{V, add, on_all_cores},
@@ -9,8 +9,6 @@ use crate::{
     },
     three_of,
 };
-
-pub struct Ssr;
 
 /// Says how far a reflected ray goes, in units of the scene.
 const REACH: f64 = 7.0;
@@ -121,58 +119,42 @@ pub fn hits(rig: &Rig, method: &str, strides: f64, size: (u32, u32)) -> Result<H
     Ok(Hits::of(&all.into_iter().flatten().collect::<Vec<_>>()))
 }
 
-impl Study for Ssr {
-    fn about(&self) -> About {
-        About {
-            name: "ssr",
-            title: "Screen-space reflections",
-            text: "The still life of the preset on its mirroring table. A ray in f64 is mirrored in the table and \
-                   followed to the first thing; where the camera sees that place, the method's hit is held against it, \
-                   in pixels. The error is the root mean square of that, over the picture's height. Hits that a method \
-                   believes in by less than a half count as none. The table gives the median and what 95 % are within, \
-                   how many reflections were found, and how many pixels show one that cannot have any, since the ray \
-                   meets nothing or what the camera does not see. Hard cases: a median of at most a pixel; 3 of 4 \
-                   found; at most 5 % wrong.",
-            parameter: "steps of a ray",
-            unit: Unit::Frame,
-            error: "of the place, over the picture's height",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "ssr",
+    title: "Screen-space reflections",
+    text: "The still life of the preset on its mirroring table. A ray in f64 is mirrored in the table and \
+           followed to the first thing; where the camera sees that place, the method's hit is held against it, \
+           in pixels. The error is the root mean square of that, over the picture's height. Hits that a method \
+           believes in by less than a half count as none. The table gives the median and what 95 % are within, \
+           how many reflections were found, and how many pixels show one that cannot have any, since the ray \
+           meets nothing or what the camera does not see. Hard cases: a median of at most a pixel; 3 of 4 \
+           found; at most 5 % wrong.",
+    parameter: "steps of a ray",
+    unit: Unit::Frame,
+    error: "of the place, over the picture's height",
+    methods: METHODS,
+    grids: three_of([80, 160, 320, 640]),
+    // Steps are a part of the ray, whatever the grid.
+    has_order: false,
+    ..Study::of(|point| setup(&point.method, point.setting, (point.grid, point.grid)), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, extent: Extent) -> &'static [u32] {
-        three_of(extent, &[80, 160, 320, 640])
-    }
-
-    /// Steps are a part of the ray, whatever the grid.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        setup(&point.method, point.setting, (point.grid, point.grid))
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let hits = hits(rig, &point.method, point.setting, (point.grid, point.grid))?;
-        let (n, height) = (hits.off.len() as f64, f64::from(point.grid));
-        let norms = Norms {
-            l1: hits.off.iter().sum::<f64>() / n / height,
-            l2: (hits.off.iter().map(|d| d * d).sum::<f64>() / n).sqrt() / height,
-            linf: hits.within(1.0) / height,
-        };
-        Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("median_px", hits.within(0.5))
-            .value("within_95_px", hits.within(0.95))
-            .value("found_share", hits.found_share())
-            .value("wrong_share", hits.wrong_share())
-            .hard(HardCase::at_most("median, pixels", hits.within(0.5), 1.0))
-            .hard(HardCase::at_most("reflections not found", 1.0 - hits.found_share(), 0.25))
-            .hard(HardCase::at_most("reflections that are none", hits.wrong_share(), 0.05)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let hits = hits(rig, &point.method, point.setting, (point.grid, point.grid))?;
+    let (n, height) = (hits.off.len() as f64, f64::from(point.grid));
+    let norms = Norms {
+        l1: hits.off.iter().sum::<f64>() / n / height,
+        l2: (hits.off.iter().map(|d| d * d).sum::<f64>() / n).sqrt() / height,
+        linf: hits.within(1.0) / height,
+    };
+    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("median_px", hits.within(0.5))
+        .value("within_95_px", hits.within(0.95))
+        .value("found_share", hits.found_share())
+        .value("wrong_share", hits.wrong_share())
+        .hard(HardCase::at_most("median, pixels", hits.within(0.5), 1.0))
+        .hard(HardCase::at_most("reflections not found", 1.0 - hits.found_share(), 0.25))
+        .hard(HardCase::at_most("reflections that are none", hits.wrong_share(), 0.05)))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! leaves behind, and how much it flickers.
 
 use crate::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
     metrics::{Norms, mean},
     picture::{Picture, psnr, ssim},
     reference::{
@@ -11,8 +11,6 @@ use crate::{
     },
 };
 use std::sync::LazyLock;
-
-pub struct Taa;
 
 /// Frames until the picture is looked at: four rounds of the jitter.
 const REST: u32 = 64;
@@ -171,60 +169,44 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
     Ok(Moving { picture, ghost, beside: mean(&off) })
 }
 
-impl Study for Taa {
-    fn about(&self) -> About {
-        About {
-            name: "taa",
-            title: "Temporal anti-aliasing",
-            text: "A Siemens star of 72 rays and a hairline, .36 and .64 bright, 192 x 192, at frame 64, and a light \
-                   disc that crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples \
-                   a pixel in f64. Errors are those of colours as a screen shows them, of the resting picture. Of the \
-                   moving one the table gives PSNR and FLIP, and how much of the disc's colour is left where it was \
-                   six frames ago at most, and how many pixels behind it 1 % of it is left. Flicker is the deviation \
-                   in time over a round of the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of \
-                   at most 24 pixels.",
-            parameter: "gamma, or samples",
-            unit: Unit::Frame,
-            error: "of the resting picture",
-        }
-    }
+pub static STUDY: Study = Study {
+    name: "taa",
+    title: "Temporal anti-aliasing",
+    text: "A Siemens star of 72 rays and a hairline, .36 and .64 bright, 192 x 192, at frame 64, and a light \
+           disc that crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples \
+           a pixel in f64. Errors are those of colours as a screen shows them, of the resting picture. Of the \
+           moving one the table gives PSNR and FLIP, and how much of the disc's colour is left where it was \
+           six frames ago at most, and how many pixels behind it 1 % of it is left. Flicker is the deviation \
+           in time over a round of the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of \
+           at most 24 pixels.",
+    parameter: "gamma, or samples",
+    unit: Unit::Frame,
+    error: "of the resting picture",
+    methods: METHODS,
+    grids: [[48, 96, SIDE as u32]; 2],
+    // The truth is that of one canvas.
+    has_order: false,
+    ..Study::of(|point| scene(&point.method, point.setting, point.grid, true), measure)
+};
 
-    fn methods(&self) -> &'static [Method] {
-        METHODS
-    }
-
-    fn grids(&self, _: Extent) -> &'static [u32] {
-        &[48, 96, SIDE as u32]
-    }
-
-    /// The truth is that of one canvas.
-    fn has_order(&self) -> bool {
-        false
-    }
-
-    fn setup(&self, point: &Point) -> Setup {
-        scene(&point.method, point.setting, point.grid, true)
-    }
-
-    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (still, truth) = (&*STILL, &PASSING[0]);
-        let rest = rest(rig, &point.method, point.setting)?;
-        let moving = moving(rig, &point.method, point.setting)?;
-        let off = psnr(&rest.picture, still);
-        let norms = Norms::of(&rest.picture.values(), &still.values());
-        Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
-            .value("psnr_db", off)
-            .value("ssim", ssim(&rest.picture, still))
-            .value("flip", flip::mean(&rest.picture, still))
-            .value("flicker", rest.flicker)
-            .value("moving_psnr_db", psnr(&moving.picture, truth))
-            .value("moving_ssim", ssim(&moving.picture, truth))
-            .value("moving_flip", flip::mean(&moving.picture, truth))
-            .value("ghost", moving.beside)
-            .value("ghost_px", moving.tail())
-            // A root mean square of 10^(-31 / 20).
-            .hard(HardCase::at_most("31 dB at rest", 10f64.powf(-off / 20.0), 0.0282))
-            .hard(HardCase::at_most("flicker", rest.flicker, 0.02))
-            .hard(HardCase::at_most("tail, pixels", moving.tail(), 24.0)))
-    }
+fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+    let (still, truth) = (&*STILL, &PASSING[0]);
+    let rest = rest(rig, &point.method, point.setting)?;
+    let moving = moving(rig, &point.method, point.setting)?;
+    let off = psnr(&rest.picture, still);
+    let norms = Norms::of(&rest.picture.values(), &still.values());
+    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("psnr_db", off)
+        .value("ssim", ssim(&rest.picture, still))
+        .value("flip", flip::mean(&rest.picture, still))
+        .value("flicker", rest.flicker)
+        .value("moving_psnr_db", psnr(&moving.picture, truth))
+        .value("moving_ssim", ssim(&moving.picture, truth))
+        .value("moving_flip", flip::mean(&moving.picture, truth))
+        .value("ghost", moving.beside)
+        .value("ghost_px", moving.tail())
+        // A root mean square of 10^(-31 / 20).
+        .hard(HardCase::at_most("31 dB at rest", 10f64.powf(-off / 20.0), 0.0282))
+        .hard(HardCase::at_most("flicker", rest.flicker, 0.02))
+        .hard(HardCase::at_most("tail, pixels", moving.tail(), 24.0)))
 }

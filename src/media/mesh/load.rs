@@ -76,7 +76,7 @@ pub(crate) fn load_within(
     };
     match done {
         Ok((left_out, _)) if mesh.indices.is_empty() => {
-            Err(MeshError::of(Trouble::Empty(left_out.only()), folder.join(name)))
+            Err(MeshError::Model { path: folder.join(name), trouble: Trouble::Empty(left_out.only()) })
         }
         Ok((left_out, mut warnings)) => {
             warnings.extend(left_out.beside().map(|what| MeshWarning {
@@ -85,6 +85,6 @@ pub(crate) fn load_within(
             }));
             Ok(Loaded { mesh, warnings })
         }
-        Err(trouble) => Err(MeshError::of(trouble, folder.join(name))),
+        Err(trouble) => Err(MeshError::Model { path: folder.join(name), trouble }),
     }
 }

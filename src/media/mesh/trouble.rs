@@ -3,32 +3,48 @@
 use super::model::Vertex;
 use eddy_project::{confine::FileError, limits};
 
-/// An error of a model before the model's name is added.
-#[derive(Debug)]
-pub(super) enum Trouble {
+/// An error of a model; its text goes on behind the model's name.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Trouble {
+    /// It is not what its format says.
+    #[error(" is broken: {0}")]
     Broken(String),
     /// An error in a line of a text, counted from 1, and how to mend it.
-    Line {
-        line: usize,
-        reason: String,
-        mend: String,
-    },
+    #[error(" is broken: line {line}: {reason}")]
+    Line { line: usize, reason: String, mend: String },
+    /// It is beyond a limit.
+    #[error(" is too large: {0}")]
     TooLarge(String),
     /// An error of a file that the model names.
+    #[error(" refers to a file: {0}")]
     Named(FileError),
     /// It is glTF of a version that is not read.
+    #[error(": this is glTF {0}; Eddy reads 2.0")]
     Version(String),
     /// It needs what is not read. `because` says why it is needed, and may be empty; `mend` what to do.
-    Needs {
-        what: String,
-        because: String,
-        mend: String,
-    },
+    #[error(" needs {what}, which Eddy cannot read{}{because}", if because.is_empty() { "" } else { ": " })]
+    Needs { what: String, because: String, mend: String },
     /// It holds no triangles; the words behind that say what else.
+    #[error(" has no triangles{0}")]
     Empty(String),
 }
 
 impl Trouble {
+    /// Returns what to do about it.
+    pub fn hint(&self) -> String {
+        match self {
+            Trouble::Named(error) => error.hint(),
+            Trouble::TooLarge(_) => "simplify the model before it is exported".into(),
+            Trouble::Line { mend, .. } | Trouble::Needs { mend, .. } => mend.clone(),
+            Trouble::Broken(_) => "re-export the model".into(),
+            Trouble::Version(version) if version.starts_with("1.") || version.starts_with("0.") => {
+                "re-export the model as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()
+            }
+            Trouble::Version(_) => "re-export the model as glTF 2.0".into(),
+            Trouble::Empty(_) => "export the surface of the model as triangles".into(),
+        }
+    }
+
     /// Cut short where a parser quotes a whole file.
     pub fn broken(reason: impl std::fmt::Display) -> Trouble {
         Trouble::Broken(Self::short(&reason.to_string()))

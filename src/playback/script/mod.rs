@@ -176,7 +176,7 @@ impl<'a> Reader<'a> {
 }
 
 /// The inputs of frame 0, 1, 2 … of a run at a fixed step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ScriptedInputs {
     fps: f64,
     mouse_events: Vec<At<MouseAction>>,
@@ -191,16 +191,7 @@ pub struct ScriptedInputs {
 impl ScriptedInputs {
     /// `fps` is finite and above 0.
     pub fn new(fps: f64) -> Self {
-        Self {
-            fps,
-            mouse_events: Vec::new(),
-            key_events: Vec::new(),
-            date: None,
-            mouse: Mouse::default(),
-            keyboard: Keyboard::default(),
-            frame: 0,
-            replay: None,
-        }
+        Self { fps, ..Self::default() }
     }
 
     #[must_use]

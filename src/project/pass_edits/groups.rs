@@ -1,6 +1,6 @@
 //! Groups while passes are edited: their passes follow each other, and none is empty.
 
-use super::error::PassEditError;
+use super::edit::PassEditError;
 use crate::{Group, PassId, Project};
 
 /// Draws a buffer so many times a frame, with the others of its group.

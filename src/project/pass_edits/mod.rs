@@ -4,11 +4,9 @@
 //! stands in channels and groups, and the passes of a group follow each other.
 
 mod edit;
-mod error;
 mod groups;
 
-pub use edit::{PassEdit, PassEdited};
-pub use error::PassEditError;
+pub use edit::{PassEdit, PassEditError, PassEdited};
 
 #[cfg(test)]
 mod tests;

@@ -20,6 +20,7 @@ use std::{
 use watcher::FolderWatcher;
 
 /// The files of the open project.
+#[derive(Default)]
 pub(super) struct DiskSync {
     watcher: Option<FolderWatcher>,
     watch_debounce: Duration,
@@ -52,28 +53,20 @@ enum OnDisk {
 enum Check {
     /// Nothing was due, or the files are being written.
     Nothing,
+    /// The files make another project.
     Project(Box<Loaded>),
     /// The files make no whole project. `why` is there where it has not been said before.
-    Unusable {
-        why: Option<String>,
-    },
+    Unusable { why: Option<String> },
 }
 
 impl DiskSync {
     pub fn new(options: &SessionOptions) -> Self {
         let (watch_debounce, retry_for) = (options.watch_debounce, options.retry_for);
         Self {
-            watcher: None,
             watch_debounce,
             retry_for,
             changes: Debounce::with_limit(watch_debounce, 8 * watch_debounce),
-            is_check_wanted: false,
-            unsettled_since: None,
-            reported: None,
-            manifest: None,
-            opened: 0,
-            media_files: Vec::new(),
-            reset_on_reload: false,
+            ..Self::default()
         }
     }
 

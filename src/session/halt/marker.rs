@@ -7,6 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+#[derive(Default)]
 pub struct Marker {
     /// The folder of such files; without, none is written.
     folder: Option<PathBuf>,

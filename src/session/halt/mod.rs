@@ -33,6 +33,7 @@ const QUIET: Duration = Duration::from_millis(1500);
 const LOOK: Duration = Duration::from_millis(100);
 
 /// The halt of the picture, if there is one, and what is known of its frames.
+#[derive(Default)]
 pub(super) struct HaltControl {
     halt: Option<Halt>,
     /// The picture ran when it was halted, and goes on after.
@@ -71,18 +72,7 @@ pub(super) enum Overdue {
 
 impl HaltControl {
     pub fn new(limit: Duration, state_dir: Option<&Path>) -> Self {
-        Self {
-            halt: None,
-            resumes: false,
-            good: None,
-            limit,
-            pace: Pace::default(),
-            allowed: None,
-            is_new: false,
-            marker: Marker::new(state_dir),
-            lost_at: None,
-            is_device_gone: false,
-        }
+        Self { limit, marker: Marker::new(state_dir), ..Self::default() }
     }
 
     /// Begins with another project. `is_overdue`: the device still draws a frame of the one before.

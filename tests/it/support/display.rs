@@ -7,6 +7,7 @@ use std::{
     process::{Child, Command, Stdio},
     time::{Duration, Instant},
 };
+use tempfile::TempDir;
 
 /// A display that nobody sees. Ends with the value.
 pub struct Display {
@@ -19,6 +20,15 @@ impl Display {
     /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
     pub fn open() -> Option<Display> {
         Self::of_size(1000, 700)
+    }
+
+    /// The same with a home folder for a window.
+    pub fn with_home() -> Option<(Display, TempDir)> {
+        Self::of_size_with_home(1000, 700)
+    }
+
+    pub fn of_size_with_home(width: u32, height: u32) -> Option<(Display, TempDir)> {
+        Some((Self::of_size(width, height)?, tempfile::tempdir().unwrap()))
     }
 
     /// The same with a screen of so many pixels.

@@ -24,9 +24,23 @@ pub use eddy::gpu::testing::{gpu, gpu_with, skipped};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
     gpu::Gpu,
+    lab::Rig,
     media::MediaSet,
     project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap},
 };
+use std::{fs, path::PathBuf};
+
+/// A device for studies.
+pub fn rig() -> Option<Rig> {
+    gpu().map(Rig::new)
+}
+
+/// Makes a folder with these files.
+pub fn folder_of(folder: PathBuf, files: &[(&str, &str)]) -> PathBuf {
+    fs::create_dir_all(&folder).unwrap();
+    files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
+    folder
+}
 
 pub fn buffer(name: &str) -> PassId {
     PassId::Buffer(name.into())
@@ -71,6 +85,13 @@ pub fn run(engine: &mut Engine, from: i32, to: i32) {
     for frame in from..to {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
     }
+}
+
+/// An engine with the project's program, after so many frames.
+pub fn ran(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
+    let mut engine = engine(gpu, project, size);
+    run(&mut engine, 0, frames);
+    engine
 }
 
 /// The texel at (x, y), counted from the bottom left.

@@ -35,6 +35,13 @@ pub fn draw(engine: &mut Engine, frames: std::ops::Range<i32>) {
     presets::draw(engine, frames, presets::untouched);
 }
 
+/// An engine with all buffers of a project, after these frames.
+pub fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: std::ops::Range<i32>) -> Engine {
+    let mut engine = whole(gpu, project, size);
+    draw(&mut engine, frames);
+    engine
+}
+
 pub fn read(engine: &mut Engine, name: &str) -> Pixels {
     engine.read(&buffer(name)).unwrap()
 }

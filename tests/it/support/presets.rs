@@ -108,6 +108,20 @@ pub fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engi
     engine_with(gpu, project, &MediaSet::new(), &options, size)
 }
 
+/// The same after these frames.
+pub fn drawn(
+    gpu: &Gpu,
+    project: &Project,
+    skip: bool,
+    size: (u32, u32),
+    frames: std::ops::Range<i32>,
+    inputs: impl Fn(i32) -> FrameInputs,
+) -> Engine {
+    let mut engine = whole(gpu, project, skip, size);
+    draw(&mut engine, frames, inputs);
+    engine
+}
+
 /// Mean of a component over the texels that `at` takes, in f64.
 pub fn mean(pixels: &Pixels, component: usize, at: impl Fn(u32, u32) -> bool) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);

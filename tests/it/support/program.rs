@@ -1,5 +1,6 @@
 //! What tests of the built program share: running it in a folder of its own and reading what it wrote.
 
+use super::gpu;
 use std::{
     ffi::OsStr,
     fs,
@@ -38,6 +39,11 @@ pub struct Bench {
 impl Bench {
     pub fn new() -> Bench {
         Bench { dir: tempfile::tempdir().unwrap() }
+    }
+
+    /// `None` where the machine has no device.
+    pub fn with_gpu() -> Option<Bench> {
+        gpu().map(|_| Bench::new())
     }
 
     pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {

@@ -79,6 +79,18 @@ impl Stage {
         tick
     }
 
+    /// Does what a command asks for, with a tick after it.
+    pub fn act(&mut self, command: Command) {
+        self.session.apply(command);
+        self.tick();
+    }
+
+    /// Does what a command asks for, and waits until what follows from it is compiled.
+    pub fn compile(&mut self, command: Command) {
+        self.session.apply(command);
+        self.until_compiled();
+    }
+
     /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a
     /// while.
     pub fn settle(&mut self) {

@@ -1,6 +1,6 @@
 //! The real window on a display of its own: Xvfb, the `eddy` binary with `--json`, xdotool for hands.
 
-pub use super::display::Display;
+pub use super::{display::Display, folder_of};
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader},
@@ -118,6 +118,13 @@ impl<'a> Window<'a> {
     /// Opens a window with a project and waits until that is compiled.
     pub fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
         let mut window = Self::open(display, home, &[project.to_str().unwrap()]);
+        window.compiled();
+        window
+    }
+
+    /// The same with a window of a size.
+    pub fn of_size(display: &'a Display, home: &Path, size: &str, project: &str) -> Window<'a> {
+        let mut window = Self::open_as(display, home, Some(size), &[], &[project]);
         window.compiled();
         window
     }
@@ -374,6 +381,43 @@ impl<'a> Window<'a> {
     /// Does the same beside what is held down.
     pub fn keys_as_held(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
+    }
+
+    /// Types, and ends with Return.
+    pub fn submit(&self, text: &str) {
+        self.type_text(text);
+        self.keys(&["Return"]);
+    }
+
+    /// Pauses the picture, and waits until it stands still.
+    pub fn pause(&mut self) {
+        self.keys(&["alt+Up"]);
+        self.wait_until("the pause", "frame", |e| e["playing"] == false);
+    }
+
+    /// Types over what the field with the keyboard holds, and ends with Return.
+    pub fn enter(&self, text: &str) {
+        self.keys(&["ctrl+a"]);
+        self.submit(text);
+    }
+
+    /// Clicks on a field and types over what it holds.
+    pub fn fill(&mut self, field: &str, text: &str) {
+        self.click_on(field);
+        self.enter(text);
+    }
+
+    /// Opens the palette and types in it.
+    pub fn search_palette(&mut self, text: &str) {
+        self.keys(&["ctrl+shift+p"]);
+        self.shows("field:palette");
+        self.type_text(text);
+    }
+
+    /// Saves the project, and waits until that is done.
+    pub fn save(&mut self) {
+        self.keys(&["ctrl+s"]);
+        self.wait_until("the save", "dirty", |e| e["dirty"] == false);
     }
 
     pub fn type_text(&self, text: &str) {

@@ -48,17 +48,10 @@ struct Active {
 }
 
 pub struct HistoryRecorder<'w> {
+    out: Recorded,
     functions: Vec<Function>,
-    variables: Vec<Vec<Variable>>,
-    globals: Vec<Variable>,
     ids: Vec<GlobalId>,
     active: Vec<Active>,
-    moments: Vec<Moment>,
-    calls: Vec<Call>,
-    writes: Vec<Write>,
-    words: Vec<u32>,
-    slots: Vec<u32>,
-    is_cut: bool,
     has_begun: bool,
     walkable: &'w Walkable,
 }
@@ -75,17 +68,10 @@ impl<'w> HistoryRecorder<'w> {
             }
         }
         let mut recorder = Self {
+            out: Recorded { slots: vec![NONE; globals.len()], globals, ..Recorded::default() },
             functions: Vec::new(),
-            variables: Vec::new(),
-            slots: vec![NONE; globals.len()],
-            globals,
             ids,
             active: Vec::new(),
-            moments: Vec::new(),
-            calls: Vec::new(),
-            writes: Vec::new(),
-            words: Vec::new(),
-            is_cut: false,
             has_begun: false,
             walkable,
         };
@@ -143,7 +129,7 @@ impl<'w> HistoryRecorder<'w> {
             slots,
             writes,
         });
-        self.variables.push(variables);
+        self.out.variables.push(variables);
     }
 
     /// Notes which parameters a function writes, itself or by what it calls: callees come before their callers.
@@ -173,8 +159,7 @@ impl<'w> HistoryRecorder<'w> {
 
     /// The history, once the walk has ended.
     pub fn end(self) -> Recorded {
-        let Self { variables, globals, moments, calls, writes, words, slots, is_cut, .. } = self;
-        Recorded { variables, globals, moments, calls, writes, words, slots, is_cut }
+        self.out
     }
 
     fn role(&self, function: FuncId, value: Value) -> Option<&Role> {
@@ -189,25 +174,25 @@ impl<'w> HistoryRecorder<'w> {
 
     fn moment(&mut self, kind: MomentKind, statement: u32) {
         let Some(call) = self.call() else { return };
-        let is_full = self.words.len() >= MOST_WORDS || self.slots.len() >= MOST_SLOTS;
-        if self.moments.len() >= MOST_MOMENTS || is_full {
-            self.is_cut = true;
+        let is_full = self.out.words.len() >= MOST_WORDS || self.out.slots.len() >= MOST_SLOTS;
+        if self.out.moments.len() >= MOST_MOMENTS || is_full {
+            self.out.is_cut = true;
             return;
         }
         if let Some(active) = self.active.last_mut() {
             active.last = Some(statement);
         }
-        self.moments.push(Moment { kind, statement, call, writes: self.writes.len() as u32 });
+        self.out.moments.push(Moment { kind, statement, call, writes: self.out.writes.len() as u32 });
     }
 
     fn write<R: Real>(&mut self, slot: usize, offset: usize, cells: &[Cell<R>]) {
-        if self.is_cut {
+        if self.out.is_cut {
             return;
         }
-        let words = self.words.len() as u32;
-        self.words.extend(cells.iter().map(|cell| cell.bits()));
-        let previous = std::mem::replace(&mut self.slots[slot], self.writes.len() as u32);
-        self.writes.push(Write { words, offset: offset as u32, count: cells.len() as u32, previous });
+        let words = self.out.words.len() as u32;
+        self.out.words.extend(cells.iter().map(|cell| cell.bits()));
+        let previous = std::mem::replace(&mut self.out.slots[slot], self.out.writes.len() as u32);
+        self.out.writes.push(Write { words, offset: offset as u32, count: cells.len() as u32, previous });
     }
 
     fn event(&mut self, event: StatementEvent) {
@@ -246,7 +231,7 @@ impl<'w> HistoryRecorder<'w> {
             self.write(global as usize, offset, cells);
         }
         if let (Some(variable), Some(call)) = (variable, self.call()) {
-            let slot = self.calls[call as usize].slots + variable;
+            let slot = self.out.calls[call as usize].slots + variable;
             self.write(slot as usize, offset, cells);
         }
     }
@@ -264,6 +249,7 @@ fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u
 }
 
 /// A history without the program that it is of.
+#[derive(Default)]
 pub struct Recorded {
     variables: Vec<Vec<Variable>>,
     globals: Vec<Variable>,
@@ -293,15 +279,15 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
         let function = &self.functions[id.index()];
         let parent = self.active.iter().rev().find_map(|active| active.call);
         let mut call = None;
-        if let Some(name) = function.name.clone().filter(|_| !self.is_cut) {
-            let slots = self.slots.len() as u32;
-            self.slots.resize(self.slots.len() + function.slots as usize, NONE);
-            call = Some(self.calls.len() as u32);
-            self.calls.push(Call {
+        if let Some(name) = function.name.clone().filter(|_| !self.out.is_cut) {
+            let slots = self.out.slots.len() as u32;
+            self.out.slots.resize(self.out.slots.len() + function.slots as usize, NONE);
+            call = Some(self.out.calls.len() as u32);
+            self.out.calls.push(Call {
                 name,
                 parent,
-                from: (self.moments.len() as u32).saturating_sub(1),
-                depth: parent.map_or(0, |parent| self.calls[parent as usize].depth + 1),
+                from: (self.out.moments.len() as u32).saturating_sub(1),
+                depth: parent.map_or(0, |parent| self.out.calls[parent as usize].depth + 1),
                 slots,
                 function: id.index() as u32,
             });
@@ -323,7 +309,7 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
     fn leave(&mut self, view: &View<'_, '_, R>) {
         if let (Some(call), Some(last)) = (self.call(), self.active.last().and_then(|active| active.last)) {
             let function = &self.functions[view.function_id().index()];
-            let slot = self.calls[call as usize].slots + function.slots - 1;
+            let slot = self.out.calls[call as usize].slots + function.slots - 1;
             if view.function().result != TypeId::VOID {
                 self.write(slot as usize, 0, view.result());
             }
@@ -340,7 +326,7 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
             }
             if let Some(call) = self.call().filter(|_| !view.function().is_place(value)) {
                 for variable in role.variables.clone() {
-                    let slot = self.calls[call as usize].slots + variable;
+                    let slot = self.out.calls[call as usize].slots + variable;
                     self.write(slot as usize, 0, view.value(value));
                 }
             }

@@ -8,7 +8,7 @@
 use crate::{
     ast::Loc,
     ir::{
-        Block, Function, GlobalId, GlobalKind, Module, Op, Stmt, Value,
+        Block, Function, GlobalId, GlobalKind, Module, Op, Stmt,
         rewrite::{self, Rewriter, Rule},
     },
     types::{Scalar, TypeId},
@@ -125,10 +125,6 @@ struct Exits {
 }
 
 impl Rule for Exits {
-    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
-        None
-    }
-
     fn begin_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
         if self.loops.next() == Some(true) {
             let place = r.f.append(Op::Global(self.flag), TypeId::BOOL, Loc::default());

@@ -5,7 +5,7 @@
 //! may discard test depth on another way.
 
 use crate::ir::{
-    Module, Op, Stmt, Value,
+    Module, Stmt,
     rewrite::{self, Rewriter, Rule},
 };
 
@@ -19,9 +19,5 @@ struct SeemToDiscard;
 impl Rule for SeemToDiscard {
     fn begin(&mut self, r: &mut Rewriter<'_>) {
         r.seem_to(Stmt::Discard);
-    }
-
-    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
-        None
     }
 }

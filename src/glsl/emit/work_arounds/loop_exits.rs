@@ -4,7 +4,7 @@
 //! has two values at its exits, the one with which a round began and a new one, and needs a phi after the loop.
 
 use crate::ir::{
-    Block, Function, Module, Op, Stmt, Value,
+    Block, Function, Module, Op, Stmt,
     rewrite::{self, Rewriter, Rule},
 };
 
@@ -15,10 +15,6 @@ pub(super) fn run(program: &mut Module) {
 struct LoopExits;
 
 impl Rule for LoopExits {
-    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
-        None
-    }
-
     fn begin_body(&mut self, r: &mut Rewriter<'_>, body: &Block) {
         if !begins_with_exit(&r.f, body) {
             r.seem_to(Stmt::Break);

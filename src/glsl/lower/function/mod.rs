@@ -1,7 +1,6 @@
 //! The body of one function under construction, from its parameters to its last expression; statements, constants and
 //! locals have files of their own.
 
-mod blocks;
 mod constants;
 mod variables;
 
@@ -193,5 +192,42 @@ impl<'m, 'a> Builder<'m, 'a> {
         debug_assert!(op.is_free());
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.f.append(op, ty, self.loc)
+    }
+}
+
+impl Builder<'_, '_> {
+    pub fn push(&mut self, statement: Stmt) {
+        self.ended = matches!(statement, Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard);
+        self.block.push(statement);
+    }
+
+    /// Reads a place.
+    pub fn load(&mut self, place: Value) -> Value {
+        self.add(Op::Load { place })
+    }
+
+    /// Writes to a place.
+    pub fn store(&mut self, place: Value, value: Value) {
+        self.push(Stmt::Store { place, value });
+    }
+
+    /// Statements that were lowered before.
+    pub fn splice(&mut self, mut block: Block) {
+        self.block.append(&mut block);
+    }
+
+    /// Calls a function; the value of a void one is none.
+    pub fn push_call(&mut self, function: ir::FuncId, args: Vec<Value>) -> Value {
+        let ty = self.cx.out[function].result;
+        self.add_typed(Op::Call { function, args: args.into() }, ty)
+    }
+
+    /// Returns a nested block, filled by `fill`, and whether its end cannot be reached.
+    pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+        let outer = std::mem::take(&mut self.block);
+        let outer_ended = std::mem::take(&mut self.ended);
+        fill(self);
+        let ended = std::mem::replace(&mut self.ended, outer_ended);
+        (std::mem::replace(&mut self.block, outer), ended)
     }
 }

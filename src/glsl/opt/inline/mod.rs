@@ -125,33 +125,24 @@ impl Inliner<'_> {
                     }
                     self.f.replace(value, op);
                 }
-                Stmt::If { condition, accept, reject } => {
-                    *condition = self.value(*condition);
-                    for block in [accept, reject] {
-                        let old = std::mem::take(block);
-                        *block = self.nested(|s| s.block(old));
-                    }
-                }
                 Stmt::Loop { body, continuing, break_if } => {
                     self.loops += 1;
-                    for block in [body, continuing] {
-                        let old = std::mem::take(block);
-                        *block = self.nested(|s| s.block(old));
-                    }
+                    [body, continuing].into_iter().for_each(|block| self.rewrite(block));
                     self.loops -= 1;
                     *break_if = break_if.map(|value| self.value(value));
                 }
-                Stmt::Switch { selector, cases } => {
-                    *selector = self.value(*selector);
-                    for case in cases {
-                        let old = std::mem::take(&mut case.body);
-                        case.body = self.nested(|s| s.block(old));
-                    }
+                other => {
+                    other.operands_mut(|operand| *operand = self.value(*operand));
+                    other.blocks_mut(|block| self.rewrite(block));
                 }
-                other => other.operands_mut(|operand| *operand = self.value(*operand)),
             }
             self.out.push(stmt);
         }
+    }
+
+    fn rewrite(&mut self, block: &mut Block) {
+        let old = std::mem::take(block);
+        *block = self.nested(|s| s.block(old));
     }
 
     /// Puts a function here; `call` is the value that the caller had of it.

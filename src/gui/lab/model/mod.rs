@@ -72,7 +72,7 @@ impl ExtentResults {
     }
 
     /// Returns whether every point of a study has its error, and those on its main grid their costs.
-    pub fn is_whole(&self, study: &dyn Study, extent: Extent) -> bool {
+    pub fn is_whole(&self, study: &Study, extent: Extent) -> bool {
         let main = study.main_grid(extent);
         study.points(extent).iter().all(|point| {
             self.results
@@ -82,7 +82,7 @@ impl ExtentResults {
     }
 
     /// `None` where nothing of the study is known.
-    pub fn shown(&self, study: &dyn Study) -> Option<PlotData> {
+    pub fn shown(&self, study: &'static Study) -> Option<PlotData> {
         let estimate = |point: &Point| self.estimates.iter().find(|(p, _)| p == point).map(|(_, millis)| *millis);
         Some(PlotData::new(Table::with_estimates(study, &self.results, estimate)?))
     }

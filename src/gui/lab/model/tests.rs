@@ -8,7 +8,7 @@ use crate::lab::{
 use egui::pos2;
 
 /// The first study, its points on the main grid, and a run that begins.
-fn begun() -> (&'static dyn Study, Vec<Point>, ExtentResults) {
+fn begun() -> (&'static Study, Vec<Point>, ExtentResults) {
     let study = studies::all()[0];
     let main = study.main_grid(Extent::Quick);
     let points = study.points(Extent::Quick).into_iter().filter(|p| p.grid == main).collect();

@@ -1,7 +1,7 @@
 //! The points of a study with what follows from all of them together: orders, the frontier, the time to an error.
 
 use crate::{
-    About, Extent, Measured, Method, Number, Point, Race, Results, Study,
+    Extent, Measured, Method, Number, Point, Results, Study,
     cost::{Cost, Times},
     metrics::{first_reach, order},
 };
@@ -101,13 +101,10 @@ pub struct Convergence {
 /// A study's results.
 #[derive(Clone, Debug)]
 pub struct Table {
-    pub about: About,
-    pub error_label: String,
+    pub study: &'static Study,
     pub grid: u32,
     pub rows: Vec<Row>,
     pub convergence: Vec<Convergence>,
-    race: Option<Race>,
-    signed: Option<&'static str>,
 }
 
 /// Says how a method comes to an error of 1 %.
@@ -134,21 +131,21 @@ pub struct Best {
 
 impl Table {
     /// `None` where nothing of the study is known.
-    pub fn new(study: &dyn Study, results: &Results) -> Option<Table> {
+    pub fn new(study: &'static Study, results: &Results) -> Option<Table> {
         Self::with_estimates(study, results, |_| None)
     }
 
     /// As [`Table::new`], where `estimate` stands for the cost of a point that has none yet: milliseconds a frame.
     pub fn with_estimates(
-        study: &dyn Study,
+        study: &'static Study,
         results: &Results,
         estimate: impl Fn(&Point) -> Option<f64>,
     ) -> Option<Table> {
         let extent = results.runs.iter().map(|r| r.extent).max_by_key(|e| *e == Extent::Full)?;
-        let (about, grid) = (study.about(), study.main_grid(extent));
+        let grid = study.main_grid(extent);
         let points = study.points(extent);
         let mut rows = Vec::new();
-        for method in study.methods() {
+        for method in study.methods {
             for point in points.iter().filter(|p| p.method == method.name && p.grid == grid) {
                 let Some(record) = results.error(point) else { continue };
                 let cost = results.cost(point).copied();
@@ -177,10 +174,10 @@ impl Table {
             let beaten = places.iter().any(|&(j, (u, v), ok)| j != i && ok && u <= x && v <= y && (u < x || v < y));
             (rows[i].is_dominated, rows[i].is_frontier) = (beaten, passes && !beaten);
         }
-        let convergence = study.methods().iter().filter_map(|method| {
+        let convergence = study.methods.iter().filter_map(|method| {
             let mut errors: Vec<(u32, f64)> = points
                 .iter()
-                .filter(|p| p.method == method.name && p.setting == method.usual && study.has_order())
+                .filter(|p| p.method == method.name && p.setting == method.usual && study.has_order)
                 .filter_map(|p| Some((p.grid, results.measured(p)?.norms.l2)))
                 .collect();
             errors.sort_by_key(|(grid, _)| *grid);
@@ -188,9 +185,7 @@ impl Table {
             let order = order(a, b, f64::from(fine) / f64::from(coarse));
             (errors.len() >= 3).then_some(Convergence { method, errors, order })
         });
-        let convergence = convergence.collect();
-        let (error_label, race, signed) = (study.error_label(), study.race(), study.signed());
-        Some(Table { about, error_label, grid, convergence, rows, race, signed })
+        Some(Table { study, grid, convergence: convergence.collect(), rows })
     }
 
     pub fn methods(&self) -> Vec<&'static Method> {
@@ -251,7 +246,7 @@ impl Table {
             let (row, (millis, _)) = rows[from];
             Some(Best { error, setting: row.point.setting, millis, turn })
         };
-        let sign = |i: usize| self.signed.and_then(|name| rows.get(i)?.0.value(name)).map(f64::signum);
+        let sign = |i: usize| self.study.signed.and_then(|name| rows.get(i)?.0.value(name)).map(f64::signum);
         let turns = |i: usize| sign(i).zip(sign(i + 1)).is_some_and(|(a, b)| a != b);
         // The first setting on the finer side of a turn beside the least error.
         let beyond = [least.checked_sub(1), Some(least)].into_iter().flatten().find(|i| turns(*i)).map(|i| i + 1);
@@ -266,7 +261,7 @@ impl Table {
     /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
     /// pass their hard cases: it is their best that counts.
     pub fn verdict(&self) -> Option<String> {
-        let race = self.race?;
+        let race = self.study.race?;
         let methods = self.methods();
         let method = methods.iter().find(|m| m.name == race.method)?;
         let peers = || methods.iter().filter(|m| race.peers.contains(&m.name));
@@ -292,7 +287,7 @@ impl Table {
              {millis:.3} ms, {:.1} times as long.",
             race.peers_are,
             row.method.title,
-            self.about.parameter,
+            self.study.parameter,
             row.point.setting,
             100.0 * error,
             millis / own

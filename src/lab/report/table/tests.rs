@@ -1,5 +1,5 @@
 use super::*;
-use crate::{HardCase, Unit, cost::Clock, metrics::Norms};
+use crate::{HardCase, Race, cost::Clock, metrics::Norms};
 
 const METHODS: [Method; 3] = [
     Method { name: "own", title: "Own", settings: &[1.0, 2.0], usual: 1.0 },
@@ -37,10 +37,13 @@ fn row(method: &'static Method, setting: f64, millis: f64, error: f64, passed: b
 }
 
 fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
-    let about = About { name: "s", title: "S", text: "", parameter: "dt", unit: Unit::Frame, error: "of it" };
-    let race = Some(Race { method: "own", peers, peers_are: "one-pass settings" });
-    let error_label = about.error.into();
-    Table { about, error_label, grid: 1, rows, convergence: Vec::new(), race, signed: Some("energy_error") }
+    let study = Box::leak(Box::new(Study {
+        parameter: "dt",
+        signed: Some("energy_error"),
+        race: Some(Race { method: "own", peers, peers_are: "one-pass settings" }),
+        ..Study::of(|_| unreachable!(), |_, _| unreachable!())
+    }));
+    Table { study, grid: 1, rows, convergence: Vec::new() }
 }
 
 /// The errors of the fluid's best method at steps from long to short, and whether too much energy is left.

@@ -1,6 +1,7 @@
 //! Models made to do harm: small files that ask for much, and files that a reader stumbles over.
 
 use super::*;
+use crate::mesh::trouble::Trouble;
 use eddy_project::confine::Reason;
 use std::fs;
 
@@ -120,7 +121,10 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
     {
         let error = named(uri);
         says(&error, "m.gltf refers to a file", "");
-        assert!(matches!(&error, MeshError::Named { error, .. } if error.reason == reason), "{error}");
+        assert!(
+            matches!(&error, MeshError::Model { trouble: Trouble::Named(error), .. } if error.reason == reason),
+            "{error}"
+        );
     }
     says(&named("file:///etc/passwd"), "m.gltf is broken", "neither a file nor data");
     // Percent signs that make no Unicode: the crate's own reader panics.

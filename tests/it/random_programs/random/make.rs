@@ -5,6 +5,7 @@ use super::{
 };
 
 /// Numbers that depend on the seed alone (Steele, Lea and Flood: SplitMix).
+#[derive(Default)]
 pub struct Rng(u64);
 
 impl Rng {
@@ -37,31 +38,12 @@ impl Rng {
 
 /// The program of a seed.
 pub fn make(seed: u64) -> Program {
-    let mut maker = Maker {
-        rng: Rng::new(seed),
-        program: Program {
-            structs: Vec::new(),
-            vars: Vec::new(),
-            globals: Vec::new(),
-            functions: Vec::new(),
-            body: Vec::new(),
-            results: Vec::new(),
-        },
-        scopes: vec![Vec::new()],
-        counters: Vec::new(),
-        stepped: Vec::new(),
-        cases: Vec::new(),
-        result: None,
-        in_function: false,
-        loops: 0,
-        breakable: 0,
-        depth: 0,
-        budget: 0,
-    };
+    let mut maker = Maker { rng: Rng::new(seed), scopes: vec![Vec::new()], ..Maker::default() };
     maker.program();
     maker.program
 }
 
+#[derive(Default)]
 pub(super) struct Maker {
     pub rng: Rng,
     pub program: Program,

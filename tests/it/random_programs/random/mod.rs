@@ -185,7 +185,7 @@ pub struct Function {
 }
 
 /// One pass. Its results are two words for each pixel, in 16-bit halves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Program {
     pub structs: Vec<Vec<Ty>>,
     pub vars: Vec<Var>,
