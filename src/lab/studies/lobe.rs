@@ -103,7 +103,11 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let even = rig.after(&setup(point).flag("even", true), 1, "field")?.component(0);
     let worst = even.iter().fold(0.0f64, |a, b| a.max((b - 1.0).abs()));
     let norms = Norms::of(&after, &exact(point.grid as usize, DIRECTIONS));
-    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }.hard(HardCase::at_most("an even sky", worst, 1e-3)))
+    Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }.hard(HardCase::at_most(
+        "an even sky",
+        worst,
+        1e-3,
+    )))
 }
 
 #[cfg(test)]

@@ -9,16 +9,18 @@ mod blur;
 pub mod brick_breaker;
 pub mod cavity;
 pub mod cycle;
+mod denoise;
 mod diffusion;
 pub mod edges;
 pub mod flow;
 pub mod fluid;
 pub mod gray_scott;
+mod lobe;
 pub mod outline;
 pub mod particles;
 pub mod poisson;
 mod precision;
-
+mod saw;
 mod silhouettes;
 pub mod ssr;
 pub mod taa;
@@ -49,6 +51,9 @@ pub fn all() -> Vec<&'static Study> {
         &brick_breaker::STUDY,
         &edges::STUDY,
         &outline::STUDY,
+        &lobe::STUDY,
+        &denoise::STUDY,
+        &saw::STUDY,
         &precision::STUDY,
     ]
 }
