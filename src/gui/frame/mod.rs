@@ -64,6 +64,8 @@ mod paused;
 #[cfg(test)]
 mod reach;
 #[cfg(test)]
+mod sound;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod widths;
