@@ -13,7 +13,7 @@ use crate::{
         ui_output::{ShellCommand, UiOutput},
     },
     project::{PassId, Tab},
-    session::{Command, Session, SoundView},
+    session::{Command, Halt, Session, SoundView},
 };
 use egui::{Align2, FontId, Key, Label, Rect, Response, RichText, Role, Sense, Ui, vec2};
 
@@ -75,6 +75,9 @@ fn progress(ui: &mut Ui, session: &Session, view: &SoundView) {
         (Some(why), _) => (format!("No more sound is computed: {why}. Edit the pass to try again."), p.error),
         _ if has_errors && view.track.is_some() => ("The pass has errors: this is the sound before.".into(), p.error),
         _ if has_errors => ("The pass has errors.".into(), p.error),
+        (None, None) if matches!(session.halt(), Some(Halt::Opened { .. })) => {
+            ("Play the project to compute its sound.".into(), p.weak)
+        }
         (None, None) => ("Compiling the sound pass.".into(), p.weak),
         (None, Some(track)) if track.made() < track.blocks() => {
             (format!("Computing: {} of {} parts", track.made(), track.blocks()), p.weak)

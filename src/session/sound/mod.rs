@@ -377,6 +377,39 @@ impl Session {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eddy_background::Control;
+    use eddy_project::Origin;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn a_step_that_does_not_end_is_given_up_and_what_was_made_stays() {
+        let open: Open = Arc::new(|| panic!("no device is asked for"));
+        let mut sounding = Sounding::new(open, false, Arc::new(|| ()));
+        let (go_on, waits) = channel::<()>();
+        let (begun, has_begun) = channel();
+        let shared = sounding.shared.clone();
+        let work = move |order: Order, _: &Control<()>| {
+            let _at_work = shared.begin();
+            shared.set_track(order.number, Arc::new(Track::new(4, 4)));
+            begun.send(()).unwrap();
+            waits.recv().map_err(|error| error.to_string())
+        };
+        let mut thread = Background::new("sound", "the sound pass", sounding.wake.clone(), work).unwrap();
+        let project = Project::new("p", Vec::new(), Origin::Unsaved);
+        sounding.shared.now().order = 1;
+        thread.start(Order { number: 1, project, media: MediaSet::new(), date: [0.0; 4], opened: 1 });
+        sounding.thread = Some(thread);
+        has_begun.recv().unwrap();
+        let now = Instant::now();
+        assert_eq!(sounding.poll(now, 0.0), None);
+        assert!(sounding.deadline().is_some_and(|at| at > now) && sounding.is_making());
+        let why = sounding.poll(now + STEP_LIMIT, 0.0).expect("a reason");
+        assert!(why.contains("20 s"), "{why}");
+        assert!(sounding.thread.is_none() && sounding.deadline().is_none() && sounding.has_lost);
+        assert!(sounding.shared.track().is_some());
+        assert_eq!(sounding.poll(now + 2 * STEP_LIMIT, 0.0), None, "it is said once");
+        go_on.send(()).unwrap();
+    }
 
     #[test]
     fn what_is_heard_is_made_first_and_then_the_rest() {
