@@ -1,4 +1,5 @@
-//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them.
+//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, tracks that sound
+//! passes fill, and the files that these are written to.
 //!
 //! Nothing here reads a file or a clock: bytes come in, and time is a number of samples. Browsers smooth a spectrum once
 //! for each frame that asks for it; here the frames before are those that lie a frame's step apart, so that a frame does not
@@ -6,15 +7,21 @@
 
 mod analyser;
 mod decode;
+mod flac;
+mod peaks;
+mod spectrum;
 mod synthetic;
 mod track;
-#[cfg(test)]
 mod wav;
 
 pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
+pub use flac::flac;
+pub use peaks::{Peak, Peaks};
+pub use spectrum::TrackSpectrum;
 pub use synthetic::synthetic;
 pub use track::Track;
+pub use wav::wav;
 
 /// Samples a second of everything behind the decoder; `iSampleRate`.
 pub const SAMPLE_RATE: u32 = 44_100;

@@ -1,6 +1,6 @@
 //! A sound that is heard while the rest of it is still being made.
 
-use std::sync::OnceLock;
+use std::{ops::Range, sync::OnceLock};
 
 /// Stereo frames of 16 bits in blocks of equal length. A block is written once, as a whole; blocks may come in any order.
 /// Reading takes no lock, so that a device's callback can do it.
@@ -27,6 +27,22 @@ impl Track {
         self.blocks.len()
     }
 
+    /// Returns whether a block is made.
+    pub fn has_block(&self, index: usize) -> bool {
+        self.blocks.get(index).is_some_and(|block| block.get().is_some())
+    }
+
+    /// The number of blocks that are made.
+    pub fn made(&self) -> usize {
+        self.blocks.iter().filter(|block| block.get().is_some()).count()
+    }
+
+    /// The frames of a block.
+    pub fn block_range(&self, index: usize) -> Range<usize> {
+        let start = (index * self.block_frames).min(self.frames);
+        start..(start + self.block_frames).min(self.frames)
+    }
+
     /// The first block that is not made yet.
     pub fn first_missing(&self) -> Option<usize> {
         self.blocks.iter().position(|block| block.get().is_none())
@@ -46,6 +62,12 @@ impl Track {
             return Some([0; 2]);
         }
         self.blocks[n / self.block_frames].get().map(|block| block[n % self.block_frames])
+    }
+
+    /// The mean of left and right at frame `n`, in -1 to 1; silence where it is not made yet.
+    pub fn mono(&self, n: i64) -> f32 {
+        let [left, right] = self.frame(n).unwrap_or_default();
+        (f32::from(left) + f32::from(right)) / 65536.0
     }
 }
 

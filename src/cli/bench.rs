@@ -182,7 +182,7 @@ fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassId, f64>
 /// The project as the engine plans it: without the passes it does not draw.
 fn drawable(project: &Project) -> Project {
     let mut drawable = project.clone();
-    drawable.passes.retain(|p| p.id.is_drawn());
+    drawable.passes.retain(|p| p.id.is_picture());
     drawable
 }
 

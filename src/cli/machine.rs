@@ -120,7 +120,7 @@ impl Machine {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
                     self.gpu = None;
                 }
-                if let Some(OfflineError::TimedOut { .. }) = error.downcast_ref() {
+                if let Some(OfflineError::TimedOut { .. } | OfflineError::SoundTimedOut { .. }) = error.downcast_ref() {
                     // It is still at that frame.
                     self.gpu = None;
                 }
@@ -160,7 +160,20 @@ pub fn open(
     wanted: &PassId,
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
+    is_picture(wanted)?;
     open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)
+}
+
+/// Does the same as [`open`] for the sound pass of a project.
+pub fn open_sound(
+    machine: &mut Machine,
+    report: &mut Report,
+    spec: &str,
+    run: &RunArgs,
+    inputs: ScriptedInputs,
+) -> Result<Offline, Trouble> {
+    let opened = open_with(machine, report, spec, run, (&PassId::Sound, &|_| Vec::new(), None), inputs);
+    opened.map(|(_, offline)| offline)
 }
 
 /// Says which passes of a project are read beside the wanted one.
@@ -175,6 +188,7 @@ pub fn open_measured(
     (wanted, beside): (&PassId, FindPasses<'_>),
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
+    is_picture(wanted)?;
     open_with(machine, report, spec, run, (wanted, beside, None), inputs)
 }
 
@@ -190,6 +204,7 @@ pub fn open_probed(
     (pass, probe): (&PassId, FindProbe<'_>),
     inputs: ScriptedInputs,
 ) -> Result<Offline, Trouble> {
+    is_picture(pass)?;
     open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline)| offline)
 }
 
@@ -205,7 +220,8 @@ fn open_with(
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
     let beside = beside(&project);
-    [wanted].into_iter().chain(&beside).try_for_each(|pass| is_drawn(&project, pass))?;
+    [wanted].into_iter().chain(&beside).try_for_each(|pass| is_there(&project, pass))?;
+    beside.iter().try_for_each(is_picture)?;
     for (option, assignments) in [("--set", &run.set), ("--sweep", &report.sweep)] {
         for assignment in assignments {
             project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
@@ -236,19 +252,25 @@ fn open_with(
     Ok((project, offline))
 }
 
-/// Fails for a pass that the project does not have or that is no picture.
-fn is_drawn(project: &Project, pass: &PassId) -> Result<(), Trouble> {
+/// Fails for a pass that the project does not have.
+fn is_there(project: &Project, pass: &PassId) -> Result<(), Trouble> {
     match project.pass(pass) {
         None => {
             let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
             let error = anyhow::anyhow!("there is no pass {}; there are {}", pass.key(), project::listed(&there));
             Err(error.into())
         }
-        Some(_) if !pass.is_drawn() => {
-            Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", pass.title())))
-        }
         Some(_) => Ok(()),
     }
+}
+
+/// Fails for a pass that has no picture.
+fn is_picture(pass: &PassId) -> Result<(), Trouble> {
+    if pass.is_picture() {
+        return Ok(());
+    }
+    let what = format!("{} makes no picture; `eddy render --pass sound --out x.wav` writes its samples", pass.title());
+    Err(Trouble::Unsupported(what))
 }
 
 pub fn millis_since(began: Instant) -> f64 {

@@ -21,6 +21,7 @@ mod probe;
 mod quiet;
 mod render;
 mod report;
+mod sound;
 mod source_excerpt;
 mod stability;
 mod sweep;
@@ -74,11 +75,22 @@ pub fn main() -> Next {
 }
 
 fn run(command: &Command) -> u8 {
-    let printed = match command {
+    let result = match command {
         Command::Render(args) => {
-            let targets = targets::Targets::of(args).and_then(|t| Ok((t, args.run.inputs()?)));
-            let (targets, inputs) = match targets {
-                Ok(both) => both,
+            let inputs = match args.run.inputs() {
+                Ok(inputs) => inputs,
+                Err(usage) => return trouble(usage),
+            };
+            match sound::Sounds::of(args) {
+                Ok(None) => {}
+                Ok(Some(sounds)) => match sounds.prepare() {
+                    Ok(()) => return printed(sound::run(args, &sounds, &inputs)),
+                    Err(error) => return trouble(error_chain(&error)),
+                },
+                Err(usage) => return trouble(usage),
+            }
+            let targets = match targets::Targets::of(args) {
+                Ok(targets) => targets,
                 Err(usage) => return trouble(usage),
             };
             if let Err(error) = targets.prepare() {
@@ -109,7 +121,12 @@ fn run(command: &Command) -> u8 {
         Command::Export(args) => library::export(args),
         Command::TryCompile => return u8::from(trial::serve(io::stdin()).is_err()),
     };
-    match printed {
+    printed(result)
+}
+
+/// Returns the exit code of a command that has printed.
+fn printed(result: io::Result<u8>) -> u8 {
+    match result {
         Ok(code) => code,
         // Whoever read along has seen enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,

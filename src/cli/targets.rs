@@ -77,11 +77,7 @@ impl Targets {
     pub fn prepare(&self) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere => Ok(()),
-            Output::File(file) => {
-                let folder = folder_of(file);
-                let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
-                fs::read_dir(folder).map(drop).with_context(what)
-            }
+            Output::File(file) => check_folder(file),
             Output::Folder(folder, _) => {
                 fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))
             }
@@ -97,9 +93,8 @@ impl Targets {
     /// Writes a picture to where [`Targets::path`] says. In a folder, nothing is written through a link that leads out of
     /// it.
     pub fn write(&self, path: &Path, pixels: &Pixels) -> anyhow::Result<()> {
-        if let (Output::Folder(folder, _), Some(name)) = (&self.place, path.file_name()) {
-            let within = project::check_within(folder, &name.to_string_lossy());
-            within.with_context(|| format!("cannot write {}", path.display()))?;
+        if let Output::Folder(folder, _) = &self.place {
+            check_within(folder, path)?;
         }
         write(path, pixels, self.format)
     }
@@ -138,8 +133,10 @@ fn frames(args: &RenderArgs) -> Result<(Vec<u32>, u32), String> {
     Ok((at, frames))
 }
 
+/// Returns the name of each project's file without its ending.
+///
 /// `case_counts`: whether the file system tells `Fluid.png` from `fluid.png`; asked only where it matters.
-fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
+pub fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
     let stems: Vec<String> = projects.iter().map(|p| project::stem(p)).collect();
     let twice = |key: fn(&str) -> String| {
         let mut first = HashMap::new();
@@ -157,7 +154,7 @@ fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<Stri
 
 /// Returns whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried
 /// out, as one machine can have both kinds of file systems; where nothing can be written, no.
-fn tells_case_apart(folder: &Path) -> bool {
+pub fn tells_case_apart(folder: &Path) -> bool {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());
     let file = there.and_then(|there| tempfile::Builder::new().prefix(".eddy-Case-").tempfile_in(there).ok());
@@ -175,6 +172,20 @@ pub fn write(path: &Path, pixels: &Pixels, format: Format) -> anyhow::Result<()>
         out.flush()
     });
     written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Fails for a file of a folder that is not there.
+pub fn check_folder(file: &Path) -> anyhow::Result<()> {
+    let folder = folder_of(file);
+    let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
+    fs::read_dir(folder).map(drop).with_context(what)
+}
+
+/// Fails for a file of a folder that is a link out of it.
+pub fn check_within(folder: &Path, path: &Path) -> anyhow::Result<()> {
+    let Some(name) = path.file_name() else { return Ok(()) };
+    let within = project::check_within(folder, &name.to_string_lossy());
+    within.map(drop).with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn folder_of(file: &Path) -> &Path {

@@ -9,6 +9,7 @@ use super::{
     pipelines::PipelineCache,
     preamble::KeptPreamble,
     program::{FilterMode, Program},
+    sources::declared_dimensions,
     stage_cache::StageCache,
     trial::{Trial, TrialOrder},
     uploads::Uploads,
@@ -18,13 +19,14 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{FillKind, Pass, PassId, PassSettings, Project};
+use eddy_project::{Channel, FillKind, Pass, PassId, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
 #[derive(Clone, Debug)]
 pub struct BuildOptions {
-    /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image.
+    /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image. Sound
+    /// alone: see [`BuildOptions::sound`].
     pub wanted: Vec<PassId>,
     /// Leave out what nobody reads. Off (`--no-skip`), everything is drawn, with the same bytes in every picture.
     pub skip: bool,
@@ -38,6 +40,21 @@ pub struct BuildOptions {
 }
 
 impl BuildOptions {
+    /// Builds the sound pass alone, for [`Engine::draw_sound`](super::Engine::draw_sound). No other pass is compiled, so
+    /// that their errors do not silence it; and in no other build is the sound pass, so that its errors stop no picture.
+    pub fn sound() -> Self {
+        Self { wanted: vec![PassId::Sound], ..Self::default() }
+    }
+
+    fn is_sound(&self) -> bool {
+        self.wanted == [PassId::Sound]
+    }
+
+    /// Returns whether a pass is compiled at all.
+    fn compiles(&self, pass: &PassId) -> bool {
+        pass.is_picture() != self.is_sound()
+    }
+
     /// Returns what the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it
     /// beside its picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own,
     /// behind all buffers: its picture is drawn only where it is wanted too.
@@ -204,19 +221,16 @@ impl Builder {
         drawable.passes.clear();
         let mut passes = Vec::new();
         let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
-        diagnostics.extend(media.mesh_errors(project));
-        diagnostics.extend(media.fill_errors(project));
-        let drawn = project.passes.iter().enumerate().filter(|(_, pass)| pass.id.is_drawn());
+        if !build.is_sound() {
+            diagnostics.extend(media.mesh_errors(project));
+            diagnostics.extend(media.fill_errors(project));
+        }
+        let drawn = project.passes.iter().enumerate().filter(|(_, pass)| build.compiles(&pass.id));
         let options: Vec<_> = drawn.map(|(index, _)| (index, self.options(project, media, index, build))).collect();
         texts.compile_ahead(&mut self.stages, options);
         // Image is drawn last, wherever it stands in the project: its probe is drawn after all buffers.
         let mut probe_of_image = None;
-        for (index, pass) in project.passes.iter().enumerate() {
-            if !pass.id.is_drawn() {
-                let what = pass.id.title();
-                diagnostics.push(Diagnostic::warning(None, format!("the pass {what} is not drawn; it reads as black")));
-                continue;
-            }
+        for (index, pass) in project.passes.iter().enumerate().filter(|(_, pass)| build.compiles(&pass.id)) {
             let options = self.options(project, media, index, build);
             let mut said = Vec::new();
             let fills = FillKind::ALL.map(|kind| {
@@ -241,7 +255,8 @@ impl Builder {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
                     Ok(compiled) => {
                         let filter_mode = filter_mode(&self.gpu, project, media, index);
-                        let parts = CompiledParts { compiled, fills: [None, None], filter_mode };
+                        let dimensions = declared_dimensions(pass);
+                        let parts = CompiledParts { compiled, fills: [None, None], filter_mode, dimensions };
                         probe_of_image = Some((probed(pass), parts));
                     }
                     Err(errors) => said.extend(errors),
@@ -250,9 +265,10 @@ impl Builder {
             match texts.compile_pass_with(&mut self.stages, index, options) {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
-                    drawable.passes.push(pass.clone());
+                    drawable.passes.push(if build.is_sound() { heard(pass) } else { pass.clone() });
                     let filter_mode = filter_mode(&self.gpu, project, media, index);
-                    passes.push(CompiledParts { compiled, fills, filter_mode });
+                    let dimensions = declared_dimensions(pass);
+                    passes.push(CompiledParts { compiled, fills, filter_mode, dimensions });
                 }
                 Err(errors) => said.extend(errors),
             }
@@ -293,6 +309,12 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         opaque_counters: gpu.unrolls_whole_arrays,
         without: PassSet::default(),
     }
+}
+
+/// The sound pass with the channels that it can read: there are no frames yet that other passes could have drawn.
+fn heard(pass: &Pass) -> Pass {
+    let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
+    Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
 }
 
 /// The pass that a value of Image is drawn by.

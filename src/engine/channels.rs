@@ -3,7 +3,6 @@
 use super::{
     external::{self, ChannelClock, External, ExternalKey, ExternalTexture, Picture},
     program::{BoundChannel, BoundExternal, FilterMode},
-    sources::dimension,
     uploads::Uploads,
 };
 use eddy_glsl::{ChannelUse, interface};
@@ -49,10 +48,11 @@ pub(super) struct ChannelBinder<'a> {
 }
 
 impl ChannelBinder<'_> {
-    /// Returns one channel of a pass, whose texture is on the device if the program reads it.
+    /// Returns one channel of a pass, whose texture is on the device if the program reads it. One of another dimension
+    /// than the channel is declared with cannot be read.
     pub fn bind(
         &mut self,
-        channel: Option<&Channel>,
+        (channel, dimension): (Option<&Channel>, Dimension),
         used: ChannelUse,
         filter_mode: FilterMode,
         mips: bool,
@@ -60,7 +60,8 @@ impl ChannelBinder<'_> {
         let source = channel.and_then(|c| Some((c, external::of_channel(self.media, c)?)));
         let resolution = source.as_ref().map_or([0.0; 3], |(_, source)| resolution(source.shape()));
         let clock = source.as_ref().map_or(ChannelClock::Stopped, |(_, source)| source.clock());
-        let external = match source.filter(|_| used.texture || used.sampler) {
+        let is_readable = |shape: TextureShape| (used.texture || used.sampler) && shape.dimension == dimension;
+        let external = match source.filter(|(_, source)| is_readable(source.shape())) {
             Some((Channel { input, sampler }, source)) => {
                 let key = ExternalKey { input: input.clone(), vflip: sampler.vflip, mips };
                 Some(self.external(key, source)?)
@@ -68,7 +69,7 @@ impl ChannelBinder<'_> {
             None => None,
         };
         Ok(BoundChannel {
-            dimension: dimension(channel),
+            dimension,
             texture: used.texture,
             sampler: used.sampler,
             filter_mode,
@@ -114,10 +115,9 @@ fn resolution(shape: TextureShape) -> [f32; 3] {
     }
 }
 
-/// Returns the settings of the pass that the channel names, if it names one that is drawn; the format is that of the
-/// target.
+/// Returns the settings of the pass that the channel names, if it names one; the format is that of the target.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
-    let (id, index) = channel.input.target().filter(|(id, _)| id.is_drawn())?;
+    let (id, index) = channel.input.target()?;
     if *id == PassId::Cubemap {
         project.pass(id)?;
     }

@@ -27,8 +27,6 @@ pub enum PassRole {
     Outside,
     /// Nobody reads it: it is left out.
     Unread,
-    /// Eddy does not draw passes of its kind.
-    Unsupported,
 }
 
 /// A channel of a pass that names another pass, or the pass itself.
@@ -67,7 +65,7 @@ pub struct PassCost {
 
 impl Engine {
     /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not
-    /// drawn. Empty without a program.
+    /// drawn. Empty without a program. A sound pass is no part of a frame.
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
         let Some(running) = self.running() else { return Vec::new() };
         let (plan, canvas) = (&running.program.plan, running.canvas);
@@ -97,13 +95,13 @@ impl Engine {
                 reads: reads(&whole, project, &compiled.id, Some(draw)),
             });
         }
-        for pass in &project.passes {
+        for pass in project.passes.iter().filter(|pass| pass.id.is_picture()) {
             if costs.iter().any(|c| c.pass == pass.id) {
                 continue;
             }
             costs.push(PassCost {
                 pass: pass.id.clone(),
-                role: if pass.id.is_drawn() { PassRole::Unread } else { PassRole::Unsupported },
+                role: PassRole::Unread,
                 size: pass.id.size(&pass.settings).of(canvas),
                 formats: pass.id.formats(&pass.settings),
                 steps: 0,

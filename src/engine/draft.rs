@@ -12,7 +12,7 @@ use eddy_glsl::{Reflection, interface};
 use eddy_gpu::Binding;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Camera, FillKind, Pass, PassBody};
-use eddy_texture::TexelFormat;
+use eddy_texture::{Dimension, TexelFormat};
 use std::sync::Arc;
 
 /// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
@@ -20,6 +20,8 @@ pub(super) struct CompiledParts {
     pub compiled: CompiledPass,
     pub fills: [Option<CompiledPass>; 2],
     pub filter_mode: [FilterMode; 4],
+    /// The dimensions that its channels are declared with.
+    pub dimensions: [Dimension; 4],
 }
 
 /// A draw that waits for its pipelines.
@@ -37,12 +39,12 @@ impl DrawDraft {
         parts: CompiledParts,
     ) -> Result<Self, EngineError> {
         let pass = &binder.project.passes[draw.pass];
-        let CompiledParts { compiled, fills, filter_mode } = parts;
+        let CompiledParts { compiled, fills, filter_mode, dimensions } = parts;
         let mut channels: [BoundChannel; 4] = Default::default();
         for (index, bound) in channels.iter_mut().enumerate() {
             let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
             let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
-            *bound = binder.bind(channel, used, filter_mode[index], mips)?;
+            *bound = binder.bind((channel, dimensions[index]), used, filter_mode[index], mips)?;
         }
         let body = match &pass.settings.body {
             PassBody::Screen => BodyDraft::Screen,

@@ -10,12 +10,12 @@ use super::{
     program::DrawBody,
     running::{RemainingRows, Running},
     shared::Shared,
-    uniforms,
+    sound, uniforms,
 };
 use eddy_glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP};
 use eddy_gpu::Gpu;
 use eddy_graph::Draw;
-use eddy_project::Boundary;
+use eddy_project::{Boundary, PassId};
 
 /// The value of a probe that never was there.
 const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
@@ -152,7 +152,10 @@ impl Running {
     fn set_uniforms(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         for (index, (compiled, draw)) in self.program.planned_draws().enumerate() {
             let own = self.targets[draw.targets.start].size();
-            let block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
+            let mut block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
+            if compiled.id == PassId::Sound {
+                sound::set_offsets(&mut block, inputs);
+            }
             self.uniforms.set(index, self.program.plan.layers(index), &block);
             let Some(meshes) = compiled.body.meshes() else { continue };
             for (n, (_, mesh)) in meshes.programs.iter().enumerate() {

@@ -18,14 +18,14 @@ use eddy_texture::{TexelFormat, TextureShape};
 
 /// A device, and the program that runs on it.
 pub struct Engine {
-    shared: Shared,
+    pub(super) shared: Shared,
     canvas: (u32, u32),
-    running: Option<Running>,
-    display: Display,
+    pub(super) running: Option<Running>,
+    pub(super) display: Display,
     is_timing: bool,
     /// For reading back what is no rgba32float; made when first needed.
     converter: Option<FloatConverter>,
-    readback: Readback,
+    pub(super) readback: Readback,
     /// For panels that show passes small; made when first asked for.
     miniatures: Option<(Miniatures, Readback)>,
     /// For who looks at targets closely; made when first asked for.

@@ -9,8 +9,8 @@ use eddy_glsl::{
     walkable::{Detail, Walkable},
 };
 use eddy_project::{
-    Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source,
-    Stage, ignored_channel_lines,
+    CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source, Stage,
+    ignored_channel_lines,
 };
 use eddy_texture::Dimension;
 use std::{
@@ -336,14 +336,18 @@ pub fn pass_kind(id: &PassId) -> PassKind {
 
 /// Returns the types that `iChannel0..3` of a pass are declared with.
 pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
-    std::array::from_fn(|i| match dimension(pass.channels[i].as_ref()) {
+    declared_dimensions(pass).map(|dimension| match dimension {
         Dimension::D2 => ChannelKind::Sampler2D,
         Dimension::D3 => ChannelKind::Sampler3D,
         Dimension::Cube => ChannelKind::SamplerCube,
     })
 }
 
-/// Returns the dimension of the texture that a channel reads.
-pub(super) fn dimension(channel: Option<&Channel>) -> Dimension {
-    channel.map_or(Dimension::D2, |channel| channel.input.row().dimension)
+/// Returns the dimension that each channel of a pass is declared with. As on Shadertoy, a sound pass has no `sampler3D`:
+/// a volume is a `sampler2D` there, which reads black.
+pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; 4] {
+    pass.channels.each_ref().map(|channel| {
+        let dimension = channel.as_ref().map_or(Dimension::D2, |channel| channel.input.row().dimension);
+        if pass.id == PassId::Sound && dimension == Dimension::D3 { Dimension::D2 } else { dimension }
+    })
 }

@@ -1,6 +1,6 @@
 //! Compiled stages, found by everything that compiling them reads.
 
-use super::cache::Cache;
+use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass};
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
     self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, PlainOptions, Preamble,
@@ -20,6 +20,24 @@ pub(super) struct StageCache {
     joins: bool,
     /// Number of stages that the current build has compiled.
     compiled: usize,
+}
+
+/// Stages of passes that no program here draws, for who compiles a project again and again to say what is wrong.
+#[derive(Default)]
+pub struct KeptStages(StageCache);
+
+impl KeptStages {
+    /// Compiles `project.passes[index]` as [`Sources::compile_pass`] does. What did not change since the last call is not
+    /// compiled again.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub fn compile(&mut self, texts: &Sources<'_>, index: usize) -> Result<CompiledPass, Vec<Diagnostic>> {
+        let options = PassOptions { bilinear_by_hand: [false; 4], driver: Driver::default(), probe: None };
+        let compiled = texts.compile_pass_with(&mut self.0, index, options);
+        self.0.end_build(compiled.is_ok());
+        compiled
+    }
 }
 
 /// A stage that is not in the cache.

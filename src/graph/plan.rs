@@ -170,7 +170,7 @@ impl FramePlan {
         last: Option<&PassId>,
     ) -> FramePlan {
         assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
-        let mut order = drawing_order(project);
+        let mut order = drawing_order(project, wanted);
         order.sort_by_key(|&pass| Some(&project.passes[pass].id) == last);
         let reached = if skip { reached_from(project, facts, wanted) } else { order.iter().copied().collect() };
         let mut plan = FramePlan {
@@ -305,8 +305,8 @@ impl FramePlan {
             // What a cleared target held before cannot show.
             let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
-            // Image keeps the canvas of one frame before; only buffers take turns.
-            let takes_turns = id != PassId::Image && drawn_by.is_some();
+            // Image keeps the canvas of one frame before, and Sound its block before; only buffers take turns.
+            let takes_turns = id.is_picture() && id != PassId::Image && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(When::LastFrame)).is_empty());
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
@@ -341,10 +341,12 @@ impl FramePlan {
     }
 }
 
-/// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
-fn drawing_order(project: &Project) -> Vec<usize> {
+/// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture, and is drawn only for who wants
+/// a block of its samples.
+fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
-    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| id(i).is_picture()).collect();
+    let is_drawn = |i: &usize| id(*i).is_picture() || wanted.contains(id(*i));
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(is_drawn).collect();
     order.sort_by(|&a, &b| id(a).drawing_order(id(b)));
     order
 }

@@ -128,7 +128,6 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ui
         PassRole::Drawn { is_cached: false } => (None, true),
         PassRole::Drawn { is_cached: true } => (Some("unchanged"), true),
         PassRole::Unread | PassRole::Outside => (Some("not drawn"), false),
-        PassRole::Unsupported => (Some("not played"), false),
     };
     let millis = match (why, pass.millis) {
         (Some(why), _) => why.to_owned(),
@@ -162,7 +161,6 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ui
             }
             PassRole::Outside => drop(ui.label("Not drawn: its region is outside its texture.")),
             PassRole::Unread => drop(ui.label("Not drawn: the shown pass does not need it.")),
-            PassRole::Unsupported => drop(ui.label("Eddy does not draw this kind of pass; it reads as black.")),
         }
         ui.label(format!("{} × {} texels, {joined}, {} per frame", cost.size.0, cost.size.1, count(cost.texels)));
         ui.label(format!("{held} of memory: textures, mip levels, ping-pong copies, the depth buffer"));

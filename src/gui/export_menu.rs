@@ -24,6 +24,7 @@ const ROWS: &[Option<(&str, Action, &str)>] = &[
          stop and save",
     )),
     Some(("Measurements (CSV)", Action::SaveMeasures, "Save what //@probe comments have measured so far")),
+    Some(("Sound (WAV)", Action::SaveSound, "Save all 180 s of the sound pass")),
     Some(("Lab report…", Action::LabReport, "Write tables, plots and an HTML page of all results of the Lab panel")),
 ];
 
@@ -65,6 +66,7 @@ fn why_not(session: &Session, has_lab_results: bool, action: Action) -> Option<&
         Action::SaveMeasures if !is_measured() => {
             Some("Nothing has been measured yet: add a //@probe comment and open the Measurements panel")
         }
+        Action::SaveSound => session.sound_unsaved(),
         Action::LabReport if !has_lab_results => Some("There are no results yet: start a study in the Lab panel"),
         _ => None,
     }

@@ -123,13 +123,14 @@ impl MediaSet {
 }
 
 fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)> {
-    project.passes.iter().filter(|p| p.id.is_picture()).flat_map(|pass| {
+    project.passes.iter().flat_map(|pass| {
         pass.channels
             .iter()
             .enumerate()
-            // What a pass is not drawn for is told of the pass.
             .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, c)))
             .filter(|(.., channel)| channel.input.target().is_none())
+            // What a sound pass cannot read is told by the project's advice.
+            .filter(|(pass, _, channel)| pass.id.is_picture() || channel.input.kind().is_in_sound())
     })
 }
 

@@ -6,7 +6,8 @@
 use crate::{recording::Change, script::ScriptedInputs};
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
-    BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels, Program,
+    BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
+    Program,
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
@@ -20,6 +21,13 @@ use std::{
 /// cost nothing.
 const STACK_BYTES: usize = 256 << 20;
 
+/// A block of sound, 6 s of it, is given up after this time where nothing else is said: it could not be played as fast
+/// as it is made.
+pub const SOUND_LIMIT: Duration = Duration::from_secs(60);
+
+/// Rows of a block that are drawn at once.
+const SOUND_ROWS: u32 = 64;
+
 /// A project being drawn frame after frame.
 pub struct Offline {
     /// `None` once a frame has not come back in time.
@@ -27,6 +35,8 @@ pub struct Offline {
     frame_limit: Option<Duration>,
     inputs: ScriptedInputs,
     build_millis: Option<f64>,
+    /// `iDate` of all blocks of sound.
+    sound_date: Option<[f32; 4]>,
     /// The device takes the passes' times; not known before they are asked for.
     has_stamps: Option<bool>,
 }
@@ -46,7 +56,7 @@ impl Offline {
     /// Makes the engine for a canvas of so many pixels. Fails for a size that the device cannot draw.
     pub fn new(gpu: &Gpu, (width, height): (u32, u32), inputs: ScriptedInputs) -> Result<Offline, EngineError> {
         let engine = Some(Engine::new(gpu.clone(), width, height)?);
-        Ok(Offline { engine, frame_limit: None, inputs, build_millis: None, has_stamps: None })
+        Ok(Offline { engine, frame_limit: None, inputs, build_millis: None, sound_date: None, has_stamps: None })
     }
 
     /// Gives a frame up that takes longer, and the engine with it: no other can be drawn. The device stays as busy as
@@ -135,6 +145,23 @@ impl Offline {
         })
     }
 
+    /// Draws block `number` of the sound pass of a program that was built with [`BuildOptions::sound`]: see
+    /// [`Engine::draw_sound`]. A block is given up after [`Offline::set_frame_limit`]'s time, else after
+    /// [`SOUND_LIMIT`]. `iDate` is that of the run's first frame.
+    pub fn draw_sound(&mut self, number: u32) -> Result<Vec<[i16; 2]>, OfflineError> {
+        let date = match self.sound_date {
+            Some(date) => date,
+            None => self.next_inputs()?.date,
+        };
+        self.sound_date = Some(date);
+        let limit = self.frame_limit.unwrap_or(SOUND_LIMIT);
+        let work = move |engine: &mut Engine| engine.draw_sound(number, date, &mut || Some(SOUND_ROWS));
+        match self.within_limit(limit, work)? {
+            Some(frames) => Ok(frames.unwrap_or_default()),
+            None => Err(OfflineError::SoundTimedOut { block: number, limit }),
+        }
+    }
+
     /// Reads the texels of a pass's target as the newest frame left them; 0 is the first target.
     pub fn read(&mut self, pass: &PassId, target: usize) -> Result<Pixels, EngineError> {
         self.engine.as_mut().ok_or_else(gone)?.read_target(pass, target)
@@ -157,6 +184,15 @@ impl Offline {
         work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
     ) -> Result<T, OfflineError> {
         let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };
+        self.within_limit(limit, work)?.ok_or(OfflineError::TimedOut { frame, limit })
+    }
+
+    /// Returns `None` where the work takes longer. It is left behind, with the engine.
+    fn within_limit<T: Send + 'static>(
+        &mut self,
+        limit: Duration,
+        work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
+    ) -> Result<Option<T>, OfflineError> {
         let mut engine = self.engine.take().ok_or_else(gone)?;
         let (sender, receiver) = channel();
         let work = move || {
@@ -168,9 +204,9 @@ impl Offline {
         match receiver.recv_timeout(limit) {
             Ok((engine, done)) => {
                 self.engine = Some(engine);
-                Ok(done?)
+                Ok(Some(done?))
             }
-            Err(RecvTimeoutError::Timeout) => Err(OfflineError::TimedOut { frame, limit }),
+            Err(RecvTimeoutError::Timeout) => Ok(None),
             Err(RecvTimeoutError::Disconnected) => match thread.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(()) => Err(gone().into()),
@@ -201,6 +237,9 @@ pub enum OfflineError {
     #[error("frame {frame} was stopped after {} s: lower the resolution, simplify the code, or give it more time \
              with --frame-timeout", limit.as_secs_f64())]
     TimedOut { frame: i32, limit: Duration },
+    #[error("block {block} of the sound pass, {:.1} s of sound, was stopped after {} s: simplify the code, or give it more \
+             time with --frame-timeout", BLOCK_SECS, limit.as_secs_f64())]
+    SoundTimedOut { block: u32, limit: Duration },
     #[error("cannot start a thread for drawing: {0}")]
     Thread(std::io::Error),
 }

@@ -1,7 +1,7 @@
 //! Some things are legal in a project and more often a slip: channels that read no pass, and channels that the site
 //! cannot have.
 
-use super::{Filter, Input, PassId, Project, SamplerRules, Wrap, nearest};
+use super::{Channel, Filter, Input, InputKind, PassId, Project, SamplerRules, Wrap, nearest};
 use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, fmt::Debug};
 
@@ -9,6 +9,30 @@ use std::{collections::BTreeMap, fmt::Debug};
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
     let mut warnings = unread(project, |_, _| None);
     warnings.extend(shared_samplers(project));
+    warnings.extend(unheard(project));
+    warnings
+}
+
+/// Returns a warning for each channel of a sound pass that reads black there, as it does on Shadertoy (`shadertoy.md`,
+/// section 8).
+fn unheard(project: &Project) -> Vec<Diagnostic> {
+    let Some(sound) = project.pass(&PassId::Sound) else { return Vec::new() };
+    let mut warnings = Vec::new();
+    for (n, channel) in sound.channels.iter().enumerate() {
+        let Some(Channel { input, .. }) = channel else { continue };
+        let (why, hint) = match input.kind() {
+            InputKind::Texture | InputKind::Cubemap => continue,
+            InputKind::Volume => (
+                "a volume, which is a sampler2D in a sound pass, as on Shadertoy; it reads black",
+                format!("only iChannelResolution[{n}] tells of the volume; read an image file instead"),
+            ),
+            _ => (
+                "something that a sound pass cannot read, as its samples are made before any frame; it reads black",
+                "a sound pass reads image files and cubemap files, as on Shadertoy".to_owned(),
+            ),
+        };
+        warnings.push(Diagnostic::warning(None, format!("iChannel{n} of Sound is {why}")).hint(hint));
+    }
     warnings
 }
 

@@ -207,6 +207,12 @@ impl InputKind {
         &ROWS[self as usize]
     }
 
+    /// Returns whether a sound pass has it as Shadertoy does: what is there before anything is drawn. A volume only has
+    /// a size there, as its channel is declared as a `sampler2D`.
+    pub fn is_in_sound(self) -> bool {
+        matches!(self, InputKind::Texture | InputKind::Cubemap | InputKind::Volume)
+    }
+
     /// Returns the kind whose row is as asked.
     pub(crate) fn find(is_it: impl Fn(&InputRow) -> bool) -> Option<InputKind> {
         ROWS.iter().find(|row| is_it(row)).map(|row| row.kind)

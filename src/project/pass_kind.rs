@@ -32,7 +32,7 @@ pub struct PassRow {
     pub input: Option<InputKind>,
     /// The dimension of its target; `None`: it makes no picture.
     pub target: Option<Dimension>,
-    /// The size of its target, where it is given no other.
+    /// The size of its target, where it is given no other. That of a sound holds a block of samples, one per texel.
     pub size: PassSize,
     /// The format of its target; `None`: its settings say.
     pub format: Option<TexelFormat>,
@@ -42,8 +42,6 @@ pub struct PassRow {
     pub(crate) refused: &'static [(&'static [&'static str], &'static str)],
     /// A sentence for people who look for what it has not.
     pub note: &'static str,
-    /// A sentence, for a kind that Eddy does not draw yet; `None` for those that it does.
-    pub undrawn: Option<&'static str>,
 }
 
 const NO_MESHES: (&[&str], &str) =
@@ -69,7 +67,6 @@ const BUFFER: PassRow = PassRow {
     entry: "mainImage",
     refused: &[],
     note: "",
-    undrawn: None,
 };
 
 pub(super) const CUBEMAP: PassRow = PassRow {
@@ -105,9 +102,11 @@ const SOUND: PassRow = PassRow {
     order: 3,
     input: None,
     target: None,
+    size: PassSize::Fixed(512, 512),
+    format: Some(TexelFormat::Rgba8),
     entry: "mainSound",
     refused: NO_PICTURE,
-    undrawn: Some("Sound passes are saved, but Eddy does not play them yet."),
+    note: "A sound pass makes 180 s of sound once, and not in each frame. It reads image files and cubemaps.",
     ..BUFFER
 };
 
@@ -192,12 +191,7 @@ impl PassId {
         if settings.size == PassSize::Canvas { self.row().size } else { settings.size }
     }
 
-    /// Returns whether Eddy draws it, where somebody reads or shows it.
-    pub fn is_drawn(&self) -> bool {
-        self.row().undrawn.is_none()
-    }
-
-    /// Returns whether it has a picture, which Eddy may not be able to draw yet.
+    /// Returns whether it has a picture.
     pub fn is_picture(&self) -> bool {
         self.row().target.is_some()
     }
@@ -217,7 +211,7 @@ mod tests {
             }
             assert_eq!(PassKind::find(|other| other.json_type == row.json_type), Some(row.kind));
             assert!(row.input.is_none_or(|input| row.target == Some(input.row().dimension)), "{row:?}");
-            assert!(row.undrawn.is_none_or(|sentence| sentence.ends_with('.')), "{row:?}");
+            assert!(row.note.is_empty() || row.note.ends_with('.'), "{row:?}");
             assert!(row.entry.starts_with("main"), "{row:?}");
         }
     }

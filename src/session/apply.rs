@@ -154,6 +154,7 @@ impl Session {
             Command::WatchMeasures(seen) => self.watched.measuring.watch(seen),
             Command::ClearMeasures => self.watched.measuring.clear(),
             Command::SaveMeasures => self.save_measures(),
+            Command::SaveSound => self.save_sound(),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::Compare(against) => self.comparing.want(against),
             Command::SetFrameLimit(limit) => self.halting.set_limit(limit),

@@ -168,6 +168,8 @@ pub enum Command {
     ClearMeasures,
     /// Writes it as CSV beside the pictures; the path comes as a notice.
     SaveMeasures,
+    /// Writes the whole sound pass as WAV beside the pictures; the path comes as a notice.
+    SaveSound,
     /// Looks through the frames that are kept for the first NaN or infinity, beside the picture, which goes on; `false`
     /// ends that. See [`Session::search`](super::Session::search).
     FindNonfinite(bool),

@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    drawing::{Done, DrawnFrame, Job, Tasks, TileLimit},
+    drawing::{Done, DrawnFrame, Job, Tasks, TileLimit, beside},
     view::{About, Level},
 };
 use eddy_engine::{EngineError, FrameInputs};
@@ -228,7 +228,8 @@ impl Session {
 
     /// Shows the picture on another device of the window's, whose own was lost. What draws is another device still.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
-        self.drawing.show_on(window)?;
+        self.drawing.show_on(window.clone())?;
+        self.sounding.change_device(beside(window));
         // Handed out once more, also while paused.
         self.drawing.wanted.shown = Some(self.pictured());
         self.picture.generation += 1;

@@ -44,6 +44,7 @@ mod recovery;
 mod rename;
 mod reopen;
 mod runs;
+mod sound;
 mod state;
 mod structure;
 mod template;
@@ -63,6 +64,7 @@ pub use pass_history::PassStep;
 pub use playback::{Reach, ReplayView, TimeRange};
 pub use recent::RecentProject;
 pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
+pub use sound::SoundView;
 pub use state::Session;
 pub use trace::TraceView;
 pub use view::{

@@ -40,6 +40,7 @@ impl Session {
         self.auditing.begin_next_project();
         self.searching.want(false);
         self.comparing.begin_next_project();
+        self.sounding.begin_next_project();
         self.take_time_up();
         self.halt_for_new_project();
         self.disk_is_known();

@@ -22,6 +22,7 @@ use super::{
     recent::Recent,
     recovery::UnsavedWork,
     runs::Runs,
+    sound::Sounding,
     trace::Tracing,
     uniforms::TextUniforms,
     view::{About, Level},
@@ -56,6 +57,7 @@ pub struct Session {
     /// The first NaN is looked for.
     pub(super) searching: Searching,
     pub(super) comparing: Comparing,
+    pub(super) sounding: Sounding,
     pub(super) notices: Notices,
     /// Counts the projects that have taken the place of another.
     pub(super) projects_opened: u64,
@@ -114,6 +116,7 @@ impl Session {
         wake: Arc<dyn Fn() + Send + Sync>,
         options: SessionOptions,
     ) -> Result<Session, SessionError> {
+        let sounding = Sounding::new(drawing::beside(gpu.clone()), gpu.is_cpu(), wake.clone());
         // Any size does until the first tick, which knows the viewport.
         let size = (640, 360);
         let drawing = if options.draws_on_thread {
@@ -150,6 +153,7 @@ impl Session {
             auditing,
             searching,
             comparing,
+            sounding,
             notices: Notices::default(),
             projects_opened: 0,
             text_generation: 0,

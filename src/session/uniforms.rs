@@ -114,6 +114,7 @@ impl Session {
         self.playback.replay.has_values = played.is_some();
         let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
+        self.sound_values_turned(&values);
         self.drawing.wanted.custom_uniforms = Some(values);
     }
 }

@@ -81,6 +81,8 @@ mod session_compare;
 mod session_inside;
 mod session_measures;
 mod session_media;
+mod session_sound;
+mod sound;
 mod thumbnails;
 mod time_travel;
 mod uniform_values;

@@ -66,7 +66,8 @@ fn class(walked: [f32; 4], drawn: [f32; 4]) -> (&'static str, f64) {
 fn compare(path: &Path) -> Result<(), String> {
     let gpu = gpu().ok_or("no device")?;
     let project = project::load(&path.to_string_lossy()).map_err(|e| e.to_string())?.project;
-    let wanted: Vec<PassId> = project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_drawn()).cloned().collect();
+    let wanted: Vec<PassId> =
+        project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_picture()).cloned().collect();
     let (media, _) = media::gather(&project, None);
     let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| format!("not built: {e}"))?;

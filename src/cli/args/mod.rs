@@ -97,7 +97,8 @@ pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// File to write, .png or .npy, or a folder for STEM.png of each project (with several --at frames STEM_0004.png,
-    /// with more digits if needed). Optional with --json, --probe or --assert: frames are then drawn but not written
+    /// with more digits if needed); with --pass sound .wav or .flac, or a folder for STEM.wav. Optional with --json,
+    /// --probe or --assert: frames are then drawn but not written
     #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
     pub out: Option<PathBuf>,
     /// Number of frames to draw [default: 1, or as many as --at needs; with --replay all recorded frames]
@@ -107,9 +108,13 @@ pub struct RenderArgs {
     #[arg(long, value_name = "F[,F...]", value_delimiter = ',')]
     #[arg(value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub at: Vec<u32>,
-    /// The pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
+    /// The pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several.
+    /// sound writes the samples of the sound pass
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
+    /// Seconds of sound to write, with --pass sound [default: all 180]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub secs: Option<Duration>,
     /// The face of a cubemap to write, with --pass cube_a: +x, -x, +y, -y, +z or -z [default: +x]
     #[arg(long, value_name = "FACE", value_parser = face, allow_hyphen_values = true)]
     pub face: Option<usize>,

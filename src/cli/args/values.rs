@@ -29,7 +29,11 @@ pub fn format_of(extension: &str) -> Option<Result<Format, String>> {
 }
 
 pub fn format(text: &str) -> Result<Format, String> {
-    format_of(text).unwrap_or_else(|| Err("unknown format; use png or npy".into()))
+    let unknown = match text {
+        "wav" | "flac" => "a sound's format is what --out ends in, as in --pass sound --out x.flac",
+        _ => "unknown format; use png or npy",
+    };
+    format_of(text).unwrap_or_else(|| Err(unknown.into()))
 }
 
 /// A pass, and which of its targets.

@@ -28,7 +28,7 @@ impl NonfiniteTexels {
 /// The passes that make pictures, in the order in which they are drawn.
 pub fn drawn(project: &Project) -> Vec<PassId> {
     let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
-    passes.retain(PassId::is_drawn);
+    passes.retain(PassId::is_picture);
     // All buffers are equal there: they stay in the order of the project.
     passes.sort_by(PassId::drawing_order);
     passes

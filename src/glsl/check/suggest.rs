@@ -240,7 +240,14 @@ impl Checker<'_> {
     fn env_explains(&mut self, name: &str) -> bool {
         let Some(uniform) = crate::hir::Uniform::ALL.iter().find(|u| u.name() == name) else { return false };
         if self.env == Env::Pass(crate::PassKind::Sound) {
-            self.hint(format!("a sound pass has no `{}`; its time is the parameter of mainSound", uniform.name()));
+            use crate::hir::Uniform as U;
+            let why = match uniform {
+                U::Time => "its time is the parameter of mainSound",
+                U::Resolution => "a sound has no pixels",
+                U::Mouse => "its samples are made before anybody can click",
+                _ => "its samples are made once, before any frame; mainSound gets the sample's number and time",
+            };
+            self.hint(format!("a sound pass has no `{}`: {why}", uniform.name()));
         } else {
             self.hint(format!("only sound passes have `{}`", uniform.name()));
         }

@@ -42,6 +42,7 @@ pub enum Action {
     StopReplay,
     ExportJson,
     SaveMeasures,
+    SaveSound,
     LabReport,
     /// The page with the bookmarklet that saves shaders from the site.
     Bookmarklet,

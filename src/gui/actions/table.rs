@@ -140,6 +140,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::StopReplay, "stop-replay", "Stop playing recording", &[], Group::Picture).found_by("replay end cancel"),
     row(Action::SaveMeasures, "save-measurements", "Save measurements (CSV)", &[], Group::Picture)
         .found_by("export probe data table"),
+    row(Action::SaveSound, "save-sound", "Save sound pass (WAV)", &[], Group::Picture)
+        .found_by("export audio music wave"),
     row(
         Action::SaveTexels,
         "save-texels",
@@ -261,6 +263,8 @@ pub const ACTIONS: &[Entry] = &[
         Group::Window,
     )
     .found_by("plot chart metrics graph"),
+    row(Action::Panel(Panel::Sound), "sound", "Panel: Sound (waveform and spectrum)", &[], Group::Window)
+        .found_by("audio music waveform spectrum samples"),
     row(Action::UsualLayout, "usual-layout", "Reset layout", &[], Group::Window)
         .found_by("default windows workspace panels"),
     layout(LayoutAction::Resize(Side::Left), "panel-narrower", "Make panel narrower", &["Ctrl+Shift+Alt+Left"]),

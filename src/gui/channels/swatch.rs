@@ -27,7 +27,7 @@ pub struct Swatches<'a> {
 impl Swatches<'_> {
     /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
     pub fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
-        if let Some((pass, index)) = input.target().filter(|(pass, _)| pass.is_drawn())
+        if let Some((pass, index)) = input.target()
             && let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index)
         {
             let shown = fitting(place, aspect);

@@ -26,6 +26,7 @@ pub enum Panel {
     Buffers,
     Compare,
     Measurements,
+    Sound,
 }
 
 /// Says of a panel what it is called and where it is before anybody moves it.
@@ -56,7 +57,7 @@ const fn row(panel: Panel, name: &'static str, title: &'static str, is_open: boo
 }
 
 /// A row for each panel, in the order of the enum, which is that of the View menu.
-const PANELS: [Entry; 10] = [
+const PANELS: [Entry; 11] = [
     row(Panel::Picture, "picture", "Picture", true, DefaultPlace::Own),
     row(Panel::Code, "code", "Code", true, DefaultPlace::Own),
     row(Panel::Uniforms, "uniforms", "Uniforms", true, DefaultPlace::BelowPicture),
@@ -67,6 +68,7 @@ const PANELS: [Entry; 10] = [
     row(Panel::Buffers, "buffers", "Buffers", false, DefaultPlace::BelowCode),
     row(Panel::Compare, "compare", "Compare", false, DefaultPlace::BelowCode),
     row(Panel::Measurements, "measurements", "Measurements", false, DefaultPlace::BelowCode),
+    row(Panel::Sound, "sound", "Sound", false, DefaultPlace::BelowCode),
 ];
 
 impl Panel {

@@ -62,4 +62,6 @@ mod names;
 #[cfg(test)]
 mod reach;
 #[cfg(test)]
+mod sound;
+#[cfg(test)]
 mod tests;

@@ -90,7 +90,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
     });
     let note = match pass.settings.meshes() {
         Some(_) => "This pass draws meshes. Edit eddy.toml to change the meshes and the camera.",
-        None => pass.id.row().undrawn.unwrap_or(pass.id.row().note),
+        None => pass.id.row().note,
     };
     if !note.is_empty() {
         ui.add_space(4.0);
@@ -106,7 +106,7 @@ fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
         if out.clicked("passes:text", &ui.button("Edit code")) {
             out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
         }
-        if let Some(pass) = pass.filter(|id| id.is_drawn())
+        if let Some(pass) = pass.filter(|id| id.is_picture())
             && out.clicked("passes:show", &ui.button("Show this pass"))
         {
             out.ask(Command::ShowPass(pass.clone()));

@@ -200,8 +200,7 @@ pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutpu
     ui.data_mut(|d| d.insert_temp(id, name));
 }
 
-/// Common, and the site's four buffers that are not there yet or else the next letter. No cubemap and no sound pass:
-/// Eddy does not draw them yet.
+/// Common, the site's four buffers that are not there yet or else the next letter, the cubemap and the sound pass.
 fn addable(tabs: &[Tab]) -> Vec<Tab> {
     let buffer = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
     let is_free = |tab: &Tab| !tabs.contains(tab);
@@ -209,7 +208,8 @@ fn addable(tabs: &[Tab]) -> Vec<Tab> {
     if buffers.is_empty() {
         buffers.extend(('E'..='Z').map(buffer).find(is_free));
     }
-    std::iter::once(Tab::Common).filter(is_free).chain(buffers).collect()
+    let others = [PassId::Cubemap, PassId::Sound].map(Tab::Pass).into_iter().filter(is_free);
+    std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(others).collect()
 }
 
 /// Returns the buffer that comes next: the site's four, then further letters.
@@ -225,9 +225,10 @@ mod tests {
     fn a_fifth_buffer_is_offered_when_four_are_there() {
         let tab = |id: PassId| Tab::Pass(id);
         let buffer = |name: &str| tab(PassId::Buffer(name.into()));
-        let cube = tab(PassId::Cubemap);
-        assert_eq!(addable(&[buffer("B"), cube.clone()]), [Tab::Common, buffer("A"), buffer("C"), buffer("D")]);
+        let (cube, sound) = (tab(PassId::Cubemap), tab(PassId::Sound));
+        let there = [buffer("B"), cube.clone()];
+        assert_eq!(addable(&there), [Tab::Common, buffer("A"), buffer("C"), buffer("D"), sound.clone()]);
         let full = ["A", "B", "C", "D", "E"].map(buffer).into_iter().chain([Tab::Common]).collect::<Vec<_>>();
-        assert_eq!(addable(&full), [buffer("F")]);
+        assert_eq!(addable(&full), [buffer("F"), cube, sound]);
     }
 }

@@ -62,6 +62,7 @@ impl Shell {
             Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
             Action::StopReplay => out.ask(Command::StopReplay),
             Action::SaveMeasures => out.ask(Command::SaveMeasures),
+            Action::SaveSound => out.ask(Command::SaveSound),
             Action::ExportJson => {
                 let name = format!("{}.json", file_stem(&session.project().name));
                 self.files.ask(Pick::Json(name), start_folder(session));

@@ -1,6 +1,8 @@
 //! Owns what the window keeps of the open project, and of no other: it is made anew as a whole when another is opened.
 
-use crate::gui::{buffers::Buffers, compare::Compare, measures::Measurements, passes::Passes, trace::Debugger};
+use crate::gui::{
+    buffers::Buffers, compare::Compare, measures::Measurements, passes::Passes, sound::Sound, trace::Debugger,
+};
 use std::sync::Arc;
 
 /// The panels that are about the open project. The code keeps its editors by the project as well
@@ -13,6 +15,7 @@ pub(super) struct OfProject {
     pub compare: Compare,
     pub measurements: Measurements,
     pub passes: Passes,
+    pub sound: Sound,
 }
 
 impl OfProject {
@@ -24,6 +27,7 @@ impl OfProject {
             compare: Compare::new(wake),
             measurements: Measurements::default(),
             passes: Passes::default(),
+            sound: Sound::default(),
         }
     }
 }

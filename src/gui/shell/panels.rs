@@ -10,7 +10,7 @@ use crate::{
         compare, costs, custom_uniforms,
         dock::{Contents, Heights, Panel},
         lab::Lab,
-        measures, theme,
+        measures, sound, theme,
         thumbnails::Thumbnails,
         toasts, top_bar, trace, transport,
         ui_output::{ShellCommand, UiOutput},
@@ -149,6 +149,7 @@ impl Contents for Shown<'_> {
             }),
             Panel::Compare => within(ui, margin, |ui| compare::show(&mut kept.compare, ui, session, out)),
             Panel::Measurements => within(ui, margin, |ui| measures::show(&mut kept.measurements, ui, session, out)),
+            Panel::Sound => within(ui, margin, |ui| sound::show(&mut kept.sound, ui, session, out)),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }
         false

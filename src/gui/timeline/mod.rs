@@ -5,6 +5,7 @@ mod menu;
 mod seconds;
 
 pub use menu::button;
+pub use seconds::written;
 
 use super::{accessible, actions::TimeAction, theme, ui_output::UiOutput};
 use crate::session::{Command, Session, TimeRange};

@@ -204,7 +204,7 @@ impl Project {
     fn filled(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
         let found = self.found(id)?;
         // One that draws meshes is cleared in every frame.
-        if !id.is_drawn() || found.settings.meshes().is_some() {
+        if !id.is_picture() || found.settings.meshes().is_some() {
             return Err(PassEditError::NotHere { pass: id.title(), what });
         }
         Ok(found)

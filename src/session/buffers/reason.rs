@@ -12,10 +12,9 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
             return Some("unchanged: none of its inputs has changed since it was drawn".into());
         }
         PassRole::Outside => return Some("not drawn: its region is outside its texture".into()),
-        PassRole::Unsupported => return Some("not drawn: Eddy does not draw this kind of pass".into()),
         PassRole::Unread => {}
     }
-    let is_drawn = |cost: &PassCost| !matches!(cost.role, PassRole::Unread | PassRole::Unsupported);
+    let is_drawn = |cost: &PassCost| cost.role != PassRole::Unread;
     let readers = || {
         let others = all.iter().filter(|other| other.pass != *pass);
         others.flat_map(|other| other.reads.iter().filter(|read| read.pass == *pass).map(move |read| (other, read)))

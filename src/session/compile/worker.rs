@@ -5,12 +5,12 @@ use crate::{
     drawing::Device,
     options::SessionOptions,
     probe::{self, ProbePlace, ProbedValue},
+    sound::Heard,
     view::TabDiagnostic,
 };
 use eddy_background::Control;
 use eddy_diag::{self as diag, Diagnostic};
-use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources};
-use eddy_glsl::Driver;
+use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
 use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, Channel, Included, MeshSource, Normals, Pass, PassId, Project};
 use std::{
@@ -61,6 +61,8 @@ pub struct Compiled {
     pub took: Duration,
     /// The value that the program draws, or why it draws none though one is asked for.
     pub probe: Option<Result<ProbedValue, String>>,
+    /// The sound that it leads to.
+    pub heard: Heard,
 }
 
 /// A compile that takes no longer than this is not felt, whatever is typed meanwhile.
@@ -83,6 +85,7 @@ pub fn work(
     let trial = options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), jobs));
     let mut media = Media { dir: media_dir, ..Media::default() };
     let mut builder: Option<Builder> = None;
+    let mut kept = KeptStages::default();
     let mut build = move |project: &Project, media: &MediaSet, options: &BuildOptions| {
         let builder = match &mut builder {
             Some(builder) => builder,
@@ -119,7 +122,13 @@ pub fn work(
             }
             Err(BuildError::Engine(e)) => Err(e),
         };
-        diag::append(&mut found, not_built(&job.project));
+        let (said, is_sound) = not_built(&mut kept, &job.project);
+        diag::append(&mut found, said);
+        let heard = match is_sound {
+            None => Heard::Nothing,
+            Some(false) => Heard::Broken,
+            Some(true) => Heard::Sound(media.set.clone()),
+        };
         let took = start.elapsed();
         diag::append(&mut found, project::advice(&job.project));
         found.sort_by_key(|d| Reverse(d.severity));
@@ -127,23 +136,21 @@ pub fn work(
         let diagnostics = found.iter().map(|d| TabDiagnostic::new(d, &sources, &job.project)).collect();
         let includes = job.include_edit.map(|edit| (edit, job.project.includes.clone()));
         let Job { project, is_fallback, .. } = job;
-        let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe };
+        let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe, heard };
         Ok(Done { files, is_changed: false, includes, compiled: Some(compiled) })
     }
 }
 
-/// Returns what the compiler says of texts that no program is built of: what the site would refuse in Common, and
-/// passes that are not drawn.
-fn not_built(project: &Project) -> Vec<Diagnostic> {
+/// Returns what the compiler says of texts that the picture's program is not built of: what the site would refuse in
+/// Common, and the sound pass; and whether that compiles, if there is one.
+fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Option<bool>) {
     let texts = Sources::new(project);
     let mut found = texts.check_common();
-    for (index, pass) in project.passes.iter().enumerate() {
-        if !pass.id.is_drawn() {
-            let compiled = texts.compile_pass(index, [false; 4], Driver::default());
-            diag::append(&mut found, compiled.map_or_else(|errors| errors, |pass| pass.diagnostics));
-        }
-    }
-    found
+    let Some(index) = project.passes.iter().position(|pass| pass.id == PassId::Sound) else { return (found, None) };
+    let compiled = kept.compile(&texts, index);
+    let is_sound = compiled.is_ok();
+    diag::append(&mut found, compiled.map_or_else(|errors| errors, |pass| pass.diagnostics));
+    (found, Some(is_sound))
 }
 
 /// A pass, its channels and its meshes.

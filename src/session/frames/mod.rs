@@ -29,6 +29,7 @@ impl Session {
         self.changed |= self.tracing.poll();
         self.take_audited();
         self.changed |= self.searching.background.poll() | self.comparing.background.poll();
+        self.tick_sound();
         self.fit_canvas();
         self.keep_unsaved();
         self.follow_measures();
@@ -101,7 +102,8 @@ impl Session {
         let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
-        let deadlines = [self.compile.edits.deadline(), self.disk.deadline(), self.drawing_deadline(), resumes];
+        let (drawing, sound) = (self.drawing_deadline(), self.sound_deadline());
+        let deadlines = [self.compile.edits.deadline(), self.disk.deadline(), drawing, sound, resumes];
         let next = is_next_due.then_some(self.now).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
@@ -158,9 +160,10 @@ impl Session {
     }
 
     fn take_program(&mut self, compiled: Compiled) {
-        let Compiled { project, is_fallback, program, diagnostics, took, probe } = compiled;
+        let Compiled { project, is_fallback, program, diagnostics, took, probe, heard } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
+            self.follow_sound(&project, heard);
             self.compile.diagnose(diagnostics, took);
             self.auditing.map = None;
         }

@@ -259,7 +259,7 @@ impl Session {
     /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
     /// process ends them.
     pub fn end(&mut self) -> bool {
-        let has_lost = !self.comparing.background.end(FAREWELL);
+        let has_lost = !self.comparing.background.end(FAREWELL) | self.sounding.end(FAREWELL);
         !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0 || has_lost
     }
 }
@@ -268,6 +268,7 @@ impl Drop for Session {
     /// Nobody waits long for a frame, and not at all for a device that does not come back.
     fn drop(&mut self) {
         self.comparing.background.end(FAREWELL);
+        self.sounding.end(FAREWELL);
         if !self.drawing.rest(FAREWELL) {
             self.compile.leave();
             return;

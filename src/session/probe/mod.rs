@@ -301,7 +301,7 @@ fn needed(project: &Project, probed: &PassId) -> Vec<PassId> {
     while let Some(pass) = found.get(next).and_then(|id| project.pass(id)) {
         next += 1;
         for channel in pass.channels.iter().flatten() {
-            let read = channel.input.target().map(|(id, _)| id).filter(|id| id.is_drawn());
+            let read = channel.input.target().map(|(id, _)| id);
             if let Some(id) = read.filter(|id| project.pass(id).is_some() && !found.contains(id)) {
                 found.push(id.clone());
             }

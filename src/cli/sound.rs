@@ -1,0 +1,229 @@
+//! `eddy render --pass sound`: the samples of sound passes, written as WAV or FLAC files of 16 bits and 44,100 samples per
+//! second.
+
+use super::{
+    args::RenderArgs,
+    machine::{Machine, Trouble, median, millis_since, open_sound},
+    report::{Printer, Report},
+    targets::{check_folder, check_within, stems, tells_case_apart},
+};
+use crate::{
+    audio::{SAMPLE_RATE, flac, wav},
+    engine::{BLOCK_FRAMES, SOUND_FRAMES},
+    playback::script::ScriptedInputs,
+    project::{self, PassId},
+};
+use anyhow::Context;
+use serde::Serialize;
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+/// The file format of a sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Wav,
+    Flac,
+}
+
+/// The files that one call writes sounds to.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Sounds {
+    format: Format,
+    /// Samples of each.
+    frames: u32,
+    place: Output,
+}
+
+#[derive(Debug, PartialEq, Eq)]
+enum Output {
+    Nowhere,
+    File(PathBuf),
+    /// A folder, and the stem of each project in it.
+    Folder(PathBuf, Vec<String>),
+}
+
+impl Sounds {
+    /// Returns where a call writes sounds to; `None` for one that writes pictures. Err: what was asked for cannot be
+    /// meant.
+    pub fn of(args: &RenderArgs) -> Result<Option<Sounds>, String> {
+        let named = args.out.as_deref().filter(|out| !out.is_dir()).and_then(format_of);
+        if args.pass.pass != PassId::Sound {
+            return match (&args.out, named) {
+                (Some(out), Some(_)) => Err(format!("--out {} is a sound: add --pass sound", out.display())),
+                _ if args.secs.is_some() => Err("--secs is the length of a sound: add --pass sound".into()),
+                _ => Ok(None),
+            };
+        }
+        let pictures = [
+            ("--at", !args.at.is_empty()),
+            ("--frames", args.frames.is_some()),
+            ("--format", args.format.is_some()),
+            ("--face", args.face.is_some()),
+            ("--sweep", !args.sweep.is_empty()),
+            ("--probe", !args.probe.is_empty()),
+            ("--assert", !args.assert.is_empty()),
+            ("sound:1", args.pass.target != 0),
+        ];
+        if let Some((option, _)) = pictures.iter().find(|(_, is_given)| *is_given) {
+            return Err(format!("{option} is about pictures, and a sound pass has none: leave it out"));
+        }
+        let frames = args.secs.map_or(SOUND_FRAMES, |secs| (secs.as_secs_f64() * f64::from(SAMPLE_RATE)).ceil() as u32);
+        if frames > SOUND_FRAMES {
+            let most = SOUND_FRAMES / SAMPLE_RATE;
+            return Err(format!(
+                "--secs: a sound pass is {most} s long, and silent after that; ask for {most} at most"
+            ));
+        }
+        let place = match (&args.out, named) {
+            (None, _) => Output::Nowhere,
+            (Some(out), Some(_)) if args.project.len() != 1 => {
+                let sounds = args.project.len();
+                let shown = out.display();
+                return Err(format!("--out {shown} is one file, but {sounds} sounds would be written: give a folder"));
+            }
+            (Some(out), Some(_)) => Output::File(out.clone()),
+            (Some(out), None) if out.extension().is_some() && !out.is_dir() => {
+                let shown = out.display();
+                return Err(format!("--out {shown}: a sound is written as .wav or .flac, or into a folder"));
+            }
+            (Some(out), None) => Output::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?),
+        };
+        Ok(Some(Sounds { format: named.unwrap_or(Format::Wav), frames, place }))
+    }
+
+    /// Makes the folder, so that a place nothing can be written to is known before anything is drawn.
+    pub fn prepare(&self) -> anyhow::Result<()> {
+        match &self.place {
+            Output::Nowhere => Ok(()),
+            Output::File(file) => check_folder(file),
+            Output::Folder(folder, _) => {
+                fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))
+            }
+        }
+    }
+
+    /// Writes a sound whole or not at all. Gives the file.
+    fn write(&self, project: usize, frames: &[[i16; 2]]) -> anyhow::Result<Option<PathBuf>> {
+        let path = match &self.place {
+            Output::Nowhere => return Ok(None),
+            Output::File(file) => file.clone(),
+            Output::Folder(folder, stems) => {
+                let path = folder.join(format!("{}.wav", stems[project]));
+                check_within(folder, &path)?;
+                path
+            }
+        };
+        let bytes = match self.format {
+            Format::Wav => wav(frames),
+            Format::Flac => flac(frames).map_err(|why| anyhow::anyhow!("this is a bug in Eddy: FLAC: {why}"))?,
+        };
+        let written = project::write_with(&path, |file| file.write_all(&bytes));
+        written.with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(Some(path))
+    }
+}
+
+/// The form that a file's extension asks for.
+fn format_of(path: &Path) -> Option<Format> {
+    match path.extension()?.to_string_lossy().to_ascii_lowercase().as_str() {
+        "wav" => Some(Format::Wav),
+        "flac" => Some(Format::Flac),
+        _ => None,
+    }
+}
+
+/// The report, and what was made.
+#[derive(Serialize)]
+struct JsonLine<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sound: Option<&'a Made>,
+}
+
+#[derive(Serialize)]
+struct Made {
+    seconds: f64,
+    samples: usize,
+    /// Median of the blocks, 6 s of sound each.
+    block_ms: Option<f64>,
+    file: Option<PathBuf>,
+}
+
+pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    for (index, spec) in args.project.iter().enumerate() {
+        let mut report = Report::new(spec);
+        let made = machine.attempt(&mut report, |machine, report| {
+            let mut offline = open_sound(machine, report, spec, &args.run, inputs.clone())?;
+            let (mut frames, mut millis) = (Vec::new(), Vec::new());
+            for block in 0..sounds.frames.div_ceil(BLOCK_FRAMES) {
+                let began = Instant::now();
+                frames.extend(offline.draw_sound(block)?);
+                millis.push(millis_since(began));
+            }
+            frames.truncate(sounds.frames as usize);
+            let file = sounds.write(index, &frames)?;
+            let seconds = frames.len() as f64 / f64::from(SAMPLE_RATE);
+            Ok::<_, Trouble>(Made { seconds, samples: frames.len(), block_ms: median(millis), file })
+        });
+        let words = made.as_ref().map_or(String::new(), |made| {
+            let file = made.file.as_ref().map_or(String::new(), |file| format!(": {}", file.display()));
+            let millis = made.block_ms.unwrap_or_default();
+            format!("{}: {:.1} s of sound, {millis:.0} ms per block of 6 s{file}", report.title(), made.seconds)
+        });
+        printer.print_as(&JsonLine { report: &report, sound: made.as_ref() }, &report, &words)?;
+    }
+    Ok(printer.exit_code())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::args::{Cli, Command};
+    use clap::Parser;
+
+    fn sounds(line: &str) -> Result<Option<Sounds>, String> {
+        match Cli::try_parse_from(["eddy", "render"].into_iter().chain(line.split(' '))).unwrap().command {
+            Some(Command::Render(args)) => Sounds::of(&args),
+            _ => unreachable!(),
+        }
+    }
+
+    #[test]
+    fn a_sound_is_written_to_a_file_or_into_a_folder() {
+        let of = |line| sounds(line).unwrap().unwrap();
+        let file = |name: &str| Output::File(PathBuf::from(name));
+        let one = of("a --pass sound --out x.FLAC --secs 0.5");
+        assert_eq!((one.format, one.frames, one.place), (Format::Flac, 22_050, file("x.FLAC")));
+        let whole = of("a --pass sound --out x.wav");
+        assert_eq!((whole.format, whole.frames), (Format::Wav, 7_938_000));
+        let folder = of("x/a.json b --pass sound --out o");
+        assert_eq!(folder.place, Output::Folder(PathBuf::from("o"), vec!["a".into(), "b".into()]));
+        assert_eq!(of("a --pass sound --json").place, Output::Nowhere);
+        assert_eq!(sounds("a --out x.png"), Ok(None));
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_refused_with_the_fix() {
+        for (line, says) in [
+            ("a --out x.wav", "add --pass sound"),
+            ("a --out x.png --secs 3", "add --pass sound"),
+            ("a --pass sound --out x.png", ".wav or .flac"),
+            ("a --pass sound --out x.mp3", ".wav or .flac"),
+            ("a --pass sound --out x.wav --secs 181", "180 at most"),
+            ("a --pass sound --out x.wav --at 3", "--at is about pictures"),
+            ("a --pass sound --out x.wav --format png", "--format is about pictures"),
+            ("a --pass sound:1 --out x.wav", "sound:1"),
+            ("a b --pass sound --out x.wav", "2 sounds"),
+        ] {
+            let message = sounds(line).expect_err(line);
+            assert!(message.contains(says), "{line}: {message}");
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! The panel of the sound pass: what it says, and that a click in the waveform goes to that time.
+
+use super::harness::{Stage, click, open, texts, until};
+use crate::{
+    gui::dock::Panel,
+    project::{PassId, Tab},
+    session::Command,
+};
+
+fn says(stage: &Stage, words: &str) -> bool {
+    texts(stage).iter().any(|text| text.contains(words))
+}
+
+#[test]
+fn a_sound_pass_is_added_shown_and_gone_through() {
+    let Some(mut stage) = open(false) else { return };
+    stage.state_mut().shell.set_open(Panel::Sound, true);
+    stage.run_steps(3);
+    assert!(says(&stage, "no sound pass"));
+    click(&mut stage, "sound:add");
+    let track = |stage: &Stage| stage.state().session.sound_track().map(|(_, track)| track);
+    until(&mut stage, "a track", |stage| track(stage).is_some_and(|track| track.first_missing().is_none()));
+    stage.run_steps(3);
+    assert!(says(&stage, "180 s at 44100 samples per second"), "{:?}", texts(&stage));
+    // A quarter of the way, give or take a pixel.
+    let wave = stage.state().shell.place("sound:wave").expect("a waveform");
+    let at = wave.left_center() + egui::vec2(wave.width() / 4.0, 0.0);
+    stage.hover_at(at);
+    stage.drag_at(at);
+    stage.drop_at(at);
+    stage.run_steps(3);
+    until(&mut stage, "a time", |stage| (stage.state().session.transport().time_secs - 45.0).abs() < 1.0);
+
+    let tab = Tab::Pass(PassId::Sound);
+    let text = "vec2 mainSound(float time) { return vec2(0.0); }".into();
+    stage.state_mut().session.apply(Command::EditText { tab, text });
+    until(&mut stage, "an error", |stage| says(stage, "this is the sound before"));
+}

@@ -1,0 +1,38 @@
+//! The panel of the sound pass: its waveform with the time that is shown in it, and the spectrum there.
+//!
+//! Owns which part of the waveform is seen. Plays nothing, and asks the session for times.
+
+mod panel;
+mod range;
+mod wave;
+
+pub use panel::show;
+
+use crate::{
+    audio::{Peaks, TrackSpectrum},
+    session::SoundView,
+};
+use range::Shown;
+
+/// The state of the panel.
+#[derive(Default)]
+pub struct Sound {
+    /// The outline of the newest track.
+    peaks: Option<Peaks>,
+    spectrum: TrackSpectrum,
+    shown: Shown,
+}
+
+impl Sound {
+    /// Takes in what has been made of the track since the last call.
+    fn outline(&mut self, view: &SoundView) -> Option<&Peaks> {
+        let track = view.track.as_ref()?;
+        match &mut self.peaks {
+            Some(peaks) if std::sync::Arc::ptr_eq(peaks.track(), track) => {
+                peaks.update();
+            }
+            other => *other = Some(Peaks::new(track.clone())),
+        }
+        self.peaks.as_ref()
+    }
+}

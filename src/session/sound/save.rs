@@ -1,0 +1,46 @@
+//! The whole track as a file beside the pictures.
+
+use crate::{
+    Session,
+    view::{About, Level},
+};
+use eddy_audio::wav;
+use eddy_playback::capture;
+use eddy_project::PassId;
+use std::io::Write;
+
+impl Session {
+    /// Returns why the sound cannot be saved yet; `None` if it can.
+    pub fn sound_unsaved(&self) -> Option<&'static str> {
+        match self.sound_track() {
+            None => Some("There is no sound: add a sound pass"),
+            Some((_, track)) if track.first_missing().is_some() => Some("The sound is still being computed"),
+            Some(_) => None,
+        }
+    }
+
+    /// Writes the whole track to a new file.
+    pub(crate) fn save_sound(&mut self) {
+        let track = match (self.sound_unsaved(), self.sound_track()) {
+            (None, Some((_, track))) => track,
+            (why, _) => {
+                let text = format!("nothing to save: {}", why.unwrap_or_default());
+                self.notice_about(About::Capture, Level::Warning, text);
+                return;
+            }
+        };
+        let frames: Vec<[i16; 2]> = (0..track.frames() as i64).filter_map(|n| track.frame(n)).collect();
+        let project = self.project();
+        let folder = capture::folder_for(project, &self.options.pictures);
+        let stem = capture::stem_for(project, &PassId::Sound);
+        match capture::write_new(&folder, |n| format!("{stem}-{n:04}.wav"), &stem, |out| out.write_all(&wav(&frames))) {
+            Ok(path) => {
+                self.notice(Level::Info, format!("saved {}", path.display()));
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = Some(path);
+                }
+            }
+            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
+        }
+    }
+}
