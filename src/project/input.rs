@@ -159,7 +159,6 @@ static ROWS: [InputRow; 10] = [
         glyph: "film",
         key: "video",
         json_type: "video",
-        undrawn: Some("a video cannot be read yet"),
         ..PICTURE
     },
     InputRow {
@@ -192,7 +191,6 @@ static ROWS: [InputRow; 10] = [
         key: "webcam",
         json_type: "webcam",
         json_id: Some(("4sf3zn", "/presets/webcam.png")),
-        undrawn: Some("the webcam cannot be read yet"),
         ..DEVICE
     },
 ];
