@@ -52,7 +52,10 @@ pub(super) fn load(
         let place = Place { path: &path, read: Arc::new(read) };
         return Video::of_sequence(&place, &bytes, pool).map_err(failed);
     }
-    if matches!(image::guess_format(&bytes), Ok(image::ImageFormat::Gif | image::ImageFormat::WebP | image::ImageFormat::Png)) {
+    if matches!(
+        image::guess_format(&bytes),
+        Ok(image::ImageFormat::Gif | image::ImageFormat::WebP | image::ImageFormat::Png)
+    ) {
         return Video::of_animation(&shown, bytes, pool).map_err(failed);
     }
     Err(failed(VideoError::NoPicture))

@@ -153,14 +153,7 @@ static ROWS: [InputRow; 10] = [
         has_vflip: false,
         ..PICTURE
     },
-    InputRow {
-        kind: InputKind::Video,
-        title: "video",
-        glyph: "film",
-        key: "video",
-        json_type: "video",
-        ..PICTURE
-    },
+    InputRow { kind: InputKind::Video, title: "video", glyph: "film", key: "video", json_type: "video", ..PICTURE },
     InputRow {
         kind: InputKind::Music,
         title: "music",
@@ -191,6 +184,7 @@ static ROWS: [InputRow; 10] = [
         key: "webcam",
         json_type: "webcam",
         json_id: Some(("4sf3zn", "/presets/webcam.png")),
+        directive: Some("webcam"),
         ..DEVICE
     },
 ];

@@ -83,6 +83,7 @@ struct Shared {
 struct State {
     newest: Option<CameraFrame>,
     error: Option<VideoError>,
+    found: Vec<CameraDevice>,
     is_closed: bool,
 }
 
@@ -156,6 +157,11 @@ impl Camera {
         self.0.shared.lock().error.clone()
     }
 
+    /// Returns the cameras that the machine has besides; empty until this one has begun, and beside filters.
+    pub fn found(&self) -> Vec<CameraDevice> {
+        self.0.shared.lock().found.clone()
+    }
+
     /// Waits for the first picture.
     pub fn wait(&self, patience: Duration) -> Result<CameraFrame, VideoError> {
         let give_up = Instant::now() + patience;
@@ -192,6 +198,10 @@ impl Shared {
                 device(&mut command, &first.id, asked)
             }
         };
+        if !matches!(source, CameraSource::Filters(_)) {
+            let found = cameras(tools);
+            self.lock().found = found;
+        }
         let old = tools.is_old();
         command.args(["-map", "0:v:0", "-an", "-vf"]);
         command.arg("scale=flags=bilinear+full_chroma_int+accurate_rnd,format=rgba,showinfo=checksum=0");
@@ -325,10 +335,14 @@ mod tests {
         );
         let names: Vec<_> = of_avfoundation(&mac).into_iter().map(|c| (c.id, c.name)).collect();
         assert_eq!(names, [("0".into(), "FaceTime HD Camera".into()), ("1".into(), "Capture screen 0".into())]);
-        let windows = lines("[dshow @ 01] \"HD Webcam\" (video)\n[dshow @ 01]   Alternative name \"@device\"\n[dshow @ 01] \"Mic\" (audio)");
+        let windows = lines(
+            "[dshow @ 01] \"HD Webcam\" (video)\n[dshow @ 01]   Alternative name \"@device\"\n[dshow @ 01] \"Mic\" (audio)",
+        );
         assert_eq!(of_dshow(&windows), [CameraDevice { id: "HD Webcam".into(), name: "HD Webcam".into() }]);
         let folder = tempfile::tempdir().unwrap();
-        for (node, index, name) in [("video10", "0", "B"), ("video0", "0", "A"), ("video1", "1", "A"), ("radio0", "0", "R")] {
+        for (node, index, name) in
+            [("video10", "0", "B"), ("video0", "0", "A"), ("video1", "1", "A"), ("radio0", "0", "R")]
+        {
             fs::create_dir(folder.path().join(node)).unwrap();
             fs::write(folder.path().join(node).join("index"), index).unwrap();
             fs::write(folder.path().join(node).join("name"), format!("{name}\n")).unwrap();

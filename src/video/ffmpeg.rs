@@ -27,8 +27,8 @@ use std::{
 /// The way to the file that a child has as its standard input.
 pub const INPUT: &str = "file:/dev/stdin";
 /// Containers that hold their frames themselves. Those that name other files are not among them.
-const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,gif,ivf,nut,y4m,yuv4mpegpipe,\
-    m4v,mpegvideo,h264,hevc,mxf,rm,dv,swf,apng,webp_pipe";
+const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
+    m4v,mpegvideo,h264,hevc,mxf,rm,dv";
 /// Frames before a position are decoded from so many seconds before it on: the one that is shown may begin that early.
 const BEFORE: f64 = 1.0;
 
@@ -74,7 +74,8 @@ impl FilmFile {
             command.args(["-c:v", decoder]);
         }
         command.args(["-i", &input, "-map", "0:V:0", "-an", "-sn", "-dn"]);
-        let select = if from > 0.0 && skips { format!("select='gte(t,{:.6})',", start + from - BEFORE) } else { String::new() };
+        let select =
+            if from > 0.0 && skips { format!("select='gte(t,{:.6})',", start + from - BEFORE) } else { String::new() };
         let matrix = matrix.map(|matrix| format!(":in_color_matrix={matrix}")).unwrap_or_default();
         // Chroma is interpolated and sums are rounded, as Chromium does it: measured, equal but for 1/255.
         let scale = format!("scale={}:{}:flags=bilinear+full_chroma_int+accurate_rnd{matrix}", info.width, info.height);

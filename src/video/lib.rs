@@ -178,7 +178,8 @@ fn check_size(width: u32, height: u32) -> Result<(), VideoError> {
     if width == 0 || height == 0 {
         return Err(VideoError::NoPicture);
     }
-    if u64::from(width) * u64::from(height) * 4 > limits::VIDEO_FRAME_BYTES || width.max(height) > limits::PICTURE_SIDE {
+    if u64::from(width) * u64::from(height) * 4 > limits::VIDEO_FRAME_BYTES || width.max(height) > limits::PICTURE_SIDE
+    {
         return Err(VideoError::TooLarge { width, height });
     }
     Ok(())

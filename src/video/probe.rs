@@ -80,7 +80,17 @@ pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoErr
         stream_side_data=rotation";
     let (mut command, input) = ffmpeg::command(&tools.ffprobe, file, real)?;
     // V: no pictures that a sound file has for its cover.
-    command.args(["-v", "error", "-select_streams", "V:0", "-show_program_version", "-show_entries", ENTRIES, "-of", "json"]);
+    command.args([
+        "-v",
+        "error",
+        "-select_streams",
+        "V:0",
+        "-show_program_version",
+        "-show_entries",
+        ENTRIES,
+        "-of",
+        "json",
+    ]);
     command.args(["-i", &input]);
     let (json, said) = process::output(&mut command, 1 << 20, tools)?;
     let mut probed = read(&json, &said)?;

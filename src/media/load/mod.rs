@@ -95,7 +95,9 @@ impl Source<'_> {
             let slice = decoded(bytes, &shown, true, room)?;
             room -= (slice.bytes.len() as u64).min(room);
             slices.push(slice);
-            let Some(next) = next_numbered(&path).filter(|_| slices.len() < limits::VOLUME_SIDE as usize) else { break };
+            let Some(next) = next_numbered(&path).filter(|_| slices.len() < limits::VOLUME_SIDE as usize) else {
+                break;
+            };
             match (self.read)(&next) {
                 Ok(read) => (bytes, path) = (read, next),
                 Err(_) => break,
