@@ -28,7 +28,12 @@ pub fn light(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = ui.add(Button::new(text.size(12.0)).min_size(vec2(WIDTH.min(ui.available_width()), 24.0)));
     let name = if state == DeviceState::Off { "Use the camera" } else { "Turn the camera off" };
     accessible::name(&button, egui::Role::Button, name);
-    if out.clicked("button:camera", &button.on_hover_text(tip)) {
+    let place = match state {
+        DeviceState::Off => "button:camera",
+        DeviceState::Starting => "light:camera-starting",
+        DeviceState::On => "light:camera",
+    };
+    if out.clicked(place, &button.on_hover_text(tip)) {
         out.ask(Command::UseDevice { kind, on: state == DeviceState::Off });
     }
 }

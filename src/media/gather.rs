@@ -24,7 +24,7 @@ pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
     pictures(project, None, set, |input| input.row().undrawn.is_none() && matches!(input.media(), Some(Media::File(_))))
 }
 
-/// What a channel shows whose file is not there.
+/// Says what a channel shows whose file is not there.
 const BLACK: &str = "the channel is black and of size 0";
 
 fn pictures(

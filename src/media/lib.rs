@@ -69,7 +69,7 @@ pub struct MediaSet {
     videos: HashMap<Media, Arc<Video>>,
     /// A camera that a person has turned on.
     camera: Option<Camera>,
-    /// How long a picture waits for a frame of a video.
+    /// The wait of a picture for a frame of a video.
     pace: Pace,
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
@@ -109,7 +109,7 @@ impl MediaSet {
         self.camera = camera;
     }
 
-    /// How long a picture waits for a frame of a video.
+    /// Returns how long a picture waits for a frame of a video.
     pub fn pace(&self) -> Pace {
         self.pace
     }

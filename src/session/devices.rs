@@ -135,7 +135,7 @@ impl Session {
         let text = match (&error, has_picture) {
             (VideoError::Camera(why), true) => format!("the camera stopped ({why}); its last picture stays"),
             (_, true) => format!("the camera stopped: {error}; its last picture stays"),
-            (_, false) => format!("{error}: {}", error.hint()),
+            (_, false) => format!("{error}; {}", error.hint()),
         };
         self.devices.is_end_told = true;
         self.notice_about(About::Device, Level::Warning, text);

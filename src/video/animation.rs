@@ -25,7 +25,7 @@ pub fn is_animated(bytes: &[u8]) -> bool {
 pub struct Animation {
     bytes: Arc<[u8]>,
     format: ImageFormat,
-    /// When each frame begins.
+    /// The time at which each frame begins.
     times: Arc<[f64]>,
     info: VideoInfo,
 }

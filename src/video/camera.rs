@@ -20,10 +20,10 @@ use std::{
 
 /// The size of a channel before a camera is on, as on the site.
 pub const PLACEHOLDER: (u32, u32) = (320, 240);
-/// What a camera is asked for, as on the site: it may give another size.
+/// The size that a camera is asked for, as on the site: it may give another.
 const ASKED: [&str; 4] = ["-framerate", "30", "-video_size", "1280x720"];
 
-/// Which camera.
+/// The choice of a camera.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum CameraSource {
     /// The first one that the system has.

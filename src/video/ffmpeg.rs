@@ -126,7 +126,7 @@ impl Decode for Begun {
     }
 }
 
-/// What a line of messages says.
+/// The content of a line of messages.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Line {
     /// Seconds of a tick of the filter's clock.

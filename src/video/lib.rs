@@ -31,7 +31,7 @@ use std::{
     time::Duration,
 };
 
-/// What is known of a video before it is played.
+/// The facts of a video that are known before it is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VideoInfo {
     /// Texels across, as it is shown: after rotation, with square pixels.

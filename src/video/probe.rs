@@ -1,11 +1,11 @@
-//! What ffprobe says of a file: sizes, rotation, length, colours.
+//! The answer of ffprobe about a file: sizes, rotation, length, colours.
 
 use super::{Tools, VideoError, VideoInfo, check_size, ffmpeg, process};
 use eddy_project::limits;
 use serde::Deserialize;
 use std::{fs::File, path::Path};
 
-/// What a file is.
+/// The facts of a file that decoding it needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probed {
     pub info: VideoInfo,

@@ -75,6 +75,12 @@ pub(crate) struct Pipes {
 pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoError> {
     let program = command.get_program().to_string_lossy().into_owned();
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    #[cfg(windows)]
+    {
+        use std::os::windows::process::CommandExt;
+        // No console appears beside the window (CREATE_NO_WINDOW).
+        command.creation_flags(0x0800_0000);
+    }
     let mut child = command.spawn().map_err(|e| match e.kind() {
         io::ErrorKind::NotFound => VideoError::NoProgram { program: program.clone() },
         _ => VideoError::Start { program: program.clone(), reason: e.to_string() },

@@ -92,7 +92,7 @@ struct State {
 struct Shared {
     film: Arc<dyn Film>,
     pool: Pool,
-    /// Whether all of it is likely to fit.
+    /// All of it is likely to fit.
     is_short: bool,
     state: Mutex<State>,
     /// Frames have come, or there will be none.

@@ -9,7 +9,9 @@ fn the_newest_picture_of_a_camera_wins_and_the_last_one_stays() {
     }
     let (sender, came) = std::sync::mpsc::channel();
     let source = CameraSource::of_text("lavfi:testsrc=s=64x48:r=30:d=1.5");
-    let camera = Camera::open(source, &Tools::default(), move || drop(sender.send(())));
+    let camera = Camera::open(source, &Tools::default(), move || {
+        let _ = sender.send(());
+    });
     let first = camera.wait(Duration::from_secs(20)).unwrap();
     assert_eq!((first.width, first.height, first.frame.texels.len()), (64, 48, 64 * 48 * 4));
     came.recv_timeout(Duration::from_secs(5)).expect("the first picture is told of");

@@ -47,12 +47,13 @@ fn each_position_shows_its_frame_at_every_rate_and_in_every_container() {
         let path = folder.path().join(name);
         encode(&path, 48, &rate.to_string(), args);
         // Once kept whole, once a window of two frames.
-        for pool in [Pool::default(), Pool::new(0)] {
+        for (pool, is_kept) in [(Pool::default(), true), (Pool::new(0), false)] {
             let video = open_with(&path, &Tools::default(), &pool).unwrap();
             let VideoInfo { width, height, seconds, .. } = video.info();
             assert_eq!((width, height), SIDE, "{name}");
             assert!((seconds - 48.0 / rate).abs() < 1e-3, "{name}: {seconds}");
-            for (at, wanted) in positions(48, rate, &mut random) {
+            let few = if is_kept { 1 } else { 4 };
+            for (at, wanted) in positions(48, rate, &mut random).into_iter().step_by(few) {
                 // A container that rounds the length to milliseconds is off by as much in each round.
                 let at = at + (at / (48.0 / rate)).floor() * (seconds - 48.0 / rate);
                 assert_eq!(shown(&video, at), wanted, "{name} at {at}");

@@ -1,4 +1,4 @@
-//! What a hostile file cannot do to or through ffmpeg, and what a missing or hanging one does.
+//! Hostile files and names, and an ffmpeg that is missing or hangs.
 
 use super::*;
 use std::time::Instant;
