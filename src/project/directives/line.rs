@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, kind_of_file,
+    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, has_video_ending,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -60,8 +60,7 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     // Which kind it is stands in its ending; an animated image plays where a `Type` line says so.
     let picture = |path: &str| {
         let media = Media::File(PathBuf::from(path));
-        let is_video = kind_of_file(Path::new(path)) == FileKind::Video;
-        let kind = if is_video { InputKind::Video } else { InputKind::Texture };
+        let kind = if has_video_ending(Path::new(path)) { InputKind::Video } else { InputKind::Texture };
         Some(Channel::new(Input::Media { kind, media }))
     };
     if let Some(name) = value.strip_prefix("builtin://") {

@@ -40,6 +40,12 @@ pub const RECORDING: &str = "replay";
 pub const VIDEOS: [&str; 9] = ["mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg", "mpeg"];
 const SOUNDS: [&str; 7] = ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus"];
 
+/// Returns whether a file is a video by its ending alone.
+pub fn has_video_ending(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    VIDEOS.iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
+
 /// Says by its name what a file is; whether it is a folder is asked of the disk.
 pub fn kind_of_file(path: &Path) -> FileKind {
     let extension = path.extension().unwrap_or_default();
@@ -54,7 +60,7 @@ pub fn kind_of_file(path: &Path) -> FileKind {
         FileKind::Model
     } else if is_one_of(&[RECORDING]) {
         FileKind::Recording
-    } else if is_one_of(&VIDEOS) {
+    } else if has_video_ending(path) {
         FileKind::Video
     } else if is_one_of(&SOUNDS) {
         FileKind::Sound
