@@ -36,7 +36,7 @@ fn the_camera_is_turned_on_by_hand_and_its_light_turns_it_off() {
     window.click_on("button:camera");
     window.shows("light:camera");
     window.hides("button:camera");
-    display.shot("camera");
+    display.shot("camera.png");
     window.click_on("light:camera");
     window.shows("button:camera");
     window.hides("light:camera");
