@@ -24,7 +24,8 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, set, paused, frame_timeout: frame_limit, compile_timeout, json, lose_device } = window;
+    let Window { project, size, set, paused, frame_timeout: frame_limit, compile_timeout, webcam, json, lose_device } =
+        window;
     Ok(eddy::gui::run(eddy::gui::Options {
         project,
         size,
@@ -32,6 +33,7 @@ fn open(window: Window) -> anyhow::Result<()> {
         paused,
         frame_limit,
         compile_timeout,
+        webcam,
         json,
         lose_device,
     })?)

@@ -12,19 +12,20 @@ use crate::{
     glsl::Probe,
     gpu::{Gpu, GpuError, GpuOptions},
     lab::Shard,
-    media,
+    media::{self, MediaSet},
     playback::{
         offline::{Offline, OfflineError},
         script::ScriptedInputs,
         trial::TrialSettings,
     },
     project::{self, PassId, Project, ProjectError},
+    video::{Camera, CameraSource, Tools},
 };
 use std::{
     env,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::Arc,
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 /// The reason why a project was not drawn.
@@ -227,8 +228,10 @@ fn open_with(
             project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
         }
     }
-    let (media, missing) = media::gather(&project, run.media.as_deref());
+    let (mut media, missing) = media::gather(&project, run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));
+    let cameras = camera(&mut media, &project, run.webcam.as_ref());
+    report.diagnose(&cameras, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
     let mut offline = Offline::new(&gpu, run.size, inputs)?;
     offline.set_frame_limit(run.frame_timeout);
@@ -251,6 +254,27 @@ fn open_with(
     report.diagnose(&diagnostics, &sources, Some(&project));
     Ok((project, offline))
 }
+
+/// Turns the camera on that was asked for, if a channel reads one, and waits for its first picture. Returns what to say of
+/// channels that show none.
+fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>) -> Vec<Diagnostic> {
+    let of_channels = media.camera_warnings(project);
+    let Some(source) = wanted.filter(|_| !of_channels.is_empty()) else { return of_channels };
+    let camera = Camera::open(source.clone(), &Tools::default(), || ());
+    match camera.wait(CAMERA_PATIENCE) {
+        Ok(_) => {
+            media.set_camera(Some(camera));
+            Vec::new()
+        }
+        Err(error) => {
+            let message = format!("--webcam {source}: {error}; channels that read it are black");
+            vec![Diagnostic::warning(None, message).hint(error.hint())]
+        }
+    }
+}
+
+/// The first picture of a camera is waited for so long.
+const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
 
 /// Fails for a pass that the project does not have.
 fn is_there(project: &Project, pass: &PassId) -> Result<(), Trouble> {

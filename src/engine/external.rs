@@ -1,8 +1,12 @@
 //! Textures whose texels come from outside of the passes, and the table of what fills them.
 
-use super::{FrameInputs, uploads::Uploads};
+use super::{
+    FrameInputs,
+    moving::{VideoTexture, Webcam},
+    uploads::Uploads,
+};
 use eddy_audio::{Analyser, BINS, SAMPLE_RATE, Sound, Spectrum, synthetic};
-use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
+use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_media::{Keyboard, MediaKey, MediaSet, Texels};
 use eddy_project::{Channel, Input, InputKind};
 use eddy_texture::{TexelFormat, TextureShape};
@@ -19,6 +23,12 @@ pub(super) trait ExternalTexture: Send {
     /// Returns the texels as [`Texture::write`] takes them. They are zeros before the first call of
     /// [`ExternalTexture::advance`] that returns true.
     fn bytes(&self) -> &[u8];
+
+    /// Returns whether the texels of the newest frame had to be left out, as they were not there in time: the frame is
+    /// worth drawing again.
+    fn is_late(&self) -> bool {
+        false
+    }
 
     /// Says what `iChannelTime` is.
     fn clock(&self) -> ChannelClock {
@@ -41,7 +51,12 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
             Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
         InputKind::Music => Some(Box::new(Music::new(media.sound(channel.input.media()?).cloned()))),
-        InputKind::Video | InputKind::Microphone | InputKind::Webcam => None,
+        InputKind::Video => {
+            let video = media.video(channel.input.media()?)?.clone();
+            Some(Box::new(VideoTexture::new(video, channel.sampler.vflip, media.pace())))
+        }
+        InputKind::Webcam => Some(Box::new(Webcam::new(media.camera().cloned(), channel.sampler.vflip))),
+        InputKind::Microphone => None,
     }
 }
 
@@ -155,6 +170,8 @@ pub(super) struct External {
     pub texture: Texture,
     /// The number of times that its texels have changed.
     pub version: u64,
+    /// Makes the mip levels of texels that change.
+    mips: Option<(MipMaker, MipChain)>,
 }
 
 /// Says which external texture it is: what is read, whether upside down, and whether with mip levels.
@@ -176,10 +193,17 @@ impl External {
             Some(texels) => uploads.picture(gpu, texels, key.mips)?,
             None => {
                 let label = key.input.row().title;
-                Texture::new(gpu, &TextureDescriptor { label, shape: source.shape(), is_target: false })?
+                let shape = if key.mips { source.shape().with_mips() } else { source.shape() };
+                Texture::new(gpu, &TextureDescriptor { label, shape, is_target: false })?
             }
         };
-        Ok(Self { key, source, texture, version: 0 })
+        let has_chain = source.constant().is_none() && texture.shape.levels > 1;
+        let mips = has_chain.then(|| {
+            let mut maker = MipMaker::new(gpu);
+            let chain = maker.chain(gpu, &texture);
+            (maker, chain)
+        });
+        Ok(Self { key, source, texture, version: 0, mips })
     }
 
     /// The texels, where they are the same in every frame.
@@ -187,10 +211,20 @@ impl External {
         self.source.constant()
     }
 
+    /// Returns whether the frame that is drawn shows other texels than it should: see [`ExternalTexture::is_late`].
+    pub fn is_late(&self) -> bool {
+        self.source.is_late()
+    }
+
     /// Writes the texels of a frame if they are other than before.
     pub fn update(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         if self.source.advance(inputs) {
             self.texture.write(gpu, self.source.bytes());
+            if let Some((maker, chain)) = &self.mips {
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                maker.build(gpu, &mut encoder, chain);
+                gpu.queue.submit([encoder.finish()]);
+            }
             self.version += 1;
         }
     }

@@ -21,6 +21,7 @@ mod fill_text;
 mod frame;
 mod inputs;
 mod inspect;
+mod moving;
 mod pipelines;
 mod placed;
 mod preamble;

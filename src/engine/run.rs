@@ -249,6 +249,12 @@ impl Engine {
         Ok(())
     }
 
+    /// Returns whether the newest frame shows an older frame of a video than it should, as that was not decoded in time:
+    /// see [`eddy_video::Pace::Live`].
+    pub fn is_late(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| running.program.externals.iter().any(|external| external.is_late()))
+    }
+
     pub fn size(&self) -> (u32, u32) {
         self.canvas
     }

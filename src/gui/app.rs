@@ -226,6 +226,7 @@ impl Running {
             cache_dir: dirs::cache_dir().map(|dir| dir.join("eddy")),
             recovery: session::recovery_folder(),
             trials: TrialSettings::of_this_program(options.compile_timeout),
+            camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;

@@ -9,7 +9,7 @@ use super::{
     theme,
     ui_output::{Pick, UiOutput},
 };
-use crate::project::{PICTURES, RECORDING};
+use crate::project::RECORDING;
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
     panic::catch_unwind,
@@ -140,7 +140,7 @@ impl Files {
             Pick::LabReport => ("Write lab report to folder", "Write"),
             Pick::Reference => ("Compare with project", "Compare"),
             Pick::CodeFont => ("Font file for code", "Use"),
-            Pick::Picture { .. } => ("Image file for the channel", "Use"),
+            Pick::Picture { .. } => ("Image or video file for the channel", "Use"),
         };
         // A modal takes the keyboard from all that lies below it.
         if typing.is_new {
@@ -214,6 +214,12 @@ impl Asked {
     }
 }
 
+/// Endings of images and videos that a channel can show.
+const SHOWN: [&str; 17] = [
+    "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg",
+    "mpeg",
+];
+
 fn help(pick: &Pick) -> &'static str {
     match pick {
         Pick::OpenFolder | Pick::OpenFile => {
@@ -226,7 +232,7 @@ fn help(pick: &Pick) -> &'static str {
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
         Pick::CodeFont => "A .ttf or .otf file",
-        Pick::Picture { .. } => "A png, jpg, webp, bmp, tga, gif or hdr file",
+        Pick::Picture { .. } => "An image (png, jpg, webp, bmp, tga, gif, hdr) or a video (mp4, webm, mkv, mov)",
     }
 }
 
@@ -248,7 +254,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::Reference => ("Compare with project folder", Kind::OpenFolder),
         Pick::SaveAs(name) => ("Save to folder", Kind::Save(name.clone())),
         Pick::CodeFont => ("Font file for code", Kind::OpenFile("Fonts", &["ttf", "otf"])),
-        Pick::Picture { .. } => ("Image file for the channel", Kind::OpenFile("Image files", &PICTURES)),
+        Pick::Picture { .. } => ("Image or video file for the channel", Kind::OpenFile("Images and videos", &SHOWN)),
     };
     Dialog { title, kind, start }
 }
@@ -282,6 +288,11 @@ mod tests {
             }
             assert!(Instant::now() < give_up);
         }
+    }
+
+    #[test]
+    fn every_ending_of_an_image_or_a_video_is_offered() {
+        assert!(SHOWN.iter().eq(crate::project::PICTURES.iter().chain(&crate::project::VIDEOS)));
     }
 
     #[test]

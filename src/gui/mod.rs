@@ -18,6 +18,7 @@ mod costs;
 mod custom_uniforms;
 mod damage;
 mod device_recovery;
+mod devices;
 mod dialogs;
 mod dock;
 mod editor;
@@ -70,7 +71,7 @@ mod viewport;
 
 pub use app::run;
 
-use crate::{gpu::GpuError, session::SessionError};
+use crate::{gpu::GpuError, session::SessionError, video::CameraSource};
 use std::{path::PathBuf, time::Duration};
 
 /// The project to open, and how.
@@ -90,6 +91,8 @@ pub struct Options {
     pub compile_timeout: Option<Duration>,
     /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
     pub json: bool,
+    /// The camera that is used where the person turns one on and chooses none.
+    pub webcam: Option<CameraSource>,
     /// The window's device is lost when this file appears: for tests.
     pub lose_device: Option<PathBuf>,
 }

@@ -3,6 +3,7 @@
 use super::{
     accessible,
     actions::Action,
+    devices,
     dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
@@ -49,6 +50,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) ->
         button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
         button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
+        devices::light(ui, session, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
         let played = session.replay();
         // A recording has the resolution that it was recorded at.

@@ -4,6 +4,7 @@ use super::{builtin, played::Played};
 use eddy_audio::AudioError;
 use eddy_project::{FileError, limits, listed};
 use eddy_texture::Dimension;
+use eddy_video::VideoError;
 use image::ImageError;
 use std::{io, path::PathBuf};
 
@@ -30,6 +31,8 @@ pub enum MediaError {
     Volume { path: PathBuf, reason: String },
     #[error("{}: {source}", path.display())]
     Sound { path: PathBuf, source: AudioError },
+    #[error("{}: {source}", path.display())]
+    Video { path: PathBuf, source: VideoError },
     #[error("{}: the image has no texels", path.display())]
     Empty { path: PathBuf },
     #[error("{}: the image has {width}x{height} texels, {excess}", path.display())]
@@ -81,9 +84,7 @@ impl MediaError {
             MediaError::NotPlayed { played: Played::Sound, .. } => {
                 "read it as music: add kind = \"music\" beside file in eddy.toml".into()
             }
-            MediaError::NotPlayed { .. } => {
-                "until then the channel reads black; let it read an image file or a buffer".into()
-            }
+            MediaError::NotPlayed { .. } => "read it as a video: add kind = \"video\" beside file in eddy.toml".into(),
             MediaError::Radiance { .. } => "re-save the image as HDR in RGB, or as NPY of float32".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } | MediaError::Unread { .. } => {
                 "re-save the image, for example as PNG".into()
@@ -105,6 +106,7 @@ impl MediaError {
                     .into()
             }
             MediaError::Sound { source, .. } => source.hint().into(),
+            MediaError::Video { source, .. } => source.hint().into(),
             MediaError::NoFolder { .. } => "save the project first, and put the file into its folder".into(),
             MediaError::UnknownBuiltin { dimension, .. } => {
                 format!("available: {}", listed(&builtin::names(*dimension).collect::<Vec<_>>()))

@@ -1,9 +1,10 @@
 //! All the pictures of a project at once.
 
-use super::{MediaKey, MediaSet, MeshKey, load::load_within, sound};
+use super::{MediaKey, MediaSet, MeshKey, film, load::load_within, sound};
 use eddy_audio::{SAMPLE_RATE, Sound};
 use eddy_diag::Diagnostic;
 use eddy_project::{Channel, FillValue, Input, InputKind, Media, Pass, Project, limits};
+use eddy_video::Pool;
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
@@ -23,6 +24,9 @@ pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
     pictures(project, None, set, |input| input.row().undrawn.is_none() && matches!(input.media(), Some(Media::File(_))))
 }
 
+/// Says what a channel shows whose file is not there.
+const BLACK: &str = "the channel is black and of size 0";
+
 fn pictures(
     project: &Project,
     media_dir: Option<&Path>,
@@ -32,6 +36,7 @@ fn pictures(
     let mut failed: HashMap<MediaKey, (String, String)> = HashMap::new();
     let mut warnings = Vec::new();
     let base = project.origin.base_dir();
+    let pool = Pool::default();
     for (pass, n, channel) in channels(project).filter(|(.., channel)| is_wanted(&channel.input)) {
         let mut warn = |message: String, hint: String| {
             warnings
@@ -43,20 +48,31 @@ fn pictures(
             continue;
         }
         let Some(key) = MediaKey::of_channel(channel) else { continue };
-        let is_music = channel.input.kind() == InputKind::Music;
+        let (is_music, is_video) = (channel.input.kind() == InputKind::Music, channel.input.kind() == InputKind::Video);
         if let Some((message, hint)) = failed.get(&key) {
             warn(message.clone(), hint.clone());
             continue;
         }
-        if set.get(&key).is_some() || is_music && set.sound(&key.media).is_some() {
+        if match channel.input.kind() {
+            InputKind::Music => set.sound(&key.media).is_some(),
+            InputKind::Video => set.video(&key.media).is_some(),
+            _ => set.get(&key).is_some(),
+        } {
             continue;
         }
         let (loaded, instead) = if is_music {
             let sound = sound::load(&key.media, base, media_dir, set.room());
             (sound.map(|sound| set.insert_sound(key.media.clone(), sound, &mut warn)), "a synthetic spectrum is shown")
+        } else if is_video && set.videos.len() >= limits::VIDEOS {
+            let message = format!("the project has more than {} videos, the limit", limits::VIDEOS);
+            warn(format!("{message}; the channel is black and of size 0"), "read fewer different videos".into());
+            continue;
+        } else if is_video {
+            let video = film::load(&key.media, base, media_dir, &pool);
+            (video.map(|video| drop(set.videos.insert(key.media.clone(), Arc::new(video)))), BLACK)
         } else {
             let texels = load_within(&key, base, media_dir, set.room());
-            (texels.map(|texels| set.insert(key.clone(), Arc::new(texels))), "the channel is black and of size 0")
+            (texels.map(|texels| set.insert(key.clone(), Arc::new(texels))), BLACK)
         };
         if let Err(error) = loaded {
             let message = format!("{error}; {instead}");
@@ -113,6 +129,16 @@ impl MediaSet {
         limits::MEDIA_BYTES.saturating_sub(pictures + sounds + meshes)
     }
 
+    /// One warning for each channel that reads a webcam while no camera is on.
+    pub fn camera_warnings(&self, project: &Project) -> Vec<Diagnostic> {
+        let reads = |channel: &Channel| channel.input.kind() == InputKind::Webcam && self.camera.is_none();
+        let warning = |(pass, n, _): (&Pass, usize, &Channel)| {
+            let message = format!("iChannel{n} of {}: no camera is on; the channel is black", pass.id.title());
+            Diagnostic::warning(None, message).hint("name one: --webcam /dev/video0, or --webcam lavfi:testsrc")
+        };
+        channels(project).filter(|(.., channel)| reads(channel)).map(warning).collect()
+    }
+
     fn insert_sound(&mut self, media: Media, sound: Sound, warn: &mut impl FnMut(String, String)) {
         if sound.truncated {
             let message = format!("only the first {:.0} s of the music are played", sound.seconds());
@@ -154,10 +180,12 @@ mod tests {
             gather(&project([noise(), noise(), Some(missing), Some(Input::Device(InputKind::Webcam))]), None);
         assert_eq!(set.len(), 1);
         let messages: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
-        assert_eq!(warnings.len(), 2, "{messages:?}");
+        assert_eq!(warnings.len(), 1, "{messages:?}");
         assert!(messages[0].starts_with("iChannel2 of Image: cannot read /nowhere/pic.png"), "{messages:?}");
-        assert!(messages[1].starts_with("iChannel3 of Image: the webcam"), "{messages:?}");
         assert!(warnings.iter().all(|w| !w.is_error() && !w.hints.is_empty()));
+        let of_camera = set.camera_warnings(&project([None, Some(Input::Device(InputKind::Webcam)), None, None]));
+        assert_eq!(of_camera.len(), 1);
+        assert!(of_camera[0].message.starts_with("iChannel1 of Image: no camera is on"), "{}", of_camera[0].message);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 pub mod builtin;
 mod error;
+mod film;
 mod flatten;
 mod gather;
 mod halve;
@@ -26,6 +27,7 @@ use eddy_audio::Sound;
 use eddy_diag::Diagnostic;
 use eddy_project::{Channel, Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
+use eddy_video::{Camera, Pace, Video};
 use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
     collections::{HashMap, HashSet},
@@ -64,6 +66,11 @@ pub struct MediaSet {
     /// By what the channel names and whether it is flipped.
     pictures: HashMap<MediaKey, Arc<Texels>>,
     sounds: HashMap<Media, Arc<Sound>>,
+    videos: HashMap<Media, Arc<Video>>,
+    /// A camera that a person has turned on.
+    camera: Option<Camera>,
+    /// The wait of a picture for a frame of a video.
+    pace: Pace,
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshKey, Result<Arc<Mesh>, MeshError>>,
@@ -86,6 +93,29 @@ impl MediaSet {
     /// The sound that a channel of music names.
     pub fn sound(&self, media: &Media) -> Option<&Arc<Sound>> {
         self.sounds.get(media)
+    }
+
+    /// The video that a channel names.
+    pub fn video(&self, media: &Media) -> Option<&Arc<Video>> {
+        self.videos.get(media)
+    }
+
+    /// The camera that channels of a webcam read, while one is on.
+    pub fn camera(&self) -> Option<&Camera> {
+        self.camera.as_ref()
+    }
+
+    pub fn set_camera(&mut self, camera: Option<Camera>) {
+        self.camera = camera;
+    }
+
+    /// Returns how long a picture waits for a frame of a video.
+    pub fn pace(&self) -> Pace {
+        self.pace
+    }
+
+    pub fn set_pace(&mut self, pace: Pace) {
+        self.pace = pace;
     }
 
     /// The texels of a file that fills a pass, as [`fills`] loaded it.

@@ -13,7 +13,7 @@ impl fmt::Display for Played {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Played::Sound => "a sound file, which does not play as an image",
-            Played::Film => "a video file, which Eddy does not play yet",
+            Played::Film => "a video file, which does not play as an image",
         })
     }
 }

@@ -153,15 +153,7 @@ static ROWS: [InputRow; 10] = [
         has_vflip: false,
         ..PICTURE
     },
-    InputRow {
-        kind: InputKind::Video,
-        title: "video",
-        glyph: "film",
-        key: "video",
-        json_type: "video",
-        undrawn: Some("a video cannot be read yet"),
-        ..PICTURE
-    },
+    InputRow { kind: InputKind::Video, title: "video", glyph: "film", key: "video", json_type: "video", ..PICTURE },
     InputRow {
         kind: InputKind::Music,
         title: "music",
@@ -192,7 +184,7 @@ static ROWS: [InputRow; 10] = [
         key: "webcam",
         json_type: "webcam",
         json_id: Some(("4sf3zn", "/presets/webcam.png")),
-        undrawn: Some("the webcam cannot be read yet"),
+        directive: Some("webcam"),
         ..DEVICE
     },
 ];

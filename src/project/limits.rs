@@ -53,6 +53,20 @@ pub const PICTURE_BYTES: u64 = 512 << 20;
 pub const VOLUME_SIDE: u32 = 2048;
 /// Seconds of a sound file that are decoded; 8 bytes a sample are kept of them.
 pub const SOUND_SECONDS: u32 = 1_200;
+/// A video file. It is read piece by piece.
+pub const VIDEO_FILE: Limit = Limit { bytes: 8 << 30, of: "a video" };
+/// A decoded frame of a video, at 4 bytes a texel: 7680x4320 texels.
+pub const VIDEO_FRAME_BYTES: u64 = 128 << 20;
+/// Decoded frames of all videos of a project together that are kept or read ahead, besides two of each video.
+pub const VIDEO_BYTES: u64 = 256 << 20;
+/// Different videos of a project.
+pub const VIDEOS: usize = 16;
+/// Seconds that a video plays for.
+pub const VIDEO_SECONDS: u32 = 21_600;
+/// Frames of an animated image file, and image files of a sequence.
+pub const VIDEO_IMAGES: usize = 20_000;
+/// Seconds for which a decoder may give no frame before it is stopped.
+pub const VIDEO_DECODE_SECONDS: u64 = 10;
 /// All pictures, sounds and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 

@@ -35,9 +35,9 @@ const TEXTS: [&str; 16] = [
     "txt",
 ];
 /// Endings of pictures, models, and what these name.
-const MEDIA: [&str; 25] = [
+const MEDIA: [&str; 31] = [
     "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx", "ktx2", "dds", "glb", "gltf", "obj", "mtl",
-    "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv",
+    "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv", "mkv", "mov", "m4v", "avi", "mpg", "mpeg",
 ];
 
 /// Returns whether a new file of this name may be a text of a project.

@@ -44,6 +44,8 @@ impl Session {
             }
             Command::CompileNow => self.compile_soon(),
             Command::SetCompileOnSave(on) => self.compile.set_on_save(on),
+            Command::UseDevice { kind, on } => self.use_device(kind, on),
+            Command::ChooseCamera(id) => self.choose_camera(id),
             Command::Play => self.play(),
             Command::Pause => self.pause(),
             Command::TogglePlay if self.is_playing() => self.pause(),

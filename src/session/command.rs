@@ -8,7 +8,7 @@ use super::{
     view::Level,
 };
 use eddy_playback::comparing::Baseline;
-use eddy_project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
+use eddy_project::{Channel, CustomUniformValue, InputKind, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
@@ -48,6 +48,10 @@ pub enum Command {
     SetCompileOnSave(bool),
     /// Compiles at once.
     CompileNow,
+    /// The person turns a device that channels read on or off: see [`DeviceConsent`](super::DeviceConsent).
+    UseDevice { kind: InputKind, on: bool },
+    /// Chooses one of [`Session::cameras`](super::Session::cameras) by its id, and turns it on.
+    ChooseCamera(String),
     /// Lets time run.
     Play,
     /// Lets time stand still.

@@ -137,6 +137,8 @@ impl Session {
             None => {}
         }
         self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
+        // While the picture runs the next frame shows it.
+        self.playback.is_again_due |= done.is_late && has_frame && !self.playback.is_running();
         self.changed |= self.watched.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {

@@ -61,7 +61,8 @@ impl Session {
             let file = recording.clone();
             return self.bring_recording(file, to.is_some());
         }
-        let pictures: Vec<&Path> = of(FileKind::Picture).map(PathBuf::as_path).collect();
+        let is_shown = |p: &&PathBuf| matches!(project::kind_of_file(p), FileKind::Picture | FileKind::Video);
+        let pictures: Vec<&Path> = paths.iter().filter(is_shown).map(PathBuf::as_path).collect();
         let models: Vec<&Path> = of(FileKind::Model).map(PathBuf::as_path).collect();
         let Some(first) = pictures.first().or(models.first()) else { return };
         match to {
@@ -121,7 +122,11 @@ impl Session {
                 ));
                 continue;
             };
-            project.read_picture(pass, n, picture);
+            if is_video(picture) {
+                project.read_video(pass, n, picture);
+            } else {
+                project.read_picture(pass, n, picture);
+            }
             said.push(reads(project, pass, n, &name(picture)));
         }
         for model in models {
@@ -146,16 +151,14 @@ impl Session {
         for path in paths {
             let name = name(path);
             match project::kind_of_file(path) {
-                FileKind::SoundOrVideo => {
-                    self.notice_about(
-                        About::Opening,
-                        Level::Warning,
-                        format!("{name}: Eddy does not support sound and video in channels yet"),
-                    );
+                FileKind::Sound => {
+                    let how = format!("0 = {{ file = \"{name}\", kind = \"music\" }}");
+                    let text = format!("{name}: a sound cannot be dropped on a channel yet; write {how} in eddy.toml");
+                    self.notice_about(About::Opening, Level::Warning, text);
                 }
                 FileKind::Unknown => {
                     let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
-                                 image file (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, \
+                                 image file (png, jpg, webp, bmp, tga, gif, hdr) or a video (mp4, webm, mkv, mov), a pass draws a model (glb, gltf, \
                                  obj), a recording of input is a .replay file";
                     self.notice_about(
                         About::Opening,
@@ -163,10 +166,19 @@ impl Session {
                         format!("{name} is not a file Eddy can open: {known}"),
                     );
                 }
-                FileKind::Project | FileKind::Picture | FileKind::Model | FileKind::Recording => {}
+                FileKind::Project | FileKind::Picture | FileKind::Video | FileKind::Model | FileKind::Recording => {}
             }
         }
     }
+}
+
+/// Returns whether a file plays: it is a video by its name, or an image file with more than one frame.
+fn is_video(path: &Path) -> bool {
+    let is_animated = || {
+        let bytes = project::confine::read_own(path, project::limits::MEDIA_FILE);
+        bytes.is_ok_and(|bytes| eddy_video::is_animated(&bytes))
+    };
+    project::kind_of_file(path) == FileKind::Video || is_animated()
 }
 
 /// Says what a channel reads now, and how its text gets at it.

@@ -3,6 +3,7 @@
 use super::drawing;
 use eddy_engine::EngineError;
 use eddy_playback::trial::TrialSettings;
+use eddy_video::CameraSource;
 use std::{path::PathBuf, time::Duration};
 
 /// Holds how a session is set up. The defaults are what the window uses, but for recovery files.
@@ -20,6 +21,8 @@ pub struct SessionOptions {
     pub pictures: PathBuf,
     /// The user's own copies of the site's textures.
     pub media_dir: Option<PathBuf>,
+    /// The camera that is used where a person turns one on and chooses none.
+    pub camera: CameraSource,
     /// The folder for recovery files; `None`: unsaved work ends with the process. The window's is
     /// [`recovery_folder`](super::recovery_folder).
     pub recovery: Option<PathBuf>,
@@ -45,6 +48,7 @@ impl Default for SessionOptions {
             retry_for: Duration::from_secs(2),
             pictures: dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_else(|| PathBuf::from(".")),
             media_dir: None,
+            camera: CameraSource::First,
             recovery: None,
             draws_on_thread: false,
             frame_limit: Duration::from_secs(2),

@@ -64,6 +64,8 @@ pub enum About {
     Replay,
     /// A project that was to be written for the site.
     Export,
+    /// A camera.
+    Device,
 }
 
 /// Something the user should hear once.

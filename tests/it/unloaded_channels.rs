@@ -29,12 +29,11 @@ const DEEP_READS: &[&str] = &[
     "textureGrad(iChannel0, vec3(p, 1.0), vec3(1.0), vec3(0.5))",
 ];
 
-/// Inputs that Eddy has no texture for. The engine is given no media here, so that a file is missing too; without a file
-/// music has a spectrum all the same.
+/// Inputs without a texture. The engine is given no media here, so that a file is missing too; without a file
+/// music has a spectrum all the same, and a webcam without a camera is as large as on the site.
 fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
     let inputs = [
-        Input::Device(InputKind::Webcam),
         Input::Device(InputKind::Microphone),
         Input::Media { kind: InputKind::Video, media: file() },
         Input::texture(file()),

@@ -10,6 +10,7 @@ mod window_audit;
 mod window_buffers;
 mod window_compare;
 mod window_costs;
+mod window_devices;
 mod window_editor;
 mod window_endurance;
 mod window_fields;

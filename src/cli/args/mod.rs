@@ -19,12 +19,13 @@ use crate::{
         script::ScriptedInputs,
         trial::COMMAND,
     },
+    video::CameraSource,
 };
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
 use std::{path::PathBuf, time::Duration};
 pub use values::face_of;
-use values::{PROJECT, face, format, picture, seconds, size};
+use values::{PROJECT, face, format, picture, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -56,6 +57,10 @@ pub struct Window {
     /// CPU time limit for compiling a large pass with a driver that compiles on the CPU [default: 8]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub compile_timeout: Option<Duration>,
+    /// Camera that is used when you turn the camera on: /dev/video0, 0 or a name as the system has it, or a test picture by
+    /// ffmpeg as in lavfi:testsrc [default: the first camera]
+    #[arg(long, value_name = "CAMERA", value_parser = webcam)]
+    pub webcam: Option<CameraSource>,
     /// Print events of the window to standard output, one JSON object per line
     #[arg(long)]
     pub json: bool,

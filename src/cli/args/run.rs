@@ -1,6 +1,6 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
-use super::values::{fps, recording, seconds, size};
+use super::values::{fps, recording, seconds, size, webcam};
 use crate::{
     glsl::opt::PassSet,
     playback::{
@@ -8,6 +8,7 @@ use crate::{
         recording::Recording,
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
+    video::CameraSource,
 };
 use clap::Args;
 use jiff::civil::DateTime;
@@ -39,6 +40,10 @@ pub struct RunArgs {
     /// Folder with Shadertoy's textures, used instead of the built-in ones where a file name matches
     #[arg(long, value_name = "DIR")]
     pub media: Option<PathBuf>,
+    /// Camera that webcam channels show: /dev/video0, 0 or a name as the system has it, or a test picture by ffmpeg as in
+    /// lavfi:testsrc [default: none, black]
+    #[arg(long, value_name = "CAMERA", value_parser = webcam)]
+    pub webcam: Option<CameraSource>,
     /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,

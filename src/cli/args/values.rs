@@ -4,6 +4,7 @@ use crate::{
     playback::{capture::Format, recording::Recording},
     project::PassId,
     texture::Face,
+    video::CameraSource,
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 
@@ -93,6 +94,10 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|secs: &f64| *secs > 0.0);
     let duration = seconds.and_then(|secs| Duration::try_from_secs_f64(secs).ok());
     duration.ok_or_else(|| "seconds must be a number above 0, as in 2.5".into())
+}
+
+pub fn webcam(text: &str) -> Result<CameraSource, String> {
+    Ok(CameraSource::of_text(text))
 }
 
 pub fn fps(text: &str) -> Result<f64, String> {

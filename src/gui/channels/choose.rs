@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     gui::{
-        accessible, theme,
+        accessible, devices, theme,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
@@ -57,10 +57,13 @@ pub fn choose(
                 set(out, Some(Channel::new(input)));
             }
         }
-        if out.clicked("choose:file", &ui.button("Image file…")) {
+        if out.clicked("choose:file", &ui.button("Image or video file…")) {
             out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
         }
     });
+    if now.is_some_and(|input| input.kind() == InputKind::Webcam) {
+        devices::choose(ui, session, out);
+    }
     if let Some(channel) = channel {
         sampler(ui, channel, out, set);
     }

@@ -13,9 +13,9 @@ use super::{MediaError, MediaKey, Texels, builtin, error::Excess, npy, played::P
 use eddy_project::{FileError, Media, confine, limits, nearest};
 use eddy_texture::Dimension;
 use eddy_texture::TexelFormat;
+use eddy_video::next_numbered;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{
-    ffi::OsString,
     io::Cursor,
     path::{Path, PathBuf},
 };
@@ -100,7 +100,9 @@ impl Source<'_> {
             let slice = decoded(bytes, &shown, true, room)?;
             room -= (slice.bytes.len() as u64).min(room);
             slices.push(slice);
-            let Some(next) = next_slice(&path).filter(|_| slices.len() < limits::VOLUME_SIDE as usize) else { break };
+            let Some(next) = next_numbered(&path).filter(|_| slices.len() < limits::VOLUME_SIDE as usize) else {
+                break;
+            };
             match (self.read)(&next) {
                 Ok(read) => (bytes, path) = (read, next),
                 Err(_) => break,
@@ -126,20 +128,6 @@ impl Source<'_> {
         let faces: [Texels; 6] = faces.try_into().expect("two and four are six");
         cube::of_faces(faces, vflip).map_err(failed)
     }
-}
-
-/// The name that comes after one which ends in digits: `brain_009.png` and then `brain_010.png`.
-fn next_slice(path: &Path) -> Option<PathBuf> {
-    let stem = path.file_stem()?.to_str()?;
-    let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-    let (begin, number) = stem.split_at(stem.len() - digits);
-    let next = number.parse::<u32>().ok()?.checked_add(1)?;
-    let mut name = OsString::from(format!("{begin}{next:0digits$}"));
-    if let Some(ending) = path.extension() {
-        name.push(".");
-        name.push(ending);
-    }
-    Some(path.with_file_name(name))
 }
 
 /// The file of face `n` of a cubemap of six files: the base name for +X, then `_1` to `_5` before the ending for -X,

@@ -64,6 +64,11 @@ impl FileError {
         FileError::new(path.display().to_string(), reason)
     }
 
+    /// The machine could not do what was asked of a file.
+    pub fn of_machine(path: &Path, error: &io::Error) -> Self {
+        FileError::io(path, error)
+    }
+
     fn message(&self) -> String {
         let file = self.file.escape_debug().to_string().replace("\\\\", "\\").replace("\\'", "'").replace("\\\"", "\"");
         match &self.reason {
@@ -178,6 +183,20 @@ pub fn read(folder: &Path, name: impl AsRef<Path>, limit: Limit) -> Result<Vec<u
     read_regular(&found.real, &found.called, limit)
 }
 
+/// Opens the file that a project in `folder` calls `name`, which has at most `limit` bytes, for a reader that takes it
+/// piece by piece. Returns its path, after links, with it.
+pub fn open(folder: &Path, name: impl AsRef<Path>, limit: Limit) -> Result<(File, PathBuf), FileError> {
+    let found = find(folder, name.as_ref())?;
+    Ok((open_checked(&found.real, &found.called, limit)?.0, found.real))
+}
+
+/// Opens a file that the person at the machine named in the same way.
+pub fn open_own(path: &Path, limit: Limit) -> Result<(File, PathBuf), FileError> {
+    let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
+    check_kind(path, &real)?;
+    Ok((open_checked(&real, path, limit)?.0, real))
+}
+
 /// Reads a file that the person at the machine named: any regular file, at most `limit` bytes of it.
 pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
     let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
@@ -243,11 +262,11 @@ fn kind(file: &fs::FileType) -> Option<&'static str> {
     Some(if file.is_dir() { "a folder" } else { "something else" })
 }
 
-fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
+/// Opens a file, and looks at the thing that was really opened. Returns its length with it.
+fn open_checked(real: &Path, called: &Path, limit: Limit) -> Result<(File, u64), FileError> {
     let failed = |e: io::Error| FileError::io(called, &e);
     let refuse = |reason| Err(FileError::new(called.display().to_string(), reason));
-    let file = open(real).map_err(failed)?;
-    // Once more, of the thing that was really opened.
+    let file = open_regular(real).map_err(failed)?;
     let metadata = file.metadata().map_err(failed)?;
     if let Some(kind) = kind(&metadata.file_type()) {
         return refuse(Reason::NotAFile(kind));
@@ -255,25 +274,31 @@ fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, Fil
     if metadata.len() > limit.bytes {
         return refuse(Reason::TooLarge(limit));
     }
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    Ok((file, metadata.len()))
+}
+
+fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
+    let (file, length) = open_checked(real, called, limit)?;
+    let mut bytes = Vec::with_capacity(length as usize);
     // A file may grow while it is read, and some say a length of 0 whatever they hold.
-    file.take(limit.bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
+    let read = file.take(limit.bytes.saturating_add(1)).read_to_end(&mut bytes);
+    read.map_err(|e| FileError::io(called, &e))?;
     if bytes.len() as u64 > limit.bytes {
-        return refuse(Reason::TooLarge(limit));
+        return Err(FileError::new(called.display().to_string(), Reason::TooLarge(limit)));
     }
     Ok(bytes)
 }
 
 /// Opens for reading without waiting, should the path have become a pipe since it was looked at.
 #[cfg(unix)]
-fn open(real: &Path) -> io::Result<File> {
+fn open_regular(real: &Path) -> io::Result<File> {
     use rustix::fs::{Mode, OFlags};
     let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
     Ok(File::from(rustix::fs::open(real, flags, Mode::empty())?))
 }
 
 #[cfg(not(unix))]
-fn open(real: &Path) -> io::Result<File> {
+fn open_regular(real: &Path) -> io::Result<File> {
     File::open(real)
 }
 

@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names,
+    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, has_video_ending,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -57,7 +57,12 @@ fn is_glsl(path: &str) -> bool {
 
 /// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
 pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
-    let picture = |path: &str| Some(Channel::new(Input::texture(Media::File(PathBuf::from(path)))));
+    // Which kind it is stands in its ending; an animated image plays where a `Type` line says so.
+    let picture = |path: &str| {
+        let media = Media::File(PathBuf::from(path));
+        let kind = if has_video_ending(Path::new(path)) { InputKind::Video } else { InputKind::Texture };
+        Some(Channel::new(Input::Media { kind, media }))
+    };
     if let Some(name) = value.strip_prefix("builtin://") {
         return Some(Channel::new(Input::texture(Media::Builtin(name.to_owned()))));
     }
@@ -139,7 +144,8 @@ fn pass(id: &PassId, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagn
     None
 }
 
-pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn set(channel: &mut Channel, setting: &str, value: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let Channel { input, sampler } = channel;
     let mut unknown = |what: &str, got: &str, known: &[&'static str]| {
         let mut d = Diagnostic::error(span, format!("unknown {what} {got}"));
         if let Some(near) = nearest(got, known.iter().copied()) {
@@ -184,11 +190,17 @@ pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span,
         },
         "type" => match folded.as_str() {
             "texture2d" => {}
+            "video" => match input {
+                Input::Media { kind: kind @ (InputKind::Texture | InputKind::Video), .. } => *kind = InputKind::Video,
+                _ => diagnostics.push(
+                    Diagnostic::error(span, "only a file can be a video").hint("name one: #iChannel0 \"clip.gif\""),
+                ),
+            },
             "cubemap" => diagnostics.push(
                 Diagnostic::error(span, "a channel directive cannot read a cubemap of six images")
                     .hint("for the cubemap pass write #iChannel0 \"cube_a\"; for an image remove this line"),
             ),
-            _ => unknown("type", value, &["Texture2D"]),
+            _ => unknown("type", value, &["Texture2D", "Video"]),
         },
         _ => unknown("setting", setting, &["MinFilter", "MagFilter", "WrapMode", "VFlip", "Type"]),
     }

@@ -10,6 +10,9 @@
 //! #iChannel1 "cube_a"                 // the cubemap pass
 //! #iChannel1 "keyboard"
 //! #iChannel2 "file://pic.png"         // a picture, relative to the project's folder; also "pic.png"
+//! #iChannel2 "clip.mp4"               // a video, by its ending
+//! #iChannel2::Type "Video"            // plays an animated image, too
+//! #iChannel2 "webcam"
 //! #iChannel3 "builtin://noise-rgba-256"
 //! #iChannel3::MinFilter "NearestMipMapLinear"   // anything with MipMap: linear, between mip levels too
 //! #iChannel3::MagFilter "Nearest"

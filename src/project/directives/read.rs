@@ -49,7 +49,7 @@ pub(crate) fn read(text: &str, source: SourceId, around: Around<'_>, default: &[
     for (n, setting, value, span) in settings {
         match &mut channels[n] {
             Some(channel) => {
-                line::set(&mut channel.sampler, setting, value, span, &mut found.diagnostics);
+                line::set(channel, setting, value, span, &mut found.diagnostics);
                 is_any = true;
             }
             // What it reads cannot be had, which was said.

@@ -23,8 +23,10 @@ pub enum FileKind {
     Model,
     /// The input of a run, which is played in the open project.
     Recording,
-    /// The site's channels read such files, and Eddy's do not yet.
-    SoundOrVideo,
+    /// A channel plays it.
+    Video,
+    /// A channel plays it where `eddy.toml` says so.
+    Sound,
     Unknown,
 }
 
@@ -34,8 +36,15 @@ pub const PICTURES: [&str; 11] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "g
 pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 /// Ending of recordings of input.
 pub const RECORDING: &str = "replay";
-const SOUNDS_AND_VIDEOS: [&str; 13] =
-    ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus", "mp4", "webm", "ogv", "mkv", "mov", "avi"];
+/// Endings of videos that a channel can play. Animated images have those of images.
+pub const VIDEOS: [&str; 9] = ["mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg", "mpeg"];
+const SOUNDS: [&str; 7] = ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus"];
+
+/// Returns whether a file is a video by its ending alone.
+pub fn has_video_ending(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    VIDEOS.iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
 
 /// Says by its name what a file is; whether it is a folder is asked of the disk.
 pub fn kind_of_file(path: &Path) -> FileKind {
@@ -51,8 +60,10 @@ pub fn kind_of_file(path: &Path) -> FileKind {
         FileKind::Model
     } else if is_one_of(&[RECORDING]) {
         FileKind::Recording
-    } else if is_one_of(&SOUNDS_AND_VIDEOS) {
-        FileKind::SoundOrVideo
+    } else if has_video_ending(path) {
+        FileKind::Video
+    } else if is_one_of(&SOUNDS) {
+        FileKind::Sound
     } else {
         FileKind::Unknown
     }

@@ -83,7 +83,8 @@ fn files_are_known_by_their_names() {
         ("fox.glb", FileKind::Model),
         ("a.obj", FileKind::Model),
         ("run-0001.replay", FileKind::Recording),
-        ("a.mp3", FileKind::SoundOrVideo),
+        ("a.mp3", FileKind::Sound),
+        ("a.MP4", FileKind::Video),
         ("a.docx", FileKind::Unknown),
         ("a", FileKind::Unknown),
     ] {

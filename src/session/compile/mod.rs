@@ -17,6 +17,7 @@ use super::{
 use eddy_background::{Background, Wake};
 use eddy_diag::Severity;
 use eddy_project::{PassId, Project};
+use eddy_video::Camera;
 use std::{
     cmp::Reverse,
     io,
@@ -72,6 +73,7 @@ pub(super) struct Source<'s> {
     /// Counts the times a project was opened or took a new place.
     pub opened: u64,
     pub probe: Option<(ProbePlace, bool)>,
+    pub camera: Option<Camera>,
 }
 
 impl CompileControl {
@@ -197,9 +199,10 @@ impl CompileControl {
         }
         self.jobs.fetch_add(1, Ordering::Relaxed);
         let include_edit = self.unread_includes().filter(|_| is_compile && !is_fallback);
-        let Source { project, shown, opened, probe } = source;
+        let Source { project, shown, opened, probe, camera } = source;
         let (project, shown) = (fallback.unwrap_or_else(|| project.clone()), shown.clone());
-        self.worker.start(Job { is_fallback, project, shown, opened, include_edit, probe, is_look: !is_compile });
+        let is_look = !is_compile;
+        self.worker.start(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_look });
         is_compile
     }
 

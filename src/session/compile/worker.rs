@@ -13,6 +13,7 @@ use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
 use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, Channel, Included, MeshSource, Normals, Pass, PassId, Project};
+use eddy_video::{Camera, Pace};
 use std::{
     cmp::Reverse,
     path::PathBuf,
@@ -29,6 +30,8 @@ pub struct Job {
     pub opened: u64,
     /// The texts name other files in their `#include` lines than those that were read: read them. Counts such edits.
     pub include_edit: Option<u64>,
+    /// The camera that is on, if its pictures have begun.
+    pub camera: Option<Camera>,
     /// The project is not the newest: one to fall back to.
     pub is_fallback: bool,
     /// The value that is drawn instead of the picture, and whether it has gone from the text.
@@ -195,7 +198,10 @@ impl Media {
             self.set = MediaSet::new();
             (self.set, self.warnings) = media::gather(&job.project, self.dir.as_deref());
             self.of = Some(named);
+            // Nobody waits for a video while the picture runs.
+            self.set.set_pace(Pace::Live);
         }
+        self.set.set_camera(job.camera.clone());
         self.warnings.clone()
     }
 }

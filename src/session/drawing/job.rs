@@ -114,6 +114,8 @@ pub struct Done {
     pub frame: Option<Result<DrawnFrame, EngineError>>,
     /// The frame that is shown was to be drawn again, and what it was drawn from is not kept.
     pub is_again_lost: bool,
+    /// The frame shows an older frame of a video than it should.
+    pub is_late: bool,
     /// The frame of the run that is shown now; `Some(None)` where the goal is out of reach.
     pub travelled: Option<Option<Result<Travelled, EngineError>>>,
     /// The frames that one can go to.

@@ -22,6 +22,7 @@ impl Session {
         self.read_declared_uniforms();
         let mut frame_drawn = self.take_drawn(false);
         self.watch_drawing();
+        self.follow_devices();
         self.start_compile();
         self.take_compiled();
         self.analyse();
@@ -110,7 +111,13 @@ impl Session {
 
     fn start_compile(&mut self) {
         let (project, shown) = (self.documents.current(), &self.picture.shown);
-        let source = Source { project, shown, opened: self.disk.opened(), probe: self.watched.probing.order() };
+        let source = Source {
+            project,
+            shown,
+            opened: self.disk.opened(),
+            probe: self.watched.probing.order(),
+            camera: self.devices.camera().cloned(),
+        };
         self.changed |= self.compile.start(self.now, source);
     }
 

@@ -24,6 +24,7 @@ const LAYERS: &[&str] = &[
     "texture",
     "diag",
     "project",
+    "video",
     "media",
     "glsl",
     "graph",

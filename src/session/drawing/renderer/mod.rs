@@ -101,6 +101,7 @@ impl Renderer {
             }
             done.frame = Some(drawn);
         }
+        done.is_late = self.engine.is_late();
         done.reach = self.history.reach();
         let has_drawn = done.frame.is_some() || done.travelled.is_some();
         // What a resize or another program leaves of the canvas before it is no picture: the frame that follows is.

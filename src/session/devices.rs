@@ -1,0 +1,169 @@
+//! Devices that see or hear: which of them the person has allowed, and the camera that is on.
+//!
+//! A device is used only after the person has turned it on for the open project in this run. A project that asks for it shows
+//! black until then, and another project asks again.
+
+use super::{
+    Session,
+    view::{About, Level},
+};
+use eddy_project::{InputKind, Project};
+use eddy_video::{Camera, CameraDevice, CameraSource, Tools, VideoError};
+
+/// The devices that the person has allowed the open project to use.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviceConsent {
+    allowed: Vec<InputKind>,
+}
+
+impl DeviceConsent {
+    pub fn allow(&mut self, kind: InputKind) {
+        if !self.allows(kind) {
+            self.allowed.push(kind);
+        }
+    }
+
+    pub fn withdraw(&mut self, kind: InputKind) {
+        self.allowed.retain(|allowed| *allowed != kind);
+    }
+
+    pub fn allows(&self, kind: InputKind) -> bool {
+        self.allowed.contains(&kind)
+    }
+}
+
+/// The state of a device that a project reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeviceState {
+    /// Nobody has turned it on.
+    Off,
+    /// It is on and has given nothing yet.
+    Starting,
+    On,
+}
+
+/// The devices of a session.
+#[derive(Default)]
+pub(super) struct Devices {
+    pub consent: DeviceConsent,
+    camera: Option<Camera>,
+    /// The camera that the person has chosen, if one.
+    chosen: Option<CameraSource>,
+    /// Cameras of the machine, as the newest one that was on has found them.
+    found: Vec<CameraDevice>,
+    /// A program shows the camera's pictures.
+    is_shown: bool,
+    /// The person has heard that it has ended.
+    is_end_told: bool,
+}
+
+impl Devices {
+    pub fn camera(&self) -> Option<&Camera> {
+        self.camera.as_ref().filter(|camera| camera.newest().is_some())
+    }
+
+    /// Turns everything off: another project has to ask again.
+    pub fn begin_next_project(&mut self) {
+        *self = Devices { chosen: self.chosen.take(), found: std::mem::take(&mut self.found), ..Devices::default() };
+    }
+}
+
+impl Session {
+    /// Returns whether a channel of a drawn pass reads a kind of device.
+    pub fn reads_device(&self, kind: InputKind) -> bool {
+        reads(self.project(), kind)
+    }
+
+    pub fn device_state(&self, kind: InputKind) -> DeviceState {
+        match (&self.devices.camera, kind) {
+            (Some(camera), InputKind::Webcam) if camera.newest().is_some() => DeviceState::On,
+            (Some(_), InputKind::Webcam) => DeviceState::Starting,
+            _ => DeviceState::Off,
+        }
+    }
+
+    /// Returns the cameras that there are, known once one has been on, and which one is on.
+    pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
+        (&self.devices.found, self.devices.camera.as_ref().map(Camera::source))
+    }
+
+    /// The person turns a device on or off.
+    pub(super) fn use_device(&mut self, kind: InputKind, on: bool) {
+        if kind != InputKind::Webcam {
+            return;
+        }
+        self.settled(About::Device);
+        if !on {
+            self.devices.consent.withdraw(kind);
+            if self.devices.camera.take().is_some() {
+                self.compile_soon();
+            }
+            return;
+        }
+        self.devices.consent.allow(kind);
+        self.open_camera();
+    }
+
+    /// The person chooses a camera, which turns it on.
+    pub(super) fn choose_camera(&mut self, id: String) {
+        self.devices.chosen = Some(CameraSource::Device(id));
+        self.devices.camera = None;
+        self.use_device(InputKind::Webcam, true);
+    }
+
+    fn open_camera(&mut self) {
+        if self.devices.camera.is_some() || !self.devices.consent.allows(InputKind::Webcam) {
+            return;
+        }
+        let wake = self.wake.clone();
+        let source = self.devices.chosen.clone().unwrap_or_else(|| self.options.camera.clone());
+        self.devices.camera = Some(Camera::open(source, &Tools::default(), move || wake()));
+        (self.devices.is_shown, self.devices.is_end_told) = (false, false);
+    }
+
+    /// Shows a camera that has begun, and tells of one that has ended.
+    pub(super) fn follow_devices(&mut self) {
+        let Some(camera) = &self.devices.camera else { return };
+        if camera.newest().is_some() && !std::mem::replace(&mut self.devices.is_shown, true) {
+            self.devices.found = camera.found();
+            self.changed = true;
+            self.compile_soon();
+            return;
+        }
+        let Some(error) = camera.error().filter(|_| !self.devices.is_end_told) else { return };
+        let has_picture = camera.newest().is_some();
+        let text = match (&error, has_picture) {
+            (VideoError::Camera(why), true) => format!("the camera stopped ({why}); its last picture stays"),
+            (_, true) => format!("the camera stopped: {error}; its last picture stays"),
+            (_, false) => format!("{error}; {}", error.hint()),
+        };
+        self.devices.is_end_told = true;
+        self.notice_about(About::Device, Level::Warning, text);
+        if !has_picture {
+            self.devices.camera = None;
+            self.devices.consent.withdraw(InputKind::Webcam);
+            self.changed = true;
+        }
+    }
+}
+
+fn reads(project: &Project, kind: InputKind) -> bool {
+    let passes = project.passes.iter().filter(|pass| pass.id.is_drawn());
+    passes.flat_map(|pass| pass.channels.iter().flatten()).any(|channel| channel.input.kind() == kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn consent_is_given_for_one_kind_and_can_be_withdrawn() {
+        let mut consent = DeviceConsent::default();
+        assert!(!consent.allows(InputKind::Webcam));
+        consent.allow(InputKind::Webcam);
+        consent.allow(InputKind::Webcam);
+        assert!(consent.allows(InputKind::Webcam) && !consent.allows(InputKind::Microphone));
+        consent.withdraw(InputKind::Webcam);
+        assert_eq!(consent, DeviceConsent::default());
+    }
+}

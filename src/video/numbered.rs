@@ -1,0 +1,164 @@
+//! Numbered image files as a video: `walk/0001.png`, `walk/0002.png` and so on.
+
+use super::{Decode, Film, Place, VideoError, VideoInfo, check_size, process::Stop};
+use eddy_project::{FileError, limits};
+use image::{ImageReader, Limits};
+use std::{
+    ffi::OsString,
+    io::Cursor,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// Frames a second of a sequence that says nothing else.
+const FRAME_RATE: f64 = 25.0;
+
+/// Returns the name that comes after one which ends in digits: `brain_009.png` and then `brain_010.png`.
+pub fn next_numbered(path: &Path) -> Option<PathBuf> {
+    let stem = path.file_stem()?.to_str()?;
+    let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let (begin, number) = stem.split_at(stem.len() - digits);
+    let next = number.parse::<u32>().ok()?.checked_add(1)?;
+    let mut name = OsString::from(format!("{begin}{next:0digits$}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    Some(path.with_file_name(name))
+}
+
+/// Returns the frames a second that the folder of a sequence says at the end of its name: `walk-12fps`, `walk_29.97fps`. Others
+/// have 25.
+pub fn frame_rate_of(path: &Path) -> f64 {
+    let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
+    let number = folder.strip_suffix("fps").map(|rest| {
+        let begin = rest.rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |at| at + 1);
+        &rest[begin..]
+    });
+    let rate = number.and_then(|number| number.parse::<f64>().ok());
+    rate.filter(|rate| (0.01..=1000.0).contains(rate)).unwrap_or(FRAME_RATE)
+}
+
+type Read = Arc<dyn Fn(&Path) -> Result<Vec<u8>, FileError> + Send + Sync>;
+
+pub struct Sequence {
+    first: PathBuf,
+    read: Read,
+    info: VideoInfo,
+    count: usize,
+}
+
+impl Sequence {
+    pub fn open(place: &Place<'_>, first: &[u8]) -> Result<Self, VideoError> {
+        let (width, height) = reader(first)?.into_dimensions().map_err(damaged)?;
+        check_size(width, height)?;
+        let frame_rate = frame_rate_of(place.path);
+        let (mut count, mut last) = (1, place.path.to_owned());
+        while let Some(next) = next_numbered(&last).filter(|next| (place.read)(next).is_ok()) {
+            count += 1;
+            last = next;
+            if count > limits::VIDEO_IMAGES {
+                return Err(VideoError::TooMany);
+            }
+        }
+        let seconds = count as f64 / frame_rate;
+        if seconds > f64::from(limits::VIDEO_SECONDS) {
+            return Err(VideoError::TooLong { seconds });
+        }
+        let info = VideoInfo { width, height, seconds, frame_rate, tolerance: 1e-6 };
+        Ok(Self { first: place.path.to_owned(), read: place.read.clone(), info, count })
+    }
+}
+
+fn damaged(error: impl std::fmt::Display) -> VideoError {
+    VideoError::Damaged(error.to_string())
+}
+
+fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, VideoError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(damaged)?;
+    let mut allowed = Limits::no_limits();
+    allowed.max_alloc = Some(4 * limits::VIDEO_FRAME_BYTES);
+    reader.limits(allowed);
+    Ok(reader)
+}
+
+impl Film for Sequence {
+    fn info(&self) -> &VideoInfo {
+        &self.info
+    }
+
+    fn start(&self, from: f64, _: &Stop) -> Result<Box<dyn Decode>, VideoError> {
+        let begin = ((from * self.info.frame_rate + 1e-6) as usize).min(self.count - 1);
+        let mut path = self.first.clone();
+        for _ in 0..begin {
+            path = next_numbered(&path).ok_or(VideoError::NoPicture)?;
+        }
+        let Self { read, info, count, .. } = self;
+        Ok(Box::new(Run { path: Some(path), read: read.clone(), info: *info, next: begin, count: *count, last: None }))
+    }
+}
+
+struct Run {
+    path: Option<PathBuf>,
+    read: Read,
+    info: VideoInfo,
+    next: usize,
+    count: usize,
+    last: Option<Vec<u8>>,
+}
+
+impl Run {
+    fn decode(&self, path: &Path) -> Result<Vec<u8>, VideoError> {
+        let bytes = (self.read)(path).map_err(damaged)?;
+        let (width, height) = reader(&bytes)?.into_dimensions().map_err(damaged)?;
+        if (width, height) != (self.info.width, self.info.height) {
+            let reason = format!("{} has another size than the first image", path.display());
+            return Err(VideoError::Damaged(reason));
+        }
+        Ok(reader(&bytes)?.decode().map_err(damaged)?.into_rgba8().into_raw())
+    }
+}
+
+impl Decode for Run {
+    fn next(&mut self) -> Result<Option<(f64, Vec<u8>)>, VideoError> {
+        let Some(path) = self.path.take().filter(|_| self.next < self.count) else { return Ok(None) };
+        // An image that cannot be read leaves the one before it.
+        let texels = match (self.decode(&path), self.last.take()) {
+            (Ok(texels), _) => texels,
+            (Err(error), Some(last)) => {
+                log::warn!("a frame is left out: {error}");
+                last
+            }
+            (Err(error), None) => return Err(error),
+        };
+        let seconds = self.next as f64 / self.info.frame_rate;
+        self.next += 1;
+        self.path = next_numbered(&path);
+        self.last = Some(texels.clone());
+        Ok(Some((seconds, texels)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_count_up_and_folders_say_how_fast() {
+        let next = |name: &str| next_numbered(Path::new(name)).map(|p| p.display().to_string());
+        assert_eq!(next("a/brain_009.png").as_deref(), Some("a/brain_010.png"));
+        assert_eq!(next("99.png").as_deref(), Some("100.png"));
+        assert_eq!((next("a.png"), next("4294967295.png")), (None, None));
+        for (path, rate) in [
+            ("walk-12fps/1.png", 12.0),
+            ("walk_29.97fps/1.png", 29.97),
+            ("24fps/1.png", 24.0),
+            ("walk/1.png", 25.0),
+            ("0fps/1.png", 25.0),
+            ("xfps/1.png", 25.0),
+            ("1.png", 25.0),
+        ] {
+            assert_eq!(frame_rate_of(Path::new(path)), rate, "{path}");
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Child processes that end with us, give up after a while, and whose every output is read.
+
+use super::VideoError;
+use std::{
+    io::{self, BufRead, BufReader, Read},
+    path::PathBuf,
+    process::{Child, ChildStderr, ChildStdout, Command, Stdio},
+    sync::{Arc, Mutex, PoisonError},
+    thread,
+    time::{Duration, Instant},
+};
+
+/// The programs that decode: names that are looked up as the system does, or paths.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tools {
+    pub ffmpeg: PathBuf,
+    pub ffprobe: PathBuf,
+    /// A program that gives nothing for so long is stopped.
+    pub patience: Duration,
+}
+
+impl Default for Tools {
+    fn default() -> Self {
+        let patience = Duration::from_secs(eddy_project::limits::VIDEO_DECODE_SECONDS);
+        Self { ffmpeg: "ffmpeg".into(), ffprobe: "ffprobe".into(), patience }
+    }
+}
+
+/// Stops the child process that it holds: when it is told to, and when it is dropped.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stop(Arc<Held>);
+
+#[derive(Debug, Default)]
+struct Held(Mutex<Option<Child>>);
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        if let Some(mut child) = self.0.get_mut().unwrap_or_else(PoisonError::into_inner).take() {
+            end(&mut child);
+        }
+    }
+}
+
+/// Kills a child, and does not wait for one that not even that ends.
+fn end(child: &mut Child) {
+    let _ = child.kill();
+    let give_up = Instant::now() + Duration::from_millis(500);
+    while matches!(child.try_wait(), Ok(None)) && Instant::now() < give_up {
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+impl Stop {
+    fn put(&self, child: Child) {
+        if let Some(mut before) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).replace(child) {
+            end(&mut before);
+        }
+    }
+
+    /// Ends the process. Whoever reads its output comes to an end.
+    pub fn stop(&self) {
+        if let Some(child) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            end(child);
+        }
+    }
+}
+
+/// Output of a child process.
+pub(crate) struct Pipes {
+    pub stdout: ChildStdout,
+    pub stderr: ChildStderr,
+}
+
+/// Starts a program whose outputs are read, and gives it to a stop.
+pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoError> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    #[cfg(windows)]
+    {
+        use std::os::windows::process::CommandExt;
+        // No console appears beside the window (CREATE_NO_WINDOW).
+        command.creation_flags(0x0800_0000);
+    }
+    let mut child = command.spawn().map_err(|e| match e.kind() {
+        io::ErrorKind::NotFound => VideoError::NoProgram { program: program.clone() },
+        _ => VideoError::Start { program: program.clone(), reason: e.to_string() },
+    })?;
+    let pipes = (child.stdout.take(), child.stderr.take());
+    stop.put(child);
+    match pipes {
+        (Some(stdout), Some(stderr)) => Ok(Pipes { stdout, stderr }),
+        _ => Err(VideoError::Start { program, reason: "its output cannot be read".into() }),
+    }
+}
+
+/// Lines of a program's messages, of which an endless one is cut.
+pub(crate) fn lines(stderr: ChildStderr, mut each: impl FnMut(&str)) {
+    const LONGEST: u64 = 1 << 16;
+    let mut reader = BufReader::new(stderr);
+    let mut line = Vec::new();
+    while reader.by_ref().take(LONGEST).read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+        each(String::from_utf8_lossy(&line).trim_end());
+        line.clear();
+    }
+}
+
+/// Runs a program to its end. Returns what it wrote, at most `most` bytes, and the last line of its messages.
+pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<(Vec<u8>, String), VideoError> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let stop = Stop::default();
+    let Pipes { stdout, stderr } = spawn(command, &stop)?;
+    let messages = thread::spawn(move || {
+        let mut last = String::new();
+        lines(stderr, |line| {
+            if !line.trim().is_empty() {
+                last = reason(line);
+            }
+        });
+        last
+    });
+    let reader = thread::spawn(move || {
+        let mut bytes = Vec::new();
+        let read = stdout.take(most).read_to_end(&mut bytes);
+        read.map(|_| bytes).unwrap_or_default()
+    });
+    let give_up = Instant::now() + tools.patience;
+    while !(reader.is_finished() && messages.is_finished()) {
+        if Instant::now() >= give_up {
+            // Its threads end with it, or are left where a grandchild holds the pipe.
+            stop.stop();
+            return Err(VideoError::Hangs { program });
+        }
+        thread::sleep(Duration::from_millis(2));
+    }
+    Ok((reader.join().unwrap_or_default(), messages.join().unwrap_or_default()))
+}
+
+/// Runs a program to its end. Returns its messages, at most ten thousand lines.
+pub(crate) fn messages_of(command: &mut Command, tools: &Tools) -> Result<Vec<String>, VideoError> {
+    let stop = Stop::default();
+    let Pipes { stderr, .. } = spawn(command, &stop)?;
+    let messages = thread::spawn(move || {
+        let mut all = Vec::new();
+        lines(stderr, |line| {
+            if all.len() < 10_000 {
+                all.push(line.to_owned());
+            }
+        });
+        all
+    });
+    let give_up = Instant::now() + tools.patience;
+    while !messages.is_finished() {
+        if Instant::now() >= give_up {
+            stop.stop();
+            return Err(VideoError::Hangs { program: tools.ffmpeg.display().to_string() });
+        }
+        thread::sleep(Duration::from_millis(2));
+    }
+    Ok(messages.join().unwrap_or_default())
+}
+
+impl Tools {
+    /// Returns whether ffmpeg is older than 5.1, which calls an option otherwise.
+    pub(crate) fn is_old(&self) -> bool {
+        let mut command = Command::new(&self.ffmpeg);
+        command.arg("-version").stdin(Stdio::null());
+        let said = output(&mut command, 1 << 16, self).map(|(said, _)| said).unwrap_or_default();
+        let said = String::from_utf8_lossy(&said);
+        let version = said.strip_prefix("ffmpeg version ").and_then(|rest| rest.split(' ').next());
+        version.is_some_and(super::probe::is_old)
+    }
+}
+
+/// Returns a message without what names the part of the program and our own way to the file.
+pub(crate) fn reason(line: &str) -> String {
+    let line = line.trim();
+    let line = match line.strip_prefix('[').and_then(|rest| rest.split_once("] ")) {
+        Some((_, rest)) => rest,
+        None => line,
+    };
+    let line = line.strip_prefix(super::ffmpeg::INPUT).map_or(line, |rest| rest.trim_start_matches([':', ' ']));
+    line.chars().take(200).collect()
+}

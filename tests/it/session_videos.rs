@@ -1,0 +1,123 @@
+//! Videos and the camera in a session: a paused picture shows the frame of its time, and a camera is on only after a person has
+//! turned it on for the open project.
+
+use crate::support::{self, skipped, stage::*};
+use eddy::{
+    project::InputKind,
+    session::{Command, DeviceState, Level, SessionOptions},
+    video::CameraSource,
+};
+use image::{
+    Delay, Frame, Rgba, RgbaImage,
+    codecs::gif::{GifEncoder, Repeat},
+};
+use std::process::{Command as Process, Stdio};
+
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }";
+
+/// Frames of 100 ms, with their number in red.
+fn gif(frames: u8) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = GifEncoder::new(&mut bytes);
+    encoder.set_repeat(Repeat::Infinite).unwrap();
+    for n in 0..frames {
+        let image = RgbaImage::from_pixel(4, 4, Rgba([n * 20, 0, 0, 255]));
+        encoder.encode_frame(Frame::from_parts(image, 0, 0, Delay::from_numer_denom_ms(100, 1))).unwrap();
+    }
+    drop(encoder);
+    bytes
+}
+
+#[test]
+fn a_paused_picture_shows_the_frame_of_its_time() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    stage.write("a.gif", gif(10));
+    stage.write("eddy.toml", "[passes.image]\nchannels.0 = { file = \"a.gif\", kind = \"video\" }\n");
+    stage.write("image.glsl", SHOW);
+    let folder = stage.folder();
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    assert!(stage.is_ok(), "{:?}", stage.session.notices());
+    for (seconds, wanted) in [(0.55, 5), (0.05, 0), (0.95, 9), (1.25, 2), (0.35, 3)] {
+        stage.session.apply(Command::Seek(seconds));
+        // One that was late is drawn again while time stands.
+        stage.settle();
+        assert_eq!(stage.red(), wanted * 20, "at {seconds}");
+    }
+    // An edit goes on from the same frame.
+    stage.edit(&SHOW.replace("ivec2(0), 0)", "ivec2(0), 0) * 0.5"));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    stage.settle();
+    assert_eq!(stage.red(), 30);
+}
+
+#[test]
+fn what_is_dropped_and_moves_is_a_video() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", SHOW)]);
+    for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("stands.gif", gif(1), InputKind::Texture)] {
+        let path = stage.dir.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let to = Some((eddy::project::PassId::Image, Some(0)));
+        stage.session.apply(Command::Bring { paths: vec![path], to });
+        let channel = stage.session.project().passes[0].channels[0].clone();
+        assert_eq!(channel.unwrap().input.kind(), kind, "{name}");
+    }
+}
+
+#[test]
+fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
+    let Some(gpu) = support::gpu() else { return };
+    let runs = Process::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if !runs.is_ok_and(|status| status.success()) {
+        return skipped("ffmpeg is not installed");
+    }
+    let camera = CameraSource::of_text("lavfi:color=white:s=24x16:r=30");
+    let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
+    stage.write("eddy.toml", "[passes.image]\nchannels.0 = { webcam = true }\n");
+    let width = "void mainImage(out vec4 o, in vec2 p) { o = vec4(texelFetch(iChannel0, ivec2(1), 0).r * iChannelResolution[0].x / 255.); }";
+    stage.write("image.glsl", width);
+    let folder = stage.folder().to_str().unwrap().to_owned();
+    stage.session.apply(Command::Open(folder.clone()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    let webcam = InputKind::Webcam;
+    assert!(stage.session.reads_device(webcam) && !stage.session.reads_device(InputKind::Microphone));
+    stage.for_a_while();
+    assert_eq!(
+        (stage.session.device_state(webcam), stage.red()),
+        (DeviceState::Off, 0),
+        "a project alone turns nothing on"
+    );
+    stage.session.apply(Command::UseDevice { kind: webcam, on: true });
+    stage.until("the camera is on", |s| s.device_state(webcam) == DeviceState::On);
+    stage.until_compiled();
+    stage.settle();
+    assert_eq!(stage.red(), 24);
+    stage.session.apply(Command::UseDevice { kind: webcam, on: false });
+    assert_eq!(stage.session.device_state(webcam), DeviceState::Off);
+    stage.until_compiled();
+    stage.settle();
+    assert_eq!(stage.red(), 0);
+    stage.session.apply(Command::UseDevice { kind: webcam, on: true });
+    stage.until("the camera is on", |s| s.device_state(webcam) == DeviceState::On);
+    // Another project asks again, even the same one.
+    stage.session.apply(Command::Open(folder));
+    stage.until("another project", |s| s.device_state(webcam) == DeviceState::Off);
+    stage.for_a_while();
+    assert_eq!(stage.session.device_state(webcam), DeviceState::Off);
+}
+
+#[test]
+fn a_camera_that_is_not_there_is_told_of() {
+    let Some(gpu) = support::gpu() else { return };
+    let camera = CameraSource::of_text("/dev/video-of-nobody");
+    let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
+    stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
+    stage.until("it is off again", |s| s.device_state(InputKind::Webcam) == DeviceState::Off);
+    let said = stage.notices(Level::Warning);
+    assert!(said.iter().any(|text| text.contains("camera")), "{said:?}");
+}

@@ -1,0 +1,43 @@
+//! End to end: the camera is off until a person presses its button, shown while it is on, and off again by its light.
+
+use crate::support::{
+    skipped,
+    window::{Display, Window},
+};
+use std::{
+    fs,
+    process::{Command, Stdio},
+};
+
+#[test]
+fn the_camera_is_turned_on_by_hand_and_its_light_turns_it_off() {
+    let Some(display) = Display::open() else { return };
+    let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if !runs.is_ok_and(|status| status.success()) {
+        return skipped("ffmpeg is not installed");
+    }
+    let home = tempfile::tempdir().unwrap();
+    // The window finds no programs but those that lie here.
+    let path = std::env::var_os("PATH").unwrap();
+    let mut found = std::env::split_paths(&path).map(|folder| folder.join("ffmpeg"));
+    let ffmpeg = found.find(|path| path.is_file()).unwrap();
+    fs::create_dir(home.path().join("no-programs")).unwrap();
+    std::os::unix::fs::symlink(ffmpeg, home.path().join("no-programs/ffmpeg")).unwrap();
+    let project = home.path().join("project");
+    fs::create_dir_all(&project).unwrap();
+    fs::write(project.join("eddy.toml"), "[passes.image]\nchannels.0 = { webcam = true }\n").unwrap();
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }";
+    fs::write(project.join("image.glsl"), show).unwrap();
+    let project = project.to_str().unwrap();
+    let mut window = Window::open(&display, home.path(), &[project, "--webcam", "lavfi:testsrc=s=320x240:r=30"]);
+    window.compiled();
+    window.shows("button:camera");
+    window.hides("light:camera");
+    window.click_on("button:camera");
+    window.shows("light:camera");
+    window.hides("button:camera");
+    display.shot("camera.png");
+    window.click_on("light:camera");
+    window.shows("button:camera");
+    window.hides("light:camera");
+}
