@@ -13,6 +13,7 @@ pub mod cli;
 #[cfg(feature = "gui")]
 pub mod gui;
 
+pub use eddy_audio as audio;
 pub use eddy_debugger as debugger;
 pub use eddy_diag as diag;
 pub use eddy_engine as engine;

@@ -1,11 +1,25 @@
-//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them.
+//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, and what is heard and
+//! recorded.
 //!
-//! Nothing here reads a file or a clock: bytes come in, and time is a number of samples. Browsers smooth a spectrum once
-//! for each frame that asks for it; here the frames before are those that lie a frame's step apart, so that a frame does not
-//! depend on how it was reached.
+//! Bytes come in, and time is a number of samples. Browsers smooth a spectrum once for each frame that asks for it; here
+//! the frames before are those that lie a frame's step apart, so that a frame does not depend on how it was reached.
+//!
+//! What is heard is mixed by [`mixer`], which knows no device and is told what time it is. Only [`player`] and
+//! [`microphone`] open devices, on threads of their own, through the traits of [`host`]; `device` has those of the machine
+//! and [`fake`] those of a test.
 
 mod analyser;
 mod decode;
+#[cfg(feature = "device")]
+pub mod device;
+pub mod fake;
+pub mod host;
+mod keeper;
+mod kernel;
+pub mod microphone;
+pub mod mixer;
+pub mod player;
+mod scene;
 mod synthetic;
 mod track;
 #[cfg(test)]
@@ -13,6 +27,8 @@ mod wav;
 
 pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
+pub use keeper::DeviceState;
+pub use scene::{Desired, Line, MOST_SOURCES, Scene, Source};
 pub use synthetic::synthetic;
 pub use track::Track;
 

@@ -211,7 +211,8 @@ fn open_with(
             project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
         }
     }
-    let (media, missing) = media::gather(&project, run.media.as_deref());
+    let (media, mut missing) = media::gather(&project, run.media.as_deref());
+    missing.extend(media::unrecorded(&project));
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
     let mut offline = Offline::new(&gpu, run.size, inputs)?;

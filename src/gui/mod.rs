@@ -52,6 +52,7 @@ mod resolution;
 mod settings;
 mod settings_page;
 mod shell;
+mod sound_bar;
 mod surface;
 mod system_theme;
 mod tabs;

@@ -57,8 +57,8 @@ pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };
 pub use imports::{
-    FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, TextImport, folder_of_parts, import_of_text, kind_of_file,
-    new_for,
+    FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, folder_of_parts, import_of_text,
+    kind_of_file, new_for,
 };
 pub use includes::{IncludeLines, include_names};
 pub use input::{Input, InputKind, InputRow, InputSource};

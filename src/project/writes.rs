@@ -34,10 +34,10 @@ const TEXTS: [&str; 16] = [
     "vert", "comp", "geom", "tesc", "tese", "vs", "gs", "fsh", "vsh", "glslf", "glslv", "glslh", "inc", "h", "hlsl",
     "txt",
 ];
-/// Endings of pictures, models, and what these name.
-const MEDIA: [&str; 25] = [
+/// Endings of pictures, music, films, models, and what these name.
+const MEDIA: [&str; 31] = [
     "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx", "ktx2", "dds", "glb", "gltf", "obj", "mtl",
-    "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv",
+    "bin", "npy", "mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff", "mp4", "webm", "ogv",
 ];
 
 /// Returns whether a new file of this name may be a text of a project.

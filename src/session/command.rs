@@ -62,6 +62,20 @@ pub enum Command {
     TogglePlay,
     /// Something covers the picture: while it does, time stands still though nobody has paused it.
     Cover(bool),
+    /// The window cannot be seen: nothing is heard either, and time goes on from here when it can be seen again.
+    Hide(bool),
+    /// How loud everything is, from 0 to 1.
+    SetVolume(f32),
+    SetMute(bool),
+    /// The device that plays, by its name; `None`: the system's default one.
+    SetAudioOutput(Option<String>),
+    /// The device that records.
+    SetAudioInput(Option<String>),
+    /// Looks which devices there are: see [`Session::audio_devices`](super::Session::audio_devices).
+    ListAudioDevices,
+    /// Records by the microphone for channels that read it, until this is taken back or Eddy ends. Nothing but a person
+    /// asks for it.
+    UseMicrophone(bool),
     /// Draws nothing more of the open project before [`Command::Play`], [`Command::Step`] or [`Command::GoOn`]: right
     /// after [`Command::Open`], nothing at all.
     Hold,

@@ -61,7 +61,8 @@ impl Session {
             let file = recording.clone();
             return self.bring_recording(file, to.is_some());
         }
-        let pictures: Vec<&Path> = of(FileKind::Picture).map(PathBuf::as_path).collect();
+        let pictures = of(FileKind::Picture).chain(of(FileKind::Sound));
+        let pictures: Vec<&Path> = pictures.map(PathBuf::as_path).collect();
         let models: Vec<&Path> = of(FileKind::Model).map(PathBuf::as_path).collect();
         let Some(first) = pictures.first().or(models.first()) else { return };
         match to {
@@ -100,7 +101,7 @@ impl Session {
         self.notice_about(About::Opening, Level::Warning, text);
     }
 
-    /// Puts pictures and models into a project. Says what reads them.
+    /// Puts pictures, music and models into a project. Says what reads them.
     fn put_in(
         &self,
         project: &mut Project,
@@ -121,7 +122,10 @@ impl Session {
                 ));
                 continue;
             };
-            project.read_picture(pass, n, picture);
+            match project::kind_of_file(picture) {
+                FileKind::Sound => project.read_sound(pass, n, picture),
+                _ => project.read_picture(pass, n, picture),
+            }
             said.push(reads(project, pass, n, &name(picture)));
         }
         for model in models {
@@ -146,16 +150,17 @@ impl Session {
         for path in paths {
             let name = name(path);
             match project::kind_of_file(path) {
-                FileKind::SoundOrVideo => {
+                FileKind::Video => {
                     self.notice_about(
                         About::Opening,
                         Level::Warning,
-                        format!("{name}: Eddy does not support sound and video in channels yet"),
+                        format!("{name}: Eddy does not support video in channels yet"),
                     );
                 }
                 FileKind::Unknown => {
                     let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
-                                 image file (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, \
+                                 image file (png, jpg, webp, bmp, tga, gif, hdr) or music (mp3, ogg, wav, flac, m4a, \
+                                 aac, aiff), a pass draws a model (glb, gltf, \
                                  obj), a recording of input is a .replay file";
                     self.notice_about(
                         About::Opening,
@@ -163,7 +168,7 @@ impl Session {
                         format!("{name} is not a file Eddy can open: {known}"),
                     );
                 }
-                FileKind::Project | FileKind::Picture | FileKind::Model | FileKind::Recording => {}
+                FileKind::Project | FileKind::Picture | FileKind::Sound | FileKind::Model | FileKind::Recording => {}
             }
         }
     }

@@ -7,6 +7,7 @@
 
 mod analysis;
 mod apply;
+mod audio;
 mod audit;
 pub mod buffers;
 mod canvas;
@@ -53,9 +54,11 @@ mod uniforms;
 pub mod view;
 
 pub use analysis::TabAnalysis;
+pub use audio::{ChannelSound, MicrophoneView, SoundView};
 pub use audit::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use costs::{PassCosts, TimedPass};
+pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};
 pub use export::directive_errors;
 pub use options::{SessionError, SessionOptions};

@@ -4,6 +4,7 @@
 use super::{
     SessionError, SessionOptions,
     analysis::Analyst,
+    audio::Audio,
     audit::Auditing,
     canvas::Canvas,
     command::{PendingAction, Question, Request},
@@ -49,6 +50,7 @@ pub struct Session {
     pub(super) runs: Runs,
     pub(super) last_pictures: LastPictures,
     pub(super) playback: Playback,
+    pub(super) audio: Audio,
     pub(super) picture: Picture,
     pub(super) watched: Watched,
     pub(super) tracing: Tracing,
@@ -159,6 +161,7 @@ impl Session {
             runs: Runs::new(options.state_dir.as_deref()),
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             playback: Playback::default(),
+            audio: Audio::new(options.audio.clone(), options.audio_on_thread),
             picture: Picture::default(),
             watched: Watched::default(),
             tracing,

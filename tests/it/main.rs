@@ -81,6 +81,9 @@ mod session_compare;
 mod session_inside;
 mod session_measures;
 mod session_media;
+mod sound_devices;
+#[cfg(all(feature = "audio", target_os = "linux"))]
+mod sound_server;
 mod thumbnails;
 mod time_travel;
 mod uniform_values;

@@ -35,7 +35,6 @@ fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
     let inputs = [
         Input::Device(InputKind::Webcam),
-        Input::Device(InputKind::Microphone),
         Input::Media { kind: InputKind::Video, media: file() },
         Input::texture(file()),
     ];

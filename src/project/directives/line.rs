@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names,
+    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -57,7 +57,12 @@ fn is_glsl(path: &str) -> bool {
 
 /// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
 pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
-    let picture = |path: &str| Some(Channel::new(Input::texture(Media::File(PathBuf::from(path)))));
+    let picture = |path: &str| {
+        // Said by the ending, as there is nothing else that says it.
+        let is_sound = kind_of_file(Path::new(path)) == FileKind::Sound;
+        let kind = if is_sound { InputKind::Music } else { InputKind::Texture };
+        Some(Channel::new(Input::Media { kind, media: Media::File(PathBuf::from(path)) }))
+    };
     if let Some(name) = value.strip_prefix("builtin://") {
         return Some(Channel::new(Input::texture(Media::Builtin(name.to_owned()))));
     }
@@ -117,8 +122,8 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
     diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \
-        \"builtin://noise-rgba-256\"",
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"microphone\", \"file://pic.png\", \
+        \"file://song.mp3\" or \"builtin://noise-rgba-256\"",
     ));
     None
 }

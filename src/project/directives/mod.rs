@@ -10,6 +10,8 @@
 //! #iChannel1 "cube_a"                 // the cubemap pass
 //! #iChannel1 "keyboard"
 //! #iChannel2 "file://pic.png"         // a picture, relative to the project's folder; also "pic.png"
+//! #iChannel2 "file://song.mp3"        // music, by its ending; also "song.mp3"
+//! #iChannel2 "microphone"
 //! #iChannel3 "builtin://noise-rgba-256"
 //! #iChannel3::MinFilter "NearestMipMapLinear"   // anything with MipMap: linear, between mip levels too
 //! #iChannel3::MagFilter "Nearest"

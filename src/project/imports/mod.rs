@@ -23,8 +23,10 @@ pub enum FileKind {
     Model,
     /// The input of a run, which is played in the open project.
     Recording,
+    /// A channel reads it as music.
+    Sound,
     /// The site's channels read such files, and Eddy's do not yet.
-    SoundOrVideo,
+    Video,
     Unknown,
 }
 
@@ -34,8 +36,9 @@ pub const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gi
 pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 /// Ending of recordings of input.
 pub const RECORDING: &str = "replay";
-const SOUNDS_AND_VIDEOS: [&str; 13] =
-    ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus", "mp4", "webm", "ogv", "mkv", "mov", "avi"];
+/// Endings of sounds that a channel can read as music.
+pub const SOUNDS: [&str; 10] = ["mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff"];
+const VIDEOS: [&str; 6] = ["mp4", "webm", "ogv", "mkv", "mov", "avi"];
 
 /// Says by its name what a file is; whether it is a folder is asked of the disk.
 pub fn kind_of_file(path: &Path) -> FileKind {
@@ -51,8 +54,10 @@ pub fn kind_of_file(path: &Path) -> FileKind {
         FileKind::Model
     } else if is_one_of(&[RECORDING]) {
         FileKind::Recording
-    } else if is_one_of(&SOUNDS_AND_VIDEOS) {
-        FileKind::SoundOrVideo
+    } else if is_one_of(&SOUNDS) {
+        FileKind::Sound
+    } else if is_one_of(&VIDEOS) {
+        FileKind::Video
     } else {
         FileKind::Unknown
     }

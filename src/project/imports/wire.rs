@@ -1,7 +1,7 @@
 //! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
 
 use crate::{
-    Camera, Channel, Cull, DepthTest, Geometry, Input, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
+    Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
     PassSettings, Project, Source, Stage, limits,
 };
 use std::path::Path;
@@ -100,6 +100,14 @@ impl Project {
     pub fn read_picture(&mut self, id: &PassId, channel: usize, picture: &Path) {
         if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
             *slot = Some(Channel::new(Input::texture(Media::Picked(picture.to_owned()))));
+        }
+    }
+
+    /// Lets a channel read a sound as music.
+    pub fn read_sound(&mut self, id: &PassId, channel: usize, sound: &Path) {
+        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
+            let media = Media::Picked(sound.to_owned());
+            *slot = Some(Channel::new(Input::Media { kind: InputKind::Music, media }));
         }
     }
 

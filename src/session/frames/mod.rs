@@ -31,6 +31,7 @@ impl Session {
         self.changed |= self.searching.background.poll() | self.comparing.background.poll();
         self.fit_canvas();
         self.keep_unsaved();
+        self.hear();
         self.follow_measures();
         self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.
@@ -40,6 +41,7 @@ impl Session {
             frame_drawn |= self.draw_due_frames(true);
         }
         frame_drawn |= std::mem::take(&mut self.picture.has_drawn);
+        self.sound();
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
@@ -158,7 +160,7 @@ impl Session {
     }
 
     fn take_program(&mut self, compiled: Compiled) {
-        let Compiled { project, is_fallback, program, diagnostics, took, probe } = compiled;
+        let Compiled { project, is_fallback, program, diagnostics, took, probe, sounds } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
             self.compile.diagnose(diagnostics, took);
@@ -174,6 +176,7 @@ impl Session {
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
             self.compile.succeed(millis);
         }
+        self.audio.expect(sounds);
         self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.
