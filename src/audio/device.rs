@@ -5,7 +5,8 @@ use crate::{
     host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened, Take},
 };
 use cpal::{
-    Data, ErrorKind, FromSample, SampleFormat, SizedSample, StreamConfig, SupportedStreamConfig,
+    BufferSize, Data, ErrorKind, FromSample, SampleFormat, SizedSample, StreamConfig, SupportedBufferSize,
+    SupportedStreamConfig,
     traits::{DeviceTrait, HostTrait, StreamTrait},
 };
 use std::time::{Duration, Instant};
@@ -15,6 +16,10 @@ const CONVERTED: usize = 4096;
 /// A device that takes sound so much faster than it is heard is none that anybody hears (ALSA's "null"): it is held back,
 /// so that it does not take a whole processor.
 const AHEAD: Duration = Duration::from_secs(3);
+/// Buffers of a device in a second, of which two are filled ahead.
+const BUFFERS_A_SECOND: u32 = 20;
+/// Errors that go on for so long end a stream.
+const TROUBLE: Duration = Duration::from_secs(2);
 /// ALSA's device that discards everything, which nobody chooses.
 const NULL: &str = "null";
 
@@ -46,27 +51,48 @@ impl AudioOut for Machine {
     ) -> Result<Opened, DeviceError> {
         quiet();
         let host = cpal::default_host();
-        let all = host.output_devices().map(|devices| devices.collect());
+        let all = || host.output_devices().map(|devices| devices.collect());
         let device = find(name, all, host.default_output_device(), "output")?;
         let refused = |error: cpal::Error| refused(&device, &error);
         let supported = device.default_output_config().map_err(refused)?;
         let (format, config) = format(&supported);
-        let fill = held_back(fill(format), format);
-        let told = teller(events);
-        let stream = match supported.sample_format() {
-            SampleFormat::F32 => played::<f32>(&device, config, format, fill, told),
-            SampleFormat::F64 => played::<f64>(&device, config, format, fill, told),
-            SampleFormat::I8 => played::<i8>(&device, config, format, fill, told),
-            SampleFormat::I16 => played::<i16>(&device, config, format, fill, told),
-            SampleFormat::I24 => played::<cpal::I24>(&device, config, format, fill, told),
-            SampleFormat::I32 => played::<i32>(&device, config, format, fill, told),
-            SampleFormat::U8 => played::<u8>(&device, config, format, fill, told),
-            SampleFormat::U16 => played::<u16>(&device, config, format, fill, told),
-            SampleFormat::U32 => played::<u32>(&device, config, format, fill, told),
-            other => return Err(unsupported(&device, other)),
+        // Long buffers are no delay: what is in them is what is to be heard then. They keep the sound going while the
+        // picture takes every processor.
+        let long = match supported.buffer_size() {
+            SupportedBufferSize::Range { min, max } => (format.rate / BUFFERS_A_SECOND).clamp(*min, (*max).max(*min)),
+            SupportedBufferSize::Unknown => format.rate / BUFFERS_A_SECOND,
         };
-        opened(&device, stream, format)
+        let long = StreamConfig { buffer_size: BufferSize::Fixed(long), ..config };
+        let mut open = |config| {
+            let fill = held_back(fill(format), format);
+            let stream = output(&device, supported.sample_format(), config, format, fill, teller(events.clone()));
+            opened(&device, stream?, format)
+        };
+        open(long).or_else(|_| open(config))
     }
+}
+
+/// Builds a stream of the device's own sample format.
+fn output(
+    device: &cpal::Device,
+    samples: SampleFormat,
+    config: StreamConfig,
+    format: Format,
+    fill: Fill,
+    told: impl FnMut(cpal::Error) + Send + 'static,
+) -> Result<Result<cpal::Stream, cpal::Error>, DeviceError> {
+    Ok(match samples {
+        SampleFormat::F32 => played::<f32>(device, config, format, fill, told),
+        SampleFormat::F64 => played::<f64>(device, config, format, fill, told),
+        SampleFormat::I8 => played::<i8>(device, config, format, fill, told),
+        SampleFormat::I16 => played::<i16>(device, config, format, fill, told),
+        SampleFormat::I24 => played::<cpal::I24>(device, config, format, fill, told),
+        SampleFormat::I32 => played::<i32>(device, config, format, fill, told),
+        SampleFormat::U8 => played::<u8>(device, config, format, fill, told),
+        SampleFormat::U16 => played::<u16>(device, config, format, fill, told),
+        SampleFormat::U32 => played::<u32>(device, config, format, fill, told),
+        other => return Err(unsupported(device, other)),
+    })
 }
 
 impl AudioIn for Machine {
@@ -83,7 +109,7 @@ impl AudioIn for Machine {
     ) -> Result<Opened, DeviceError> {
         quiet();
         let host = cpal::default_host();
-        let all = host.input_devices().map(|devices| devices.collect());
+        let all = || host.input_devices().map(|devices| devices.collect());
         let device = find(name, all, host.default_input_device(), "input")?;
         let refused = |error: cpal::Error| refused(&device, &error);
         let usual = device.default_input_config().map_err(refused)?;
@@ -135,13 +161,13 @@ fn is_null(device: &cpal::Device) -> bool {
 
 fn find(
     name: Option<&str>,
-    all: Result<Vec<cpal::Device>, cpal::Error>,
+    all: impl FnOnce() -> Result<Vec<cpal::Device>, cpal::Error>,
     default: Option<cpal::Device>,
     what: &'static str,
 ) -> Result<cpal::Device, DeviceError> {
     let Some(name) = name else { return default.ok_or(DeviceError::None(what)) };
     let is_it = |device: &cpal::Device| device.to_string() == name || device.id().is_ok_and(|id| id.id() == name);
-    all.unwrap_or_default().into_iter().find(is_it).ok_or_else(|| DeviceError::Unknown(name.to_owned()))
+    all().unwrap_or_default().into_iter().find(is_it).ok_or_else(|| DeviceError::Unknown(name.to_owned()))
 }
 
 fn format(supported: &SupportedStreamConfig) -> (Format, StreamConfig) {
@@ -150,7 +176,13 @@ fn format(supported: &SupportedStreamConfig) -> (Format, StreamConfig) {
 }
 
 fn refused(device: &cpal::Device, error: &cpal::Error) -> DeviceError {
-    DeviceError::Refused { name: device.to_string(), why: error.to_string().trim_end_matches('.').to_owned() }
+    let why = match error.kind() {
+        ErrorKind::DeviceNotAvailable => "it is not available".to_owned(),
+        ErrorKind::DeviceBusy => "another program uses it".to_owned(),
+        ErrorKind::PermissionDenied => "the system does not permit it".to_owned(),
+        _ => error.to_string().trim_end_matches('.').to_owned(),
+    };
+    DeviceError::Refused { name: device.to_string(), why }
 }
 
 fn unsupported(device: &cpal::Device, format: SampleFormat) -> DeviceError {
@@ -169,15 +201,27 @@ fn opened(
 }
 
 /// Returns what takes the errors of a stream. Only the first that ends it is passed on.
+///
+/// ALSA's plugin for PulseAudio fails with EIO until the server has told it of its delay, and plays on. So an error ends a
+/// stream only where it says so, or where errors follow each other for [`TROUBLE`].
 fn teller(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
     let mut is_gone = false;
-    move |error| match error.kind() {
-        ErrorKind::Xrun => events.underrun(),
-        // The stream goes on, on another device or at another priority.
-        ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => {}
-        _ if is_gone => {}
-        _ => {
-            is_gone = true;
+    let mut trouble: Option<(Instant, Instant)> = None;
+    move |error| {
+        let is_end = match error.kind() {
+            ErrorKind::Xrun => return events.underrun(),
+            // The stream goes on, on another device or at another priority.
+            ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => return,
+            ErrorKind::DeviceNotAvailable | ErrorKind::StreamInvalidated | ErrorKind::HostUnavailable => true,
+            _ => {
+                let now = Instant::now();
+                let since =
+                    trouble.filter(|(_, last)| now.duration_since(*last) < TROUBLE / 4).map_or(now, |(first, _)| first);
+                trouble = Some((since, now));
+                now.duration_since(since) > TROUBLE
+            }
+        };
+        if is_end && !std::mem::replace(&mut is_gone, true) {
             events.gone(error.to_string().trim_end_matches('.').to_owned());
         }
     }

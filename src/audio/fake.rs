@@ -43,7 +43,7 @@ struct Out {
 struct Playing {
     fill: Fill,
     events: Events,
-    /// When it was opened or began to run, and the frames since.
+    /// The moment at which it began to run, and the frames since.
     since: Option<Instant>,
     frames: u64,
 }

@@ -1,4 +1,4 @@
-//! What sound comes from and goes to, in our words: [`AudioHost`] is the machine's sound, or a test's.
+//! Devices that sound comes from and goes to, in our words: [`AudioHost`] is the machine's sound, or a test's.
 
 use std::{
     any::Any,
@@ -16,7 +16,7 @@ pub trait AudioHost: Send + Sync + Debug {
     fn input(&self) -> Box<dyn AudioIn>;
 }
 
-/// How a device plays or records.
+/// The form in which a device plays or records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Format {
     /// Samples a second.
@@ -79,7 +79,7 @@ pub enum DeviceError {
     Refused { name: String, why: String },
 }
 
-/// What a device tells while it is open. A device that vanishes is told of once.
+/// Takes what a device tells while it is open. A device that vanishes is told of once.
 #[derive(Clone)]
 pub struct Events {
     pub(crate) underruns: Arc<AtomicU64>,

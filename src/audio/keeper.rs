@@ -18,7 +18,7 @@ const IDLE: Duration = Duration::from_secs(20);
 /// An order that a device did not take is given again after this.
 const AGAIN: Duration = Duration::from_millis(30);
 
-/// What is known of a device.
+/// Says what is known of a device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DeviceState {
     /// Nothing needs it.
@@ -41,7 +41,7 @@ struct Status {
 
 /// A thing that is done with a device: playing or recording.
 pub(crate) trait Work: Send {
-    /// What its owner asks of it.
+    /// An order of its owner.
     type Order: Send;
 
     /// Takes an order.
@@ -174,7 +174,7 @@ struct Worker<W: Work> {
     opened: Option<Opened>,
     /// Counts openings: what an earlier device tells is no news.
     openings: u64,
-    /// When a device that could not be opened is tried again.
+    /// The moment at which a device that could not be opened is tried again.
     retry_at: Option<Instant>,
     /// Since when it is not needed.
     idle_since: Option<Instant>,

@@ -4,7 +4,7 @@
 //! Bytes come in, and time is a number of samples. Browsers smooth a spectrum once for each frame that asks for it; here
 //! the frames before are those that lie a frame's step apart, so that a frame does not depend on how it was reached.
 //!
-//! What is heard is mixed by [`mixer`], which knows no device and is told what time it is. Only [`player`] and
+//! [`mixer`] mixes what is heard; it knows no device and is told what time it is. Only [`player`] and
 //! [`microphone`] open devices, on threads of their own, through the traits of [`host`]; `device` has those of the machine
 //! and [`fake`] those of a test.
 

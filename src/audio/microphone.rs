@@ -20,7 +20,7 @@ const KEPT: usize = 10 * SAMPLE_RATE as usize;
 /// Calls of the analyser that are kept: it looks at no more.
 const CALLS: usize = 64;
 
-/// What comes from the device: its samples, mono, at its own rate.
+/// Samples that come from the device, mono, at its own rate.
 struct Line {
     rate: u32,
     samples: Consumer<f32>,

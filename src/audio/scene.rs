@@ -1,4 +1,4 @@
-//! What is heard, and at which time.
+//! Sources that are heard, and the time at which they are.
 
 use crate::{SAMPLE_RATE, Sound, Track};
 use std::{sync::Arc, time::Instant};
@@ -81,9 +81,9 @@ impl Line {
 #[derive(Clone)]
 pub struct Desired {
     pub scene: Arc<Scene>,
-    /// How time runs; `None` while it stands.
+    /// Says how time runs; `None` while it stands.
     pub line: Option<Line>,
-    /// What each sample is multiplied by: 0 for mute, 1 for the files' own loudness.
+    /// The factor of each sample: 0 for mute, 1 for the files' own loudness.
     pub gain: f32,
 }
 

@@ -23,7 +23,7 @@ pub struct FrameInputs {
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
     pub date: [f32; 4],
     pub keyboard: Keyboard,
-    /// What the analyser made of the microphone; `None` where there is none, or nobody has switched it on.
+    /// The texture that the analyser made of the microphone; `None` where there is none, or nobody has switched it on.
     pub microphone: Option<Arc<Spectrum>>,
 }
 

@@ -13,7 +13,7 @@ use egui::{Button, Id, RichText, Slider, Ui, vec2};
 
 /// Points of the slider.
 const SLIDER: f32 = 64.0;
-/// Of the microphone's button.
+/// Points of the microphone's button.
 const MICROPHONE: f32 = 116.0;
 
 /// Shows the parts that the project has a use for. `room`: what may be taken in all; the switch of mute is always there.
@@ -52,7 +52,7 @@ fn mute(ui: &mut Ui, sound: &SoundView, out: &mut UiOutput) {
 fn volume(ui: &mut Ui, sound: &SoundView, out: &mut UiOutput) {
     let mut percent = (sound.volume * 100.0).round();
     ui.spacing_mut().slider_width = SLIDER;
-    let slider = Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).show_value(false);
+    let slider = Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).show_value(false).trailing_fill(true);
     let slider = ui.add_enabled(!sound.is_muted, slider);
     accessible::name(&slider, egui::Role::Slider, "Volume");
     out.place("slider:volume", slider.rect);

@@ -64,7 +64,7 @@ pub enum Command {
     Cover(bool),
     /// The window cannot be seen: nothing is heard either, and time goes on from here when it can be seen again.
     Hide(bool),
-    /// How loud everything is, from 0 to 1.
+    /// The volume, from 0 to 1.
     SetVolume(f32),
     SetMute(bool),
     /// The device that plays, by its name; `None`: the system's default one.

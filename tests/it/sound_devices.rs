@@ -1,4 +1,4 @@
-//! What is heard with the picture and recorded for it: a session with devices that run by the test's own clock.
+//! Sound that is heard with the picture and recorded for it: a session with devices that run by the test's own clock.
 
 use crate::support::{gpu, stage::Stage};
 use eddy::{

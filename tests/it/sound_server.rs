@@ -119,7 +119,7 @@ fn plays() {
     }
 }
 
-/// What the process that plays has said of a moment.
+/// Holds what the process that plays has said of a moment.
 #[derive(Clone, Copy, Debug)]
 struct Said {
     at: f64,

@@ -11,9 +11,9 @@ pub(super) struct Deck {
     /// In samples of the sources.
     pub position: f64,
     pub gain: f32,
-    /// What the gain goes to: 0 or 1.
+    /// The gain that it goes to: 0 or 1.
     pub target: f32,
-    /// How loud each source is by whether it is made around the position.
+    /// The gain of each source by whether it is made around the position.
     presence: [f32; MOST_SOURCES],
 }
 

@@ -1,4 +1,4 @@
-//! What a device's callback plays: sources at the time that the picture has, faded where that time changes.
+//! Sources are mixed for a device's callback at the time that the picture has, faded where that time changes.
 //!
 //! Works on memory alone and knows no device. [`Mixer::fill`] takes no lock and allocates and frees nothing: what it is
 //! to play comes through a ring, and what it no longer plays goes back through another.
@@ -63,7 +63,7 @@ pub struct Remote {
     pub state: Arc<MixerState>,
 }
 
-/// What a mixer has done.
+/// Counts what a mixer has done.
 #[derive(Default)]
 pub struct MixerState {
     buffers: AtomicU64,

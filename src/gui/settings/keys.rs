@@ -48,7 +48,7 @@ pub struct Settings {
     pub compile_on_save: bool,
     /// A frame that takes longer pauses the picture.
     pub frame_timeout: Duration,
-    /// How loud everything is, from 0 to 1.
+    /// The volume, from 0 to 1.
     pub volume: f32,
     pub mute: bool,
     /// The devices that play and record, by name; none: the system's default ones.

@@ -1,4 +1,4 @@
-//! What is heard with the picture, and what is recorded for it.
+//! Sound that is heard with the picture, and recorded for it.
 //!
 //! Owns the player and the microphone. Music of the channels and the sound pass are heard at `iTime`: what plays is told
 //! how time runs, and by the device's own clock it is brought there (`eddy_audio::mixer`). Devices are opened when
@@ -37,7 +37,7 @@ pub struct Audio {
     /// The sound pass, with its revision.
     track: Option<(u64, Arc<Track>)>,
     scene: Arc<Scene>,
-    /// What the player was told last.
+    /// Holds what the player was told last.
     told: Option<(Arc<Scene>, Option<Line>, f32)>,
     volume: f32,
     is_muted: bool,
@@ -47,7 +47,7 @@ pub struct Audio {
     /// The project reads it.
     reads_microphone: bool,
     is_recording: bool,
-    /// What the newest frame read of it.
+    /// Holds what the newest frame read of it.
     spectrum: Option<Arc<Spectrum>>,
     /// A device that is missing was told of.
     output_is_missing: bool,
@@ -198,7 +198,7 @@ impl Audio {
     }
 }
 
-/// What there is to say of a device.
+/// Something to say of a device.
 enum News {
     /// It could not be opened, or has vanished.
     Missing(String),
@@ -233,7 +233,7 @@ impl Session {
         let Some(player) = &self.audio.player else { return };
         match news(player.state(), &mut self.audio.output_is_missing) {
             Some(News::Missing(why)) => {
-                let text = format!("no sound: {why}. Eddy plays on when there is a device, and looks every 3 seconds");
+                let text = format!("no sound: {why}. The picture goes on; Eddy looks for a device every 3 seconds");
                 self.notice_about(About::Sound, Level::Warning, text);
             }
             Some(News::Back(name)) => {

@@ -28,7 +28,7 @@ pub fn sounds(project: &Project, media: &MediaSet) -> Vec<ChannelSound> {
     found
 }
 
-/// What is heard.
+/// Shows what is heard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundView {
     /// From 0 to 1.
