@@ -5,8 +5,8 @@ use crate::{
     host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened, Take},
 };
 use cpal::{
-    BufferSize, Data, ErrorKind, FromSample, SampleFormat, SizedSample, StreamConfig, SupportedBufferSize,
-    SupportedStreamConfig,
+    BufferSize, Data, ErrorKind, FromSample, OutputStreamTimestamp, SampleFormat, SizedSample, StreamConfig,
+    StreamInstant, SupportedBufferSize, SupportedStreamConfig,
     traits::{DeviceTrait, HostTrait, StreamTrait},
 };
 use std::time::{Duration, Instant};
@@ -242,6 +242,35 @@ fn held_back(mut fill: Fill, format: Format) -> Fill {
     })
 }
 
+/// The clock of a stream against ours.
+///
+/// A callback may begin long after the moment that its times are of, where other threads take the processor: the shortest
+/// such wait of the last while is what both clocks differ by.
+#[derive(Default)]
+struct StreamClock {
+    /// Moments of both that belong together, but for the wait.
+    base: Option<(Instant, StreamInstant)>,
+    /// Seconds of the shortest wait, and when it was told last.
+    wait: f64,
+    told: f64,
+}
+
+impl StreamClock {
+    /// The clocks may drift apart by so many seconds in a second.
+    const DRIFT: f64 = 2e-4;
+
+    fn heard_at(&mut self, times: OutputStreamTimestamp, now: Instant) -> Instant {
+        let (ours, theirs) = *self.base.get_or_insert((now, times.callback));
+        let told = times.callback.duration_since(theirs).as_secs_f64();
+        let wait = now.duration_since(ours).as_secs_f64() - told;
+        self.wait = wait.min(self.wait + Self::DRIFT * (told - self.told).max(0.0));
+        self.told = told;
+        let delay = times.playback.duration_since(times.callback).as_secs_f64();
+        let secs = told + self.wait + delay;
+        ours.checked_add(Duration::try_from_secs_f64(secs.max(0.0)).unwrap_or_default()).unwrap_or(now)
+    }
+}
+
 fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
     device: &cpal::Device,
     config: StreamConfig,
@@ -251,9 +280,9 @@ fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
 ) -> Result<cpal::Stream, cpal::Error> {
     // Whole frames.
     let mut scratch = vec![0.0_f32; (CONVERTED / format.channels).max(1) * format.channels];
+    let mut clock = StreamClock::default();
     let callback = move |out: &mut Data, info: &cpal::OutputCallbackInfo| {
-        let times = info.timestamp();
-        let mut heard_at = Instant::now() + times.playback.duration_since(times.callback);
+        let mut heard_at = clock.heard_at(info.timestamp(), Instant::now());
         if let Some(out) = out.as_slice_mut::<f32>() {
             return fill(out, heard_at);
         }
@@ -291,4 +320,29 @@ where
         }
     };
     device.build_input_stream_raw(config, T::FORMAT, callback, told, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_callback_that_comes_late_is_no_other_time() {
+        let start = Instant::now();
+        let mut clock = StreamClock::default();
+        let mut worst = Duration::ZERO;
+        for n in 0..200_u64 {
+            let theirs = StreamInstant::from_millis(5000 + 50 * n);
+            let playback = theirs + Duration::from_millis(100);
+            // A wait of 1 ms, and of 40 ms each third time.
+            let wait = Duration::from_millis(if n % 3 == 0 { 40 } else { 1 });
+            let at = start + Duration::from_millis(50 * n);
+            let heard_at = clock.heard_at(OutputStreamTimestamp { callback: theirs, playback }, at + wait);
+            let exact = at + Duration::from_millis(101);
+            if n > 0 {
+                worst = worst.max(heard_at.max(exact) - heard_at.min(exact));
+            }
+        }
+        assert!(worst < Duration::from_micros(100), "{worst:?}");
+    }
 }

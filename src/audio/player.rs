@@ -14,7 +14,7 @@ use std::{
 /// Plays what it is told on a device of the machine.
 pub struct Player {
     keeper: Keeper<Playing>,
-    mixed: Arc<Mutex<Option<Arc<MixerState>>>>,
+    mixed: Mixed,
 }
 
 impl Player {
@@ -70,16 +70,19 @@ impl Player {
     }
 }
 
+/// The state of the mixer of the device that is open.
+type Mixed = Arc<Mutex<Option<Arc<MixerState>>>>;
+
 struct Playing {
     out: Box<dyn AudioOut>,
     desired: Desired,
     remote: Option<Remote>,
-    mixed: Arc<Mutex<Option<Arc<MixerState>>>>,
+    mixed: Mixed,
 }
 
 impl Playing {
-    fn new(host: &dyn AudioHost) -> (Self, Arc<Mutex<Option<Arc<MixerState>>>>) {
-        let mixed = Arc::default();
+    fn new(host: &dyn AudioHost) -> (Self, Mixed) {
+        let mixed = Mixed::default();
         (Self { out: host.output(), desired: Desired::default(), remote: None, mixed: Arc::clone(&mixed) }, mixed)
     }
 

@@ -16,6 +16,7 @@ use super::{
     system_theme, theme,
 };
 use crate::{
+    audio::host::AudioHost,
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
@@ -511,10 +512,13 @@ impl Running {
 }
 
 /// Returns the sound of this machine, where Eddy was built with it.
-fn machine_audio() -> Option<Arc<dyn crate::audio::host::AudioHost>> {
-    #[cfg(feature = "audio")]
-    return Some(Arc::new(crate::audio::device::Machine));
-    #[cfg(not(feature = "audio"))]
+#[cfg(feature = "audio")]
+fn machine_audio() -> Option<Arc<dyn AudioHost>> {
+    Some(Arc::new(crate::audio::device::Machine))
+}
+
+#[cfg(not(feature = "audio"))]
+fn machine_audio() -> Option<Arc<dyn AudioHost>> {
     None
 }
 

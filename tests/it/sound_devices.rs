@@ -7,7 +7,7 @@ use eddy::{
         fake::{FakeHost, FakeOut},
         host::Format,
     },
-    project::PassId,
+    project::{InputKind, Media, PassId},
     session::{Command, DeviceState, Level, SessionOptions},
 };
 use std::{
@@ -397,4 +397,23 @@ fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays
     room.stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: None });
     room.run(0.2);
     assert!(!room.host.input.is_open());
+}
+
+#[test]
+fn a_song_that_is_dropped_is_music_of_a_free_channel() {
+    let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { keyboard = true }") else { return };
+    let elsewhere = room.stage.dir.path().join("tune.WAV");
+    std::fs::write(&elsewhere, wav((0..44_100).map(saw))).unwrap();
+    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassId::Image, None)) });
+    room.stage.until("music", |session| session.sound_view().is_some_and(|view| view.has_sound));
+    let channel = room.stage.session.project().pass(&PassId::Image).unwrap().channels[1].clone().unwrap();
+    assert_eq!(channel.input.kind(), InputKind::Music);
+    assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
+    assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);
+    // A copy comes into the project's folder when it is saved.
+    room.stage.session.apply(Command::Save);
+    room.run(0.3);
+    assert!(room.stage.path("tune.WAV").is_file());
+    assert!(room.stage.read("eddy.toml").contains("kind = \"music\""), "{}", room.stage.read("eddy.toml"));
 }

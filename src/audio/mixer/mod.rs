@@ -32,8 +32,9 @@ const JUMP_SECS: f64 = 0.02;
 const PULL: f64 = 0.5;
 /// But not by more than this share, 5 cents, which nobody hears.
 const MOST_PULL: f64 = 0.003;
-/// Seconds over which the distance is averaged: what a device says of its delay is uncertain by a part of its buffer.
-const AVERAGED_SECS: f64 = 0.3;
+/// Seconds over which the distance is averaged: what a device says of its delay is uncertain by a part of its buffer, and
+/// more while other programs keep its thread waiting.
+const AVERAGED_SECS: f64 = 1.0;
 /// Sounds that fade out beside the one that plays.
 const DECKS: usize = 4;
 /// Orders that may wait, and sources that may wait to be freed.
