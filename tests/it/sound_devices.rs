@@ -414,6 +414,6 @@ fn a_song_that_is_dropped_is_music_of_a_free_channel() {
     // A copy comes into the project's folder when it is saved.
     room.stage.session.apply(Command::Save);
     room.run(0.3);
-    assert!(room.stage.path("tune.WAV").is_file());
+    assert!(room.stage.path("tune.wav").is_file());
     assert!(room.stage.read("eddy.toml").contains("kind = \"music\""), "{}", room.stage.read("eddy.toml"));
 }
