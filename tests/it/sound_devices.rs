@@ -103,12 +103,12 @@ impl Room {
         // The newest frame was drawn at the tick before now.
         let (drawn, time) = (self.now - Duration::from_micros(16_667), self.time());
         let mut worst = 0.0_f64;
-        for n in left.len() - (secs * RATE) as usize..left.len() {
+        for (n, sample) in left.iter().enumerate().skip(left.len() - (secs * RATE) as usize) {
             let heard_at = at + Duration::from_secs_f64(n as f64 / RATE);
             let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
             let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
             let place = ((time + speed * (ahead - since)) * RATE).rem_euclid(LENGTH);
-            let said = f64::from(left[n]) * 32_768.0 / 10.0 + 1000.0;
+            let said = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
             let distance = (place - said).rem_euclid(2000.0);
             // At the edge of the saw tooth an interpolated sample says nothing.
             if (100.0..1900.0).contains(&place.rem_euclid(2000.0)) && (100.0..LENGTH - 100.0).contains(&place) {
@@ -315,13 +315,13 @@ fn another_rate_of_the_device_changes_no_place() {
     let (at, left) = room.heard();
     let (drawn, time) = (room.now - Duration::from_micros(16_667), room.time());
     let mut worst = 0.0_f64;
-    for n in 20_000..left.len() {
+    for (n, sample) in left.iter().enumerate().skip(20_000) {
         let heard_at = at + Duration::from_secs_f64(n as f64 / 48_000.0);
         let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
         let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
         let place = ((time + ahead - since) * RATE).rem_euclid(2000.0);
         if (100.0..1900.0).contains(&place) {
-            worst = worst.max((f64::from(left[n]) * 32_768.0 / 10.0 + 1000.0 - place).abs());
+            worst = worst.max((f64::from(*sample) * 32_768.0 / 10.0 + 1000.0 - place).abs());
         }
     }
     assert!(worst < 3.0, "{worst} samples off: the ripple of the saw tooth's edge");
