@@ -1,14 +1,27 @@
 //! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, tracks that sound
-//! passes fill, and the files that these are written to.
+//! passes fill, the files that these are written to, and what is heard and recorded.
 //!
-//! Nothing here reads a file or a clock: bytes come in, and time is a number of samples. Browsers smooth a spectrum once
-//! for each frame that asks for it; here the frames before are those that lie a frame's step apart, so that a frame does not
-//! depend on how it was reached.
+//! Bytes come in, and time is a number of samples. Browsers smooth a spectrum once for each frame that asks for it; here
+//! the frames before are those that lie a frame's step apart, so that a frame does not depend on how it was reached.
+//!
+//! [`mixer`] mixes what is heard; it knows no device and is told what time it is. Only [`player`] and
+//! [`microphone`] open devices, on threads of their own, through the traits of [`host`]; `device` has those of the machine
+//! and [`fake`] those of a test.
 
 mod analyser;
 mod decode;
+#[cfg(feature = "device")]
+pub mod device;
+pub mod fake;
 mod flac;
+pub mod host;
+mod keeper;
+mod kernel;
+pub mod microphone;
+pub mod mixer;
 mod peaks;
+pub mod player;
+mod scene;
 mod spectrum;
 mod synthetic;
 mod track;
@@ -17,7 +30,9 @@ mod wav;
 pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
 pub use flac::flac;
+pub use keeper::DeviceState;
 pub use peaks::{Peak, Peaks};
+pub use scene::{Desired, Line, MOST_SOURCES, Scene, Source};
 pub use spectrum::TrackSpectrum;
 pub use synthetic::synthetic;
 pub use track::Track;

@@ -228,7 +228,8 @@ fn open_with(
             project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
         }
     }
-    let (mut media, missing) = media::gather(&project, run.media.as_deref());
+    let (mut media, mut missing) = media::gather(&project, run.media.as_deref());
+    missing.extend(media::unrecorded(&project));
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let cameras = camera(&mut media, &project, run.webcam.as_ref());
     report.diagnose(&cameras, &loaded.sources, Some(&project));

@@ -81,7 +81,8 @@ fn compare(
     for assignment in &args.run.set {
         project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
     }
-    let (media, missing) = media::gather(&project, args.run.media.as_deref());
+    let (media, mut missing) = media::gather(&project, args.run.media.as_deref());
+    missing.extend(media::unrecorded(&project));
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
     let (width, height) = args.run.canvas();

@@ -56,7 +56,7 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
             Some(Box::new(VideoTexture::new(video, channel.sampler.vflip, media.pace())))
         }
         InputKind::Webcam => Some(Box::new(Webcam::new(media.camera().cloned(), channel.sampler.vflip))),
-        InputKind::Microphone => None,
+        InputKind::Microphone => Some(Box::new(Microphone([0; 2 * BINS]))),
     }
 }
 
@@ -86,14 +86,18 @@ pub(super) enum ChannelClock {
     Looped(f64),
     /// 10 s more than `iTime`, as the site has it for music that it may not play.
     Synthetic,
+    /// Zero while there is a microphone, and as [`ChannelClock::Synthetic`] while there is none.
+    Microphone,
 }
 
 impl ChannelClock {
-    pub fn at(self, time_secs: f64) -> f32 {
+    pub fn at(self, inputs: &FrameInputs) -> f32 {
+        let time_secs = inputs.time_secs;
         match self {
             ChannelClock::Stopped => 0.0,
+            ChannelClock::Microphone if inputs.microphone.is_some() => 0.0,
             ChannelClock::Looped(seconds) => time_secs.rem_euclid(seconds) as f32,
-            ChannelClock::Synthetic => (10.0 + time_secs) as f32,
+            ChannelClock::Synthetic | ChannelClock::Microphone => (10.0 + time_secs) as f32,
         }
     }
 }
@@ -138,6 +142,28 @@ impl ExternalTexture for Music {
 
     fn clock(&self) -> ChannelClock {
         self.sound.as_ref().map_or(ChannelClock::Synthetic, |sound| ChannelClock::Looped(sound.seconds()))
+    }
+}
+
+/// The spectrum and the wave of the microphone, which come with the frame; without one what the site makes up.
+struct Microphone(Spectrum);
+
+impl ExternalTexture for Microphone {
+    fn shape(&self) -> TextureShape {
+        TextureShape::flat(BINS as u32, 2, TexelFormat::R8)
+    }
+
+    fn advance(&mut self, inputs: &FrameInputs) -> bool {
+        let texture = inputs.microphone.as_deref().copied().unwrap_or_else(|| synthetic(inputs.time_secs));
+        std::mem::replace(&mut self.0, texture) != texture
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.0
+    }
+
+    fn clock(&self) -> ChannelClock {
+        ChannelClock::Microphone
     }
 }
 

@@ -1,6 +1,8 @@
 //! Everything of one frame that is not the project's: time, mouse, keys, date.
 
+use eddy_audio::Spectrum;
 use eddy_media::Keyboard;
+use std::sync::Arc;
 
 /// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to
 /// 6.
@@ -21,6 +23,8 @@ pub struct FrameInputs {
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
     pub date: [f32; 4],
     pub keyboard: Keyboard,
+    /// The texture that the analyser made of the microphone; `None` where there is none, or nobody has switched it on.
+    pub microphone: Option<Arc<Spectrum>>,
 }
 
 impl FrameInputs {
@@ -35,6 +39,7 @@ impl FrameInputs {
             drag: [0.0; 2],
             date: [0.0; 4],
             keyboard: Keyboard::default(),
+            microphone: None,
         }
     }
 }

@@ -178,7 +178,7 @@ pub(super) fn block(
         frame_rate: inputs.frame_rate,
         sample_rate: 44100.0,
         frame: inputs.frame,
-        channel_time: channels.each_ref().map(|channel| [channel.clock.at(inputs.time_secs), 0.0, 0.0, 0.0]),
+        channel_time: channels.each_ref().map(|channel| [channel.clock.at(inputs), 0.0, 0.0, 0.0]),
         channel_resolution: std::array::from_fn(|i| {
             let [x, y, z] = resolution(&channels[i]);
             [x, y, z, 0.0]

@@ -16,6 +16,7 @@ use super::{
     system_theme, theme,
 };
 use crate::{
+    audio::host::AudioHost,
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
@@ -227,6 +228,7 @@ impl Running {
             recovery: session::recovery_folder(),
             trials: TrialSettings::of_this_program(options.compile_timeout),
             camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
+            audio: machine_audio(),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
@@ -292,19 +294,19 @@ impl Running {
                 // A question must be seen to be answered.
                 if self.hidden && self.session.question().is_some() {
                     self.window.set_minimized(false);
-                    self.hidden = false;
+                    self.hide(false);
                 }
                 self.paint_soon();
                 return Ok(self.take_requests());
             }
             WindowEvent::Resized(size) => {
                 self.surface.resize(size.width, size.height);
-                self.hidden = size.width == 0 || size.height == 0;
+                self.hide(size.width == 0 || size.height == 0);
                 if !self.hidden && !self.window.is_maximized() && self.window.fullscreen().is_none() {
                     self.usual.note(self.place(false));
                 }
             }
-            WindowEvent::Occluded(hidden) => self.hidden = *hidden,
+            WindowEvent::Occluded(hidden) => self.hide(*hidden),
             WindowEvent::Focused(focused) => {
                 if !focused {
                     self.held.clear();
@@ -325,6 +327,13 @@ impl Running {
             _ => self.paint_soon(),
         }
         Ok(Next::Go)
+    }
+
+    /// Nobody sees the window, or somebody does again.
+    fn hide(&mut self, is_hidden: bool) {
+        if std::mem::replace(&mut self.hidden, is_hidden) != is_hidden {
+            self.session.apply(Command::Hide(is_hidden));
+        }
     }
 
     /// Passes a key on to the shader if the picture has the keyboard and the window has no use for it.
@@ -501,6 +510,17 @@ impl Running {
             self.window.set_fullscreen(self.shell.is_fullscreen().then_some(Fullscreen::Borderless(None)));
         }
     }
+}
+
+/// Returns the sound of this machine, where Eddy was built with it.
+#[cfg(feature = "audio")]
+fn machine_audio() -> Option<Arc<dyn AudioHost>> {
+    Some(Arc::new(crate::audio::device::Machine))
+}
+
+#[cfg(not(feature = "audio"))]
+fn machine_audio() -> Option<Arc<dyn AudioHost>> {
+    None
 }
 
 /// Returns where and how large the window opens: as the command line says, else as it was, else as suits the screen.

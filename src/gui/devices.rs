@@ -3,7 +3,7 @@
 use super::{accessible, theme, ui_output::UiOutput};
 use crate::{
     project::InputKind,
-    session::{Command, DeviceState, Session},
+    session::{CameraState, Command, Session},
 };
 use egui::{Button, RichText, Ui, vec2};
 
@@ -14,34 +14,34 @@ const WIDTH: f32 = 112.0;
 pub fn light(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
     let state = session.device_state(kind);
-    if state == DeviceState::Off && !session.reads_device(kind) {
+    if state == CameraState::Off && !session.reads_device(kind) {
         return;
     }
     let p = theme::of(ui);
     let (text, tip) = match state {
-        DeviceState::Off => {
+        CameraState::Off => {
             (RichText::new("Use the camera"), "A channel reads the webcam; it is black until you turn the camera on")
         }
-        DeviceState::Starting => (RichText::new("● Camera…").color(p.warning), "The camera starts; click to stop it"),
-        DeviceState::On => (RichText::new("● Camera on").color(p.error), "Click to turn the camera off"),
+        CameraState::Starting => (RichText::new("● Camera…").color(p.warning), "The camera starts; click to stop it"),
+        CameraState::On => (RichText::new("● Camera on").color(p.error), "Click to turn the camera off"),
     };
     let button = ui.add(Button::new(text.size(12.0)).min_size(vec2(WIDTH.min(ui.available_width()), 24.0)));
-    let name = if state == DeviceState::Off { "Use the camera" } else { "Turn the camera off" };
+    let name = if state == CameraState::Off { "Use the camera" } else { "Turn the camera off" };
     accessible::name(&button, egui::Role::Button, name);
     let place = match state {
-        DeviceState::Off => "button:camera",
-        DeviceState::Starting => "light:camera-starting",
-        DeviceState::On => "light:camera",
+        CameraState::Off => "button:camera",
+        CameraState::Starting => "light:camera-starting",
+        CameraState::On => "light:camera",
     };
     if out.clicked(place, &button.on_hover_text(tip)) {
-        out.ask(Command::UseDevice { kind, on: state == DeviceState::Off });
+        out.ask(Command::UseDevice { kind, on: state == CameraState::Off });
     }
 }
 
 /// The same in the popup of a channel that reads the webcam, with a choice among several cameras.
 pub fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
-    let is_off = session.device_state(kind) == DeviceState::Off;
+    let is_off = session.device_state(kind) == CameraState::Off;
     ui.horizontal_wrapped(|ui| {
         let name = if is_off { "Use the camera" } else { "Turn the camera off" };
         if out.clicked("choose:camera", &ui.button(name)) {

@@ -9,7 +9,7 @@ use super::{
     theme,
     ui_output::{Pick, UiOutput},
 };
-use crate::project::RECORDING;
+use crate::project::{RECORDING, SOUNDS};
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
     panic::catch_unwind,
@@ -141,6 +141,7 @@ impl Files {
             Pick::Reference => ("Compare with project", "Compare"),
             Pick::CodeFont => ("Font file for code", "Use"),
             Pick::Picture { .. } => ("Image or video file for the channel", "Use"),
+            Pick::Sound { .. } => ("Music for the channel", "Use"),
         };
         // A modal takes the keyboard from all that lies below it.
         if typing.is_new {
@@ -233,6 +234,7 @@ fn help(pick: &Pick) -> &'static str {
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
         Pick::CodeFont => "A .ttf or .otf file",
         Pick::Picture { .. } => "An image (png, jpg, webp, bmp, tga, gif, hdr) or a video (mp4, webm, mkv, mov)",
+        Pick::Sound { .. } => "An mp3, ogg, wav, flac, m4a, aac or aiff file",
     }
 }
 
@@ -255,6 +257,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::SaveAs(name) => ("Save to folder", Kind::Save(name.clone())),
         Pick::CodeFont => ("Font file for code", Kind::OpenFile("Fonts", &["ttf", "otf"])),
         Pick::Picture { .. } => ("Image or video file for the channel", Kind::OpenFile("Images and videos", &SHOWN)),
+        Pick::Sound { .. } => ("Music for the channel", Kind::OpenFile("Sound files", &SOUNDS)),
     };
     Dialog { title, kind, start }
 }

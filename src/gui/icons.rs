@@ -18,6 +18,8 @@ pub enum Icon {
     Close,
     /// Code over a picture.
     Present,
+    Speaker,
+    Muted,
 }
 
 /// A button with a sign; `label` is what it is called to those who do not see it.
@@ -116,6 +118,21 @@ fn paint(ui: &Ui, rect: Rect, icon: Icon, color: Color32) {
         Icon::Close => {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], line);
             painter.line_segment([at(3.5, -3.5), at(-3.5, 3.5)], line);
+        }
+        Icon::Speaker | Icon::Muted => {
+            painter.rect_filled(Rect::from_min_max(at(-7.0, -2.5), at(-3.5, 2.5)), 0.5, color);
+            painter.add(Shape::convex_polygon(
+                vec![at(-4.0, -2.5), at(0.0, -6.0), at(0.0, 6.0), at(-4.0, 2.5)],
+                color,
+                Stroke::NONE,
+            ));
+            if icon == Icon::Muted {
+                painter.line_segment([at(2.5, -3.0), at(7.5, 3.0)], line);
+                painter.line_segment([at(2.5, 3.0), at(7.5, -3.0)], line);
+            } else {
+                painter.line(vec![at(2.5, -3.0), at(4.0, 0.0), at(2.5, 3.0)], line);
+                painter.line(vec![at(5.0, -5.0), at(7.5, 0.0), at(5.0, 5.0)], line);
+            }
         }
         Icon::Present => {
             painter.rect_stroke(Rect::from_min_max(at(-7.5, -5.5), at(7.5, 5.5)), 1.5, line, StrokeKind::Middle);

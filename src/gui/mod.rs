@@ -54,6 +54,7 @@ mod settings;
 mod settings_page;
 mod shell;
 mod sound;
+mod sound_bar;
 mod surface;
 mod system_theme;
 mod tabs;

@@ -8,8 +8,10 @@ use super::{
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
+use crate::session::{Command, Session};
 use egui::{
-    Align, Button, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
+    vec2,
 };
 use std::time::{Duration, Instant};
 
@@ -63,7 +65,19 @@ impl SettingsPage {
     }
 
     /// Shows it; false when it is closed. `keeps_frame_limit`: the command line gave one.
-    pub fn show(&mut self, ui: &Ui, file: &SettingsFile, keeps_frame_limit: bool, out: &mut UiOutput) -> bool {
+    pub fn show(
+        &mut self,
+        ui: &Ui,
+        session: &Session,
+        file: &SettingsFile,
+        keeps_frame_limit: bool,
+        out: &mut UiOutput,
+    ) -> bool {
+        if self.is_new && session.output_view().is_some() {
+            out.ask(Command::ListAudioDevices);
+        }
+        // A machine without sound has no devices to choose from.
+        let is_shown = |key: &Key| session.output_view().is_some() || !matches!(key.control, Control::Device { .. });
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let modal = Modal::new(Id::unique("settings")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
@@ -83,10 +97,10 @@ impl SettingsPage {
             let shown = list.show(ui, |ui| {
                 ui.set_max_width(ui.available_width() - 12.0);
                 trouble(ui, file, out);
-                for key in KEYS {
+                for key in KEYS.iter().filter(|key| is_shown(key)) {
                     let note = (key.name == "frame-timeout" && keeps_frame_limit)
                         .then_some("This window was started with --frame-timeout, which overrides it");
-                    ui.add_enabled_ui(file.trouble().is_none(), |ui| self.row(ui, key, file, note, out));
+                    ui.add_enabled_ui(file.trouble().is_none(), |ui| self.row(ui, session, key, file, note, out));
                 }
             });
             out.place("settings:page", shown.inner_rect);
@@ -98,7 +112,15 @@ impl SettingsPage {
     }
 
     /// A setting: its title and what it does, and its widget at the right.
-    fn row(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, note: Option<&str>, out: &mut UiOutput) {
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        session: &Session,
+        key: &'static Key,
+        file: &SettingsFile,
+        note: Option<&str>,
+        out: &mut UiOutput,
+    ) {
         let p = theme::of(ui);
         ui.add_space(6.0);
         let wide = ui.available_width() > CONTROL + 200.0;
@@ -119,16 +141,16 @@ impl SettingsPage {
                         words(ui);
                     });
                 });
-                ui.vertical(|ui| self.control(ui, key, file, out));
+                ui.vertical(|ui| self.control(ui, session, key, file, out));
             });
         } else {
             words(ui);
-            self.control(ui, key, file, out);
+            self.control(ui, session, key, file, out);
         }
         ui.add_space(4.0);
     }
 
-    fn control(&mut self, ui: &mut Ui, key: &'static Key, file: &SettingsFile, out: &mut UiOutput) {
+    fn control(&mut self, ui: &mut Ui, session: &Session, key: &'static Key, file: &SettingsFile, out: &mut UiOutput) {
         let settings = file.settings();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
@@ -161,6 +183,11 @@ impl SettingsPage {
                     }
                 }
                 Control::Number(number) => self.number(ui, key, number, (number.get)(settings), out),
+                Control::Device { is_input, get, change } => {
+                    let (outputs, inputs) = session.audio_devices();
+                    let known = if *is_input { inputs } else { outputs };
+                    device(ui, key, get(settings), known.as_deref().unwrap_or_default(), *change, out);
+                }
                 Control::Font => self.font(ui, key, settings.code_font.as_deref().unwrap_or_default(), out),
             }
             if !key.is_usual(settings) {
@@ -243,6 +270,34 @@ impl SettingsPage {
             out.shell_commands.push(ShellCommand::Pick(Pick::CodeFont));
         }
     }
+}
+
+/// A device of those that there are. One that is chosen and not there stays chosen: it may come back.
+fn device(
+    ui: &mut Ui,
+    key: &Key,
+    now: Option<&str>,
+    known: &[String],
+    change: fn(Option<String>) -> Change,
+    out: &mut UiOutput,
+) {
+    const DEFAULT: &str = "System default";
+    let shown = ComboBox::from_id_salt(key.name).width(200.0).selected_text(now.unwrap_or(DEFAULT)).truncate().show_ui(
+        ui,
+        |ui| {
+            let is_gone = |name: &&str| known.iter().all(|known| known != name);
+            let gone = now.filter(is_gone).map(str::to_owned);
+            let names = known.iter().cloned().chain(gone).map(Some);
+            for (n, name) in std::iter::once(None).chain(names).enumerate() {
+                let entry = ui.selectable_label(name.as_deref() == now, name.as_deref().unwrap_or(DEFAULT));
+                if out.clicked(&format!("setting:{}:{n}", key.name), &entry) {
+                    out.shell_commands.push(ShellCommand::Set(change(name)));
+                }
+            }
+        },
+    );
+    accessible::name(&shown.response, Role::ComboBox, key.title);
+    out.place(format!("setting:{}", key.name), shown.response.rect);
 }
 
 /// Says what is wrong in the file, and what becomes of changes.

@@ -37,6 +37,8 @@ pub enum Pick {
     CodeFont,
     /// A picture for a channel of the pass in front.
     Picture { channel: usize },
+    /// Music for a channel of the pass in front.
+    Sound { channel: usize },
 }
 
 /// Something only the shell can do.

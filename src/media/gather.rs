@@ -27,6 +27,17 @@ pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
 /// Says what a channel shows whose file is not there.
 const BLACK: &str = "the channel is black and of size 0";
 
+/// Returns a warning for each channel that reads the microphone, where nobody can switch it on.
+pub fn unrecorded(project: &Project) -> Vec<Diagnostic> {
+    let warning = |(pass, n, _): (&Pass, usize, &Channel)| {
+        let place = format!("iChannel{n} of {}", pass.id.title());
+        Diagnostic::warning(None, format!("{place}: the microphone is not recorded; a synthetic spectrum is shown"))
+            .hint("open the project in the window and switch the microphone on, or read a music file")
+    };
+    let is_microphone = |channel: &Channel| channel.input.kind() == InputKind::Microphone;
+    channels(project).filter(|(.., channel)| is_microphone(channel)).map(warning).collect()
+}
+
 fn pictures(
     project: &Project,
     media_dir: Option<&Path>,

@@ -18,7 +18,7 @@ mod site;
 mod sound;
 
 pub use error::MediaError;
-pub use gather::{files, fills, gather, meshes};
+pub use gather::{files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};

@@ -167,14 +167,14 @@ static ROWS: [InputRow; 10] = [
     },
     InputRow {
         kind: InputKind::Microphone,
-        title: "microphone",
+        title: "Microphone",
         glyph: "snd",
         key: "microphone",
         json_type: "mic",
+        directive: Some("microphone"),
         json_id: Some(("XdXGRr", "/presets/mic.png")),
         has_fixed_sampler: true,
         has_vflip: false,
-        undrawn: Some("the microphone cannot be read yet"),
         ..DEVICE
     },
     InputRow {

@@ -57,7 +57,7 @@ pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };
 pub use imports::{
-    FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, TextImport, VIDEOS, folder_of_parts, has_video_ending,
+    FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,
 };
 pub use includes::{IncludeLines, include_names};

@@ -34,10 +34,11 @@ const TEXTS: [&str; 16] = [
     "vert", "comp", "geom", "tesc", "tese", "vs", "gs", "fsh", "vsh", "glslf", "glslv", "glslh", "inc", "h", "hlsl",
     "txt",
 ];
-/// Endings of pictures, models, and what these name.
-const MEDIA: [&str; 31] = [
+/// Endings of pictures, music, videos, models, and what these name.
+const MEDIA: [&str; 37] = [
     "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx", "ktx2", "dds", "glb", "gltf", "obj", "mtl",
-    "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv", "mkv", "mov", "m4v", "avi", "mpg", "mpeg",
+    "bin", "npy", "mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff", "mp4", "webm", "ogv", "mkv",
+    "mov", "m4v", "avi", "mpg", "mpeg",
 ];
 
 /// Returns whether a new file of this name may be a text of a project.

@@ -55,6 +55,13 @@ impl Session {
                     self.last_pictures.want();
                 }
             }
+            Command::Hide(is_hidden) => self.hide(is_hidden),
+            Command::SetVolume(volume) => self.audio.set_volume(volume),
+            Command::SetMute(on) => self.audio.set_mute(on),
+            Command::SetAudioOutput(device) => self.audio.choose_output(device),
+            Command::SetAudioInput(device) => self.audio.choose_input(device),
+            Command::ListAudioDevices => self.audio.list_devices(&self.wake),
+            Command::UseMicrophone(on) => self.use_microphone(on),
             Command::Hold => self.hold(),
             Command::GoOn => self.go_on_drawing(),
             Command::DrawSmaller => self.draw_smaller(),

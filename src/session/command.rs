@@ -19,12 +19,18 @@ pub enum Command {
     Open(String),
     /// A project that was made in memory, with the canvas size it is made for, until another project is opened. Its
     /// origin is [`Origin::Unsaved`](eddy_project::Origin::Unsaved).
-    OpenProject { project: Box<Project>, size: Option<(u32, u32)> },
+    OpenProject {
+        project: Box<Project>,
+        size: Option<(u32, u32)>,
+    },
     /// Opens what a text is or names: Shadertoy JSON, GLSL, a path.
     Paste(String),
     /// Takes files that a person brings: projects are opened; pictures and models go into the open one, to a pass and a
     /// channel of it if these are named, or begin a new one where none is shown.
-    Bring { paths: Vec<PathBuf>, to: Option<(PassId, Option<usize>)> },
+    Bring {
+        paths: Vec<PathBuf>,
+        to: Option<(PassId, Option<usize>)>,
+    },
     /// A new project of one Image pass.
     New,
     /// Writes the project where it came from. What has no such place (new, preset, JSON) leads to
@@ -39,7 +45,10 @@ pub enum Command {
     /// The folder picker of [`Request::SaveAs`] was closed without a choice.
     SaveAsCancelled,
     /// The whole new text of a tab. Compiles a while after the last one, or at once where that is fast.
-    EditText { tab: Tab, text: String },
+    EditText {
+        tab: Tab,
+        text: String,
+    },
     /// The tab that is being edited: its text is analysed after each change, see
     /// [`Session::analysis`](super::Session::analysis).
     BringToFront(Tab),
@@ -49,7 +58,10 @@ pub enum Command {
     /// Compiles at once.
     CompileNow,
     /// The person turns a device that channels read on or off: see [`DeviceConsent`](super::DeviceConsent).
-    UseDevice { kind: InputKind, on: bool },
+    UseDevice {
+        kind: InputKind,
+        on: bool,
+    },
     /// Chooses one of [`Session::cameras`](super::Session::cameras) by its id, and turns it on.
     ChooseCamera(String),
     /// Lets time run.
@@ -60,6 +72,20 @@ pub enum Command {
     TogglePlay,
     /// Something covers the picture: while it does, time stands still though nobody has paused it.
     Cover(bool),
+    /// The window cannot be seen: nothing is heard either, and time goes on from here when it can be seen again.
+    Hide(bool),
+    /// The volume, from 0 to 1.
+    SetVolume(f32),
+    SetMute(bool),
+    /// The device that plays, by its name; `None`: the system's default one.
+    SetAudioOutput(Option<String>),
+    /// The device that records.
+    SetAudioInput(Option<String>),
+    /// Looks which devices there are: see [`Session::audio_devices`](super::Session::audio_devices).
+    ListAudioDevices,
+    /// Records by the microphone for channels that read it, until this is taken back or Eddy ends. Nothing but a person
+    /// asks for it.
+    UseMicrophone(bool),
     /// Draws nothing more of the open project before [`Command::Play`], [`Command::Step`] or [`Command::GoOn`]: right
     /// after [`Command::Open`], nothing at all.
     Hold,
@@ -89,15 +115,25 @@ pub enum Command {
     /// Time, frame and every buffer to zero. Keyboard toggles and the mouse stay.
     Reset,
     /// Size in physical pixels of the area the picture may fill.
-    SetViewport { width: u32, height: u32 },
+    SetViewport {
+        width: u32,
+        height: u32,
+    },
     /// Canvas pixels to viewport pixels: 0.5 draws a quarter as many.
     SetScale(f32),
     /// A canvas size that does not follow the viewport; `None` follows it again.
     SetFixedSize(Option<(u32, u32)>),
     /// Sets what `iChannel{index}` of a pass reads, with its sampler.
-    SetChannel { pass: PassId, index: usize, channel: Option<Channel> },
+    SetChannel {
+        pass: PassId,
+        index: usize,
+        channel: Option<Channel>,
+    },
     /// Turns one of the author's own uniforms, within its range; `None` is the default. Compiles nothing.
-    SetCustomUniform { name: String, value: Option<CustomUniformValue> },
+    SetCustomUniform {
+        name: String,
+        value: Option<CustomUniformValue>,
+    },
     /// The same as a person writes it: `viscosity=0.3`. What cannot be set so is told in a notice.
     AssignCustomUniform(String),
     /// All of them to their defaults.
@@ -113,9 +149,15 @@ pub enum Command {
     RedoPassEdit,
     /// The pointer in canvas pixels from the bottom left: `y = height - py` for a `py` from the top. Whole pixels are
     /// made of them as the site does.
-    MouseDown { x: f32, y: f32 },
+    MouseDown {
+        x: f32,
+        y: f32,
+    },
     /// The same while the button is down or up.
-    MouseMove { x: f32, y: f32 },
+    MouseMove {
+        x: f32,
+        y: f32,
+    },
     /// The button is released.
     MouseUp,
     /// JavaScript `keyCode`. Auto-repeat may be passed on; it does nothing.
@@ -189,7 +231,11 @@ pub enum Command {
     /// Takes away the notice of this number.
     DismissNotice(u64),
     /// Says something of the front end's own in a notice.
-    Notify { level: Level, text: String, path: Option<PathBuf> },
+    Notify {
+        level: Level,
+        text: String,
+        path: Option<PathBuf>,
+    },
     /// The user wants to leave. Leads to [`Request::Exit`], after a question if something is unsaved.
     Close,
 }

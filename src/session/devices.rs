@@ -34,7 +34,7 @@ impl DeviceConsent {
 
 /// The state of a device that a project reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DeviceState {
+pub enum CameraState {
     /// Nobody has turned it on.
     Off,
     /// It is on and has given nothing yet.
@@ -74,11 +74,11 @@ impl Session {
         reads(self.project(), kind)
     }
 
-    pub fn device_state(&self, kind: InputKind) -> DeviceState {
+    pub fn device_state(&self, kind: InputKind) -> CameraState {
         match (&self.devices.camera, kind) {
-            (Some(camera), InputKind::Webcam) if camera.newest().is_some() => DeviceState::On,
-            (Some(_), InputKind::Webcam) => DeviceState::Starting,
-            _ => DeviceState::Off,
+            (Some(camera), InputKind::Webcam) if camera.newest().is_some() => CameraState::On,
+            (Some(_), InputKind::Webcam) => CameraState::Starting,
+            _ => CameraState::Off,
         }
     }
 

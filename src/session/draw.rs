@@ -56,7 +56,9 @@ impl Session {
         // The first frame of a new program does not wait for the next tick.
         let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way();
         *has_run |= !is_step && self.playback.is_running();
-        let inputs = self.playback.next_frame(self.now, is_step, may_run)?;
+        let is_new = is_step || self.playback.is_running();
+        let mut inputs = self.playback.next_frame(self.now, is_step, may_run)?;
+        inputs.microphone = self.audio.spectrum(is_new);
         self.take_values_back();
         Some(inputs)
     }
@@ -188,6 +190,7 @@ impl Session {
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
         self.playback.is_again_due = true;
+        self.audio.program_is_there();
         self.playback.seeking.awaits_program = false;
         self.picture.is_program_new = true;
         self.changed = true;

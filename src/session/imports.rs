@@ -61,8 +61,8 @@ impl Session {
             let file = recording.clone();
             return self.bring_recording(file, to.is_some());
         }
-        let is_shown = |p: &&PathBuf| matches!(project::kind_of_file(p), FileKind::Picture | FileKind::Video);
-        let pictures: Vec<&Path> = paths.iter().filter(is_shown).map(PathBuf::as_path).collect();
+        let pictures = of(FileKind::Picture).chain(of(FileKind::Video)).chain(of(FileKind::Sound));
+        let pictures: Vec<&Path> = pictures.map(PathBuf::as_path).collect();
         let models: Vec<&Path> = of(FileKind::Model).map(PathBuf::as_path).collect();
         let Some(first) = pictures.first().or(models.first()) else { return };
         match to {
@@ -101,7 +101,7 @@ impl Session {
         self.notice_about(About::Opening, Level::Warning, text);
     }
 
-    /// Puts pictures and models into a project. Says what reads them.
+    /// Puts pictures, music and models into a project. Says what reads them.
     fn put_in(
         &self,
         project: &mut Project,
@@ -124,6 +124,8 @@ impl Session {
             };
             if is_video(picture) {
                 project.read_video(pass, n, picture);
+            } else if project::kind_of_file(picture) == FileKind::Sound {
+                project.read_sound(pass, n, picture);
             } else {
                 project.read_picture(pass, n, picture);
             }
@@ -151,14 +153,10 @@ impl Session {
         for path in paths {
             let name = name(path);
             match project::kind_of_file(path) {
-                FileKind::Sound => {
-                    let how = format!("0 = {{ file = \"{name}\", kind = \"music\" }}");
-                    let text = format!("{name}: a sound cannot be dropped on a channel yet; write {how} in eddy.toml");
-                    self.notice_about(About::Opening, Level::Warning, text);
-                }
                 FileKind::Unknown => {
                     let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads an \
-                                 image file (png, jpg, webp, bmp, tga, gif, hdr) or a video (mp4, webm, mkv, mov), a pass draws a model (glb, gltf, \
+                                 image file (png, jpg, webp, bmp, tga, gif, hdr), a video (mp4, webm, mkv, mov) or music \
+                                 (mp3, ogg, wav, flac, m4a, aac, aiff), a pass draws a model (glb, gltf, \
                                  obj), a recording of input is a .replay file";
                     self.notice_about(
                         About::Opening,
@@ -166,7 +164,12 @@ impl Session {
                         format!("{name} is not a file Eddy can open: {known}"),
                     );
                 }
-                FileKind::Project | FileKind::Picture | FileKind::Video | FileKind::Model | FileKind::Recording => {}
+                FileKind::Project
+                | FileKind::Picture
+                | FileKind::Video
+                | FileKind::Sound
+                | FileKind::Model
+                | FileKind::Recording => {}
             }
         }
     }

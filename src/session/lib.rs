@@ -7,6 +7,7 @@
 
 mod analysis;
 mod apply;
+mod audio;
 mod audit;
 pub mod buffers;
 mod canvas;
@@ -55,10 +56,12 @@ mod uniforms;
 pub mod view;
 
 pub use analysis::TabAnalysis;
+pub use audio::{ChannelSound, MicrophoneView, OutputView};
 pub use audit::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use costs::{PassCosts, TimedPass};
-pub use devices::{DeviceConsent, DeviceState};
+pub use devices::{CameraState, DeviceConsent};
+pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};
 pub use export::directive_errors;
 pub use options::{SessionError, SessionOptions};

@@ -34,6 +34,7 @@ impl Session {
         self.dialog.begin_next_project();
         self.playback.begin_next_project();
         self.devices.begin_next_project();
+        self.audio.begin_next_project();
         self.picture.begin_next_project();
         self.watched.begin_next_project();
         self.last_pictures.ticket = Ticket::default();

@@ -1,10 +1,11 @@
 //! The settings that a session starts with, and the reasons why it may not start.
 
 use super::drawing;
+use eddy_audio::host::AudioHost;
 use eddy_engine::EngineError;
 use eddy_playback::trial::TrialSettings;
 use eddy_video::CameraSource;
-use std::{path::PathBuf, time::Duration};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Holds how a session is set up. The defaults are what the window uses, but for recovery files.
 #[derive(Clone, Debug)]
@@ -38,6 +39,10 @@ pub struct SessionOptions {
     pub state_dir: Option<PathBuf>,
     /// The folder for what can be made again, as small pictures of projects; without, nothing is.
     pub cache_dir: Option<PathBuf>,
+    /// The sound of the machine; without, nothing is heard and nothing recorded.
+    pub audio: Option<Arc<dyn AudioHost>>,
+    /// Open devices of sound on threads of their own, so that no tick waits for one. Off, ticks open them.
+    pub audio_on_thread: bool,
 }
 
 impl Default for SessionOptions {
@@ -55,6 +60,8 @@ impl Default for SessionOptions {
             trials: None,
             state_dir: None,
             cache_dir: None,
+            audio: None,
+            audio_on_thread: true,
         }
     }
 }

@@ -4,6 +4,7 @@
 use super::{
     SessionError, SessionOptions,
     analysis::Analyst,
+    audio::Audio,
     audit::Auditing,
     canvas::Canvas,
     command::{PendingAction, Question, Request},
@@ -52,6 +53,7 @@ pub struct Session {
     pub(super) last_pictures: LastPictures,
     pub(super) playback: Playback,
     pub(super) devices: Devices,
+    pub(super) audio: Audio,
     pub(super) picture: Picture,
     pub(super) watched: ReadBacks,
     pub(super) tracing: Tracing,
@@ -150,6 +152,7 @@ impl Session {
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             playback: Playback::default(),
             devices: Devices::default(),
+            audio: Audio::new(options.audio.clone(), options.audio_on_thread),
             picture: Picture::default(),
             watched: ReadBacks::default(),
             tracing,

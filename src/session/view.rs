@@ -62,6 +62,10 @@ pub enum About {
     Again,
     /// A recording that is played.
     Replay,
+    /// A device that plays sound.
+    Sound,
+    /// A device that records it.
+    Microphone,
     /// A project that was to be written for the site.
     Export,
     /// A camera.

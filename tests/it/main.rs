@@ -84,6 +84,9 @@ mod session_media;
 mod session_sound;
 mod session_videos;
 mod sound;
+mod sound_devices;
+#[cfg(all(feature = "audio", target_os = "linux"))]
+mod sound_server;
 mod thumbnails;
 mod time_travel;
 mod uniform_values;

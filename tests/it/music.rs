@@ -74,6 +74,19 @@ fn without_a_file_the_spectrum_is_the_sites_own() {
 }
 
 #[test]
+fn a_microphone_that_nobody_records_is_the_sites_own_spectrum_too() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    project(&b, "{ microphone = true }");
+    let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
+    assert!(run.err.contains("iChannel0 of Image: the microphone is not recorded"), "{}", run.err);
+    let shown = b.npy("p.npy");
+    let level = (0.75 + 0.25 * (1000.0 + 13.0 * 0.5_f64).sin()) * (-3.0 * 100.0 / 512.0_f64).exp();
+    assert!((f64::from(shown.at(100, 0)[0]) - level).abs() < 1.0 / 255.0);
+    assert_eq!(shown.at(9, 2), [10.5, 512.0, 2.0, 1.0]);
+}
+
+#[test]
 fn a_damaged_file_is_named_with_the_mend() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("p/bad.mp3", [7; 4000]);

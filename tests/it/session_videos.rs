@@ -4,7 +4,7 @@
 use crate::support::{self, skipped, stage::*};
 use eddy::{
     project::InputKind,
-    session::{Command, DeviceState, Level, SessionOptions},
+    session::{CameraState, Command, Level, SessionOptions},
     video::CameraSource,
 };
 use image::{
@@ -89,26 +89,26 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
     stage.for_a_while();
     assert_eq!(
         (stage.session.device_state(webcam), stage.red()),
-        (DeviceState::Off, 0),
+        (CameraState::Off, 0),
         "a project alone turns nothing on"
     );
     stage.session.apply(Command::UseDevice { kind: webcam, on: true });
-    stage.until("the camera is on", |s| s.device_state(webcam) == DeviceState::On);
+    stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 24);
     stage.session.apply(Command::UseDevice { kind: webcam, on: false });
-    assert_eq!(stage.session.device_state(webcam), DeviceState::Off);
+    assert_eq!(stage.session.device_state(webcam), CameraState::Off);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 0);
     stage.session.apply(Command::UseDevice { kind: webcam, on: true });
-    stage.until("the camera is on", |s| s.device_state(webcam) == DeviceState::On);
+    stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
     // Another project asks again, even the same one.
     stage.session.apply(Command::Open(folder));
-    stage.until("another project", |s| s.device_state(webcam) == DeviceState::Off);
+    stage.until("another project", |s| s.device_state(webcam) == CameraState::Off);
     stage.for_a_while();
-    assert_eq!(stage.session.device_state(webcam), DeviceState::Off);
+    assert_eq!(stage.session.device_state(webcam), CameraState::Off);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn a_camera_that_is_not_there_is_told_of() {
     let camera = CameraSource::of_text("/dev/video-of-nobody");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
     stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
-    stage.until("it is off again", |s| s.device_state(InputKind::Webcam) == DeviceState::Off);
+    stage.until("it is off again", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
     let said = stage.notices(Level::Warning);
     assert!(said.iter().any(|text| text.contains("camera")), "{said:?}");
 }

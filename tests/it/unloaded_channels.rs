@@ -33,11 +33,7 @@ const DEEP_READS: &[&str] = &[
 /// music has a spectrum all the same, and a webcam without a camera is as large as on the site.
 fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
-    let inputs = [
-        Input::Device(InputKind::Microphone),
-        Input::Media { kind: InputKind::Video, media: file() },
-        Input::texture(file()),
-    ];
+    let inputs = [Input::Media { kind: InputKind::Video, media: file() }, Input::texture(file())];
     [None].into_iter().chain(inputs.map(Some)).collect()
 }
 

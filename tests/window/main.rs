@@ -27,6 +27,8 @@ mod window_resolution;
 mod window_save;
 mod window_settings;
 mod window_slow;
+#[cfg(all(feature = "audio", target_os = "linux"))]
+mod window_sound;
 mod window_state;
 // The portal is spoken to by a library that only the window needs.
 #[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]

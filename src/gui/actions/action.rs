@@ -37,6 +37,9 @@ pub enum Action {
     Screenshot,
     SaveTexels,
     Record,
+    Mute,
+    /// Switches the microphone on or off for channels that read it.
+    Microphone,
     /// Chooses a recording, whose input is played.
     PlayRecording,
     StopReplay,

@@ -118,6 +118,9 @@ pub const ACTIONS: &[Entry] = &[
     time(TimeAction::LoopTo, "loop-to", "Set loop end", &["Alt+]"]).found_by("repeat range out"),
     time(TimeAction::LoopOff, "loop-off", "Clear loop", &[]),
     time(TimeAction::KeepInputs, "keep-inputs", "Toggle replay to this frame after an edit", &[]),
+    row(Action::Mute, "mute", "Toggle mute", &["Alt+M"], Group::Picture).found_by("sound audio volume silence speaker"),
+    row(Action::Microphone, "microphone", "Toggle microphone", &[], Group::Picture)
+        .found_by("sound audio record input"),
     row(Action::CompileOnSave, "compile-on-save", "Toggle compile on save only", &[], Group::Picture)
         .found_by("automatic live debounce"),
     row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture)

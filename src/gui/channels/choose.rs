@@ -11,7 +11,7 @@ use crate::{
     },
     media,
     project::{Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap},
-    session::Command,
+    session::{Command, Session},
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 
@@ -60,12 +60,18 @@ pub fn choose(
         if out.clicked("choose:file", &ui.button("Image or video file…")) {
             out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
         }
+        if out.clicked("choose:sound", &ui.button("Music…")) {
+            out.shell_commands.push(ShellCommand::Pick(Pick::Sound { channel: index }));
+        }
     });
     if now.is_some_and(|input| input.kind() == InputKind::Webcam) {
         devices::choose(ui, session, out);
     }
     if let Some(channel) = channel {
         sampler(ui, channel, out, set);
+    }
+    if now.is_some_and(|input| input.kind() == InputKind::Microphone) {
+        microphone(ui, session, out);
     }
     ui.separator();
     ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
@@ -88,6 +94,21 @@ pub fn choose(
                 }
             });
         }
+    });
+}
+
+/// The switch of the microphone, which no project turns on.
+fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+    let Some(view) = session.microphone_view() else { return };
+    let (text, note) = match view.is_on {
+        true => ("Turn the microphone off", "The microphone is on."),
+        false => ("Use the microphone", "The microphone is off: the channel shows a made-up spectrum."),
+    };
+    ui.horizontal_wrapped(|ui| {
+        if out.clicked("choose:use-microphone", &ui.button(text)) {
+            out.ask(Command::UseMicrophone(!view.is_on));
+        }
+        ui.colored_label(theme::of(ui).weak, note);
     });
 }
 

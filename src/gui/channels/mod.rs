@@ -3,6 +3,7 @@
 mod choose;
 mod live;
 mod names;
+mod sound;
 mod swatch;
 
 pub use live::Live;

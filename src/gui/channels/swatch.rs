@@ -1,6 +1,6 @@
 //! The small picture of an input.
 
-use super::Live;
+use super::{Live, sound};
 use crate::{
     gui::{
         theme,
@@ -34,7 +34,9 @@ impl Swatches<'_> {
             ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
             return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
         }
-        swatch(ui, self.session, place, input, self.thumbnails);
+        if !sound::show(ui, self.session, place, input) {
+            swatch(ui, self.session, place, input, self.thumbnails);
+        }
     }
 }
 

@@ -116,7 +116,7 @@ mod tests {
     fn settings_are_read_and_every_mistake_is_told_at_its_line() {
         let (settings, mistakes) = read(
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
-             code-font = \"/a/b.ttf\"\n",
+             code-font = \"/a/b.ttf\"\nvolume = 0.25\nmute = true\naudio-output = \"Speakers\"\naudio-input = \"\"\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -127,6 +127,10 @@ mod tests {
             compile_on_save: false,
             word_wrap: true,
             frame_timeout: Duration::from_millis(500),
+            volume: 0.25,
+            mute: true,
+            audio_output: Some("Speakers".into()),
+            audio_input: None,
         };
         assert_eq!(settings, wanted);
         let text =
@@ -134,7 +138,8 @@ mod tests {
         let (settings, mistakes) = read(text);
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
-        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout";
+        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, volume, mute, \
+                   audio-output, audio-input";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),

@@ -48,6 +48,12 @@ pub struct Settings {
     pub compile_on_save: bool,
     /// A frame that takes longer pauses the picture.
     pub frame_timeout: Duration,
+    /// The volume, from 0 to 1.
+    pub volume: f32,
+    pub mute: bool,
+    /// The devices that play and record, by name; none: the system's default ones.
+    pub audio_output: Option<String>,
+    pub audio_input: Option<String>,
 }
 
 pub const ZOOMS: std::ops::RangeInclusive<f32> = 0.5..=4.0;
@@ -64,6 +70,10 @@ impl Default for Settings {
             word_wrap: false,
             compile_on_save: false,
             frame_timeout: Duration::from_secs(2),
+            volume: 1.0,
+            mute: false,
+            audio_output: None,
+            audio_input: None,
         }
     }
 }
@@ -79,6 +89,11 @@ pub enum Change {
     WordWrap(bool),
     CompileOnSave(bool),
     FrameTimeout(Duration),
+    Volume(f32),
+    Mute(bool),
+    /// The name of a device; none: the system's default one.
+    AudioOutput(Option<String>),
+    AudioInput(Option<String>),
 }
 
 impl Change {
@@ -95,6 +110,10 @@ impl Change {
             Change::WordWrap(on) => ("word-wrap", (*on).into()),
             Change::CompileOnSave(on) => ("compile-on-save", (*on).into()),
             Change::FrameTimeout(limit) => ("frame-timeout", short(limit.as_secs_f64())),
+            Change::Volume(volume) => ("volume", number(volume.clamp(0.0, 1.0))),
+            Change::Mute(on) => ("mute", (*on).into()),
+            Change::AudioOutput(device) => ("audio-output", device.as_deref().unwrap_or_default().into()),
+            Change::AudioInput(device) => ("audio-input", device.as_deref().unwrap_or_default().into()),
         }
     }
 
@@ -107,6 +126,10 @@ impl Change {
             Change::WordWrap(on) => settings.word_wrap = *on,
             Change::CompileOnSave(on) => settings.compile_on_save = *on,
             Change::FrameTimeout(limit) => settings.frame_timeout = *limit,
+            Change::Volume(volume) => settings.volume = volume.clamp(0.0, 1.0),
+            Change::Mute(on) => settings.mute = *on,
+            Change::AudioOutput(device) => settings.audio_output.clone_from(device),
+            Change::AudioInput(device) => settings.audio_input.clone_from(device),
         }
     }
 }
@@ -121,6 +144,13 @@ pub enum Control {
     Number(Number),
     /// The file of a font.
     Font,
+    /// A device of sound.
+    Device {
+        /// It records, and does not play.
+        is_input: bool,
+        get: fn(&Settings) -> Option<&str>,
+        change: fn(Option<String>) -> Change,
+    },
 }
 
 pub struct Number {
@@ -245,7 +275,75 @@ pub const KEYS: &[Key] = &[
             Ok(Change::FrameTimeout(Duration::from_secs_f64(secs)))
         },
     },
+    Key {
+        name: "volume",
+        title: "Volume",
+        help: "How loud music and the sound pass are",
+        control: Control::Number(Number {
+            get: |settings| f64::from(settings.volume) * 100.0,
+            change: |percent| Change::Volume((percent / 100.0) as f32),
+            least: 0.0,
+            most: 100.0,
+            step: 10.0,
+            unit: " %",
+        }),
+        about: "Volume, from 0 to 1",
+        usual: "1.0",
+        read: |settings, value| {
+            settings.volume = number(value, &(0.0..=1.0))?;
+            Ok(())
+        },
+    },
+    Key {
+        name: "mute",
+        title: "Mute",
+        help: "Play no sound",
+        control: Control::Switch { get: |settings| settings.mute, change: Change::Mute },
+        about: "Play no sound: true or false",
+        usual: "false",
+        read: |settings, value| {
+            settings.mute = value.as_bool().ok_or("must be true or false")?;
+            Ok(())
+        },
+    },
+    Key {
+        name: "audio-output",
+        title: "Sound output",
+        help: "The device that plays",
+        control: Control::Device {
+            is_input: false,
+            get: |settings| settings.audio_output.as_deref(),
+            change: Change::AudioOutput,
+        },
+        about: "Name of the device that plays; \"\" for the default of the system",
+        usual: "\"\"",
+        read: |settings, value| {
+            settings.audio_output = device(value)?;
+            Ok(())
+        },
+    },
+    Key {
+        name: "audio-input",
+        title: "Microphone",
+        help: "The device that channels with the microphone read, once you switch it on",
+        control: Control::Device {
+            is_input: true,
+            get: |settings| settings.audio_input.as_deref(),
+            change: Change::AudioInput,
+        },
+        about: "Name of the device that records; \"\" for the default of the system",
+        usual: "\"\"",
+        read: |settings, value| {
+            settings.audio_input = device(value)?;
+            Ok(())
+        },
+    },
 ];
+
+fn device(value: &Value) -> Result<Option<String>, String> {
+    let name = value.as_str().ok_or("must be the name of a device, or \"\" for the default of the system")?;
+    Ok((!name.is_empty()).then(|| name.to_owned()))
+}
 
 impl Key {
     /// Returns whether a setting is as it is without the file.
@@ -264,6 +362,7 @@ impl Key {
             Control::Switch { get, change } => change(get(settings)),
             Control::Number(number) => (number.change)((number.get)(settings)),
             Control::Font => Change::CodeFont(settings.code_font.clone()),
+            Control::Device { get, change, .. } => change(get(settings).map(str::to_owned)),
         }
     }
 }
@@ -297,6 +396,7 @@ mod tests {
                 Control::Switch { change, .. } => vec![change(true), change(false)],
                 Control::Number(number) => [number.least, number.most].map(number.change).to_vec(),
                 Control::Font => vec![Change::CodeFont(Some("/a b/\"c\".ttf".into())), Change::CodeFont(None)],
+                Control::Device { change, .. } => vec![change(Some("Loud \"speakers\" 5.1".into())), change(None)],
             };
             for change in changes {
                 let (name, value) = change.written();

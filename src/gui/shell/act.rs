@@ -59,6 +59,18 @@ impl Shell {
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
             Action::Record => out.ask(Command::Record),
+            Action::Mute => {
+                let on = self.settings.settings().mute;
+                self.change(Change::Mute(!on), out);
+            }
+            Action::Microphone => match session.microphone_view() {
+                Some(view) if view.is_on || view.is_read => out.ask(Command::UseMicrophone(!view.is_on)),
+                _ => out.ask(Command::Notify {
+                    level: Level::Info,
+                    text: "No channel reads the microphone: choose it as the input of a channel first.".into(),
+                    path: None,
+                }),
+            },
             Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
             Action::StopReplay => out.ask(Command::StopReplay),
             Action::SaveMeasures => out.ask(Command::SaveMeasures),

@@ -249,7 +249,8 @@ impl Shell {
             self.help = None;
         }
         let Self { settings, keeps_frame_limit, page_of_settings, .. } = self;
-        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, settings, *keeps_frame_limit, &mut out)) {
+        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, *keeps_frame_limit, &mut out))
+        {
             self.page_of_settings = None;
         }
         let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
@@ -305,6 +306,10 @@ impl Shell {
         {
             commands.push(Command::Notify { level: Level::Error, text, path: None });
         }
+        commands.push(Command::SetVolume(settings.volume));
+        commands.push(Command::SetMute(settings.mute));
+        commands.push(Command::SetAudioOutput(settings.audio_output.clone()));
+        commands.push(Command::SetAudioInput(settings.audio_input.clone()));
         commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));
@@ -491,7 +496,7 @@ impl Shell {
                     self.change(change, out);
                 }
             }
-            Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
+            Pick::Picture { channel } | Pick::Sound { channel } => self.bring(vec![path], Some(channel), out),
         }
     }
 }

@@ -99,6 +99,17 @@ impl Shell {
             report.say_if_new("focus", json!({ "widget": focused }));
         }
         report.layout(window, transport.resolution, scale, &self.places.areas(scale));
+        if let Some(sound) = session.output_view() {
+            let microphone = session.microphone_view();
+            let sound = json!({
+                "has_sound": sound.has_sound,
+                "muted": sound.is_muted,
+                "volume": sound.volume,
+                "device": format!("{:?}", sound.device),
+                "microphone": microphone.is_some_and(|view| view.is_on),
+            });
+            report.say_if_new("sound", sound);
+        }
         let frame = json!({
             "frame": transport.frame,
             "time": transport.time_secs,

@@ -6,10 +6,12 @@
 //! {"time":0.016,"delta":0.016,"mouse":[320,180,320,180],"held":[32],"pressed":[32],"toggled":[32]}
 //! ```
 //!
+//! `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none.
 //! A member that is left out is as in the line before; `frame` counts up by itself, `reset` is left out where it is
 //! false. Members that a later version of Eddy adds are passed over.
 
-use super::{RecordedFrame, Recording};
+use super::{RecordedFrame, Recording, base64};
+use eddy_audio::Spectrum;
 use eddy_engine::FrameInputs;
 use eddy_media::Keyboard;
 use eddy_project::{
@@ -17,7 +19,10 @@ use eddy_project::{
     limits::{self, Limit, in_bytes},
 };
 use serde::{Deserialize, Serialize};
-use std::io::{self, BufRead, Write};
+use std::{
+    io::{self, BufRead, Write},
+    sync::Arc,
+};
 
 /// The extension of the files' names.
 pub const EXTENSION: &str = eddy_project::RECORDING;
@@ -60,6 +65,8 @@ struct Line {
     pressed: Option<Vec<u8>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     toggled: Option<Vec<u8>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mic: Option<String>,
     /// All that are not at their defaults.
     #[serde(skip_serializing_if = "Option::is_none")]
     set: Option<serde_json::Map<String, serde_json::Value>>,
@@ -148,9 +155,11 @@ impl Recording {
             }
             let read: Line = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
             let has_keys = [&read.held, &read.pressed, &read.toggled].iter().any(|keys| keys.is_some());
+            let has_spectrum = read.mic.is_some();
             let frame = read.onto(frames.last()).map_err(wrong)?;
             // A line says what is new, and a frame holds everything: few bytes of a file can be very many here.
-            held += bytes_of(&frame) + if has_keys { KEYS } else { 0 };
+            let spectrum = if has_spectrum { size_of::<Spectrum>() as u64 } else { 0 };
+            held += bytes_of(&frame) + spectrum + if has_keys { KEYS } else { 0 };
             if held > most {
                 return Err(ReadError::TooMany { line: index + 2, most });
             }
@@ -195,6 +204,8 @@ impl Line {
             held: keys(0),
             pressed: keys(1),
             toggled: keys(2),
+            mic: new(Some(earlier.and_then(|i| i.microphone.as_ref())), inputs.microphone.as_ref())
+                .map(|spectrum| spectrum.map_or_else(String::new, |spectrum| base64::encode(&**spectrum))),
             set: new(before.map(values).or_else(|| Some(CustomUniformValues::new())), values(now))
                 .map(|values| values.into_iter().map(|(name, value)| (name, written(&value))).collect()),
         }
@@ -222,6 +233,9 @@ impl Line {
                 inputs.keyboard.set_row(row, &codes);
             }
         }
+        if let Some(text) = self.mic {
+            inputs.microphone = spectrum(&text)?;
+        }
         frame.reset = self.reset;
         frame.size = self.size.or(before.map(|before| before.size)).ok_or("the first frame has no `size`")?;
         if frame.size.0 == 0 || frame.size.1 == 0 {
@@ -236,6 +250,16 @@ impl Line {
         }
         Ok(frame)
     }
+}
+
+/// Returns what the microphone's texture holds by its text.
+fn spectrum(text: &str) -> Result<Option<Arc<Spectrum>>, String> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let bytes = base64::decode(text).and_then(|bytes| Spectrum::try_from(bytes).ok());
+    let bytes = bytes.ok_or_else(|| format!("`mic` must be {} bytes in base64", size_of::<Spectrum>()))?;
+    Ok(Some(Arc::new(bytes)))
 }
 
 /// Returns the bytes that a frame takes, about.

@@ -47,6 +47,7 @@ fn a_recording_comes_back_bit_for_bit() {
             frame(2, |f| {
                 f.inputs.keyboard = after;
                 f.inputs.mouse = [7.0, 9.0, -7.0, 9.0];
+                f.inputs.microphone = Some(std::sync::Arc::new(std::array::from_fn(|n| n as u8)));
                 f.size = (333, 187);
             }),
             frame(0, |f| f.reset = true),
@@ -117,4 +118,24 @@ fn few_bytes_that_become_very_many_frames_are_refused() {
     let endless = std::io::BufReader::new(std::io::repeat(b' '));
     let said = Recording::read_within(endless, limit, 1 << 20).unwrap_err().to_string();
     assert!(said.contains("it is larger than 20 MiB"), "{said}");
+}
+
+/// Its texture is kept with each frame that it changes in, and gone where it is switched off.
+#[test]
+fn the_microphone_comes_back() {
+    let heard = |byte: u8| Some(std::sync::Arc::new([byte; 1024]));
+    let all = [None, heard(7), heard(7), heard(255), None, None];
+    let frames = all.iter().enumerate().map(|(n, heard)| frame(n as i32, |f| f.inputs.microphone.clone_from(heard)));
+    let recording = Recording { project: String::new(), frames: frames.collect() };
+    let (text, read) = there_and_back(&recording);
+    assert_eq!(read, recording);
+    assert_eq!(text.matches("\"mic\"").count(), 3, "where it changes");
+    for wrong in ["AAAA", "?", "AAA"] {
+        let text = format!(
+            "{{\"eddy_recording\":1}}\n{{\"time\":0,\"delta\":0.01,\"rate\":60,\"size\":[4,4],\"mouse\":[0,0,0,0],\
+             \"date\":[0,0,0,0],\"mic\":\"{wrong}\"}}"
+        );
+        let error = Recording::read(text.as_bytes()).unwrap_err().to_string();
+        assert_eq!(error, "line 2: `mic` must be 1024 bytes in base64");
+    }
 }

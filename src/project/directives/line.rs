@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, has_video_ending,
+    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -59,9 +59,12 @@ fn is_glsl(path: &str) -> bool {
 pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
     // Which kind it is stands in its ending; an animated image plays where a `Type` line says so.
     let picture = |path: &str| {
-        let media = Media::File(PathBuf::from(path));
-        let kind = if has_video_ending(Path::new(path)) { InputKind::Video } else { InputKind::Texture };
-        Some(Channel::new(Input::Media { kind, media }))
+        let kind = match kind_of_file(Path::new(path)) {
+            FileKind::Video => InputKind::Video,
+            FileKind::Sound => InputKind::Music,
+            _ => InputKind::Texture,
+        };
+        Some(Channel::new(Input::Media { kind, media: Media::File(PathBuf::from(path)) }))
     };
     if let Some(name) = value.strip_prefix("builtin://") {
         return Some(Channel::new(Input::texture(Media::Builtin(name.to_owned()))));
@@ -122,8 +125,8 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
     diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \
-        \"builtin://noise-rgba-256\"",
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"microphone\", \"file://pic.png\", \
+        \"file://song.mp3\" or \"builtin://noise-rgba-256\"",
     ));
     None
 }

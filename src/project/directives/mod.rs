@@ -13,6 +13,8 @@
 //! #iChannel2 "clip.mp4"               // a video, by its ending
 //! #iChannel2::Type "Video"            // plays an animated image, too
 //! #iChannel2 "webcam"
+//! #iChannel2 "file://song.mp3"        // music, by its ending; also "song.mp3"
+//! #iChannel2 "microphone"
 //! #iChannel3 "builtin://noise-rgba-256"
 //! #iChannel3::MinFilter "NearestMipMapLinear"   // anything with MipMap: linear, between mip levels too
 //! #iChannel3::MagFilter "Nearest"

@@ -2,7 +2,7 @@
 
 use super::{read::Declared, *};
 use crate::{Channel, PassId};
-use crate::{Filter, Input, Media, Sampler, Wrap};
+use crate::{Filter, Input, InputKind, Media, Sampler, Wrap};
 use eddy_diag::SourceId;
 
 /// Reads a text of Buffer A, beside which Buffer B and Image are.
@@ -38,6 +38,15 @@ fn directives_name_inputs_and_samplers() {
     );
     assert_eq!(c[2].as_ref().unwrap().input, Input::KEYBOARD);
     assert_eq!(c[3].as_ref().unwrap().input, Input::buffer("B"));
+}
+
+#[test]
+fn music_is_known_by_its_ending() {
+    let c = channels("#iChannel0 \"file://sub/song.MP3\"\n#iChannel1 \"tune.ogg\"\n#iChannel2 \"Microphone\"\n");
+    let music = |path: &str| Input::Media { kind: InputKind::Music, media: Media::File(path.into()) };
+    let read = c.map(|channel| channel.map(|channel| channel.input));
+    let microphone = Input::Device(InputKind::Microphone);
+    assert_eq!(read, [Some(music("sub/song.MP3")), Some(music("tune.ogg")), Some(microphone), None]);
 }
 
 #[test]

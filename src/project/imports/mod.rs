@@ -25,7 +25,7 @@ pub enum FileKind {
     Recording,
     /// A channel plays it.
     Video,
-    /// A channel plays it where `eddy.toml` says so.
+    /// A channel reads it as music.
     Sound,
     Unknown,
 }
@@ -38,13 +38,8 @@ pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 pub const RECORDING: &str = "replay";
 /// Endings of videos that a channel can play. Animated images have those of images.
 pub const VIDEOS: [&str; 9] = ["mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg", "mpeg"];
-const SOUNDS: [&str; 7] = ["mp3", "ogg", "wav", "flac", "m4a", "aac", "opus"];
-
-/// Returns whether a file is a video by its ending alone.
-pub fn has_video_ending(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    VIDEOS.iter().any(|e| extension.eq_ignore_ascii_case(e))
-}
+/// Endings of sounds that a channel can read as music.
+pub const SOUNDS: [&str; 10] = ["mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff"];
 
 /// Says by its name what a file is; whether it is a folder is asked of the disk.
 pub fn kind_of_file(path: &Path) -> FileKind {
@@ -60,10 +55,10 @@ pub fn kind_of_file(path: &Path) -> FileKind {
         FileKind::Model
     } else if is_one_of(&[RECORDING]) {
         FileKind::Recording
-    } else if has_video_ending(path) {
-        FileKind::Video
     } else if is_one_of(&SOUNDS) {
         FileKind::Sound
+    } else if is_one_of(&VIDEOS) {
+        FileKind::Video
     } else {
         FileKind::Unknown
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Input, Origin, PassId};
+use crate::{Input, InputKind, Media, Origin, PassId};
 
 const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
     {"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],
@@ -85,6 +85,7 @@ fn files_are_known_by_their_names() {
         ("run-0001.replay", FileKind::Recording),
         ("a.mp3", FileKind::Sound),
         ("a.MP4", FileKind::Video),
+        ("a.OGG", FileKind::Sound),
         ("a.docx", FileKind::Unknown),
         ("a", FileKind::Unknown),
     ] {
@@ -118,6 +119,9 @@ fn a_picture_goes_where_it_is_read_and_never_over_what_is_there() {
         project.read_picture(&PassId::Image, channel, Path::new("/there/photo.png"));
     }
     assert_eq!(project.free_channel(&PassId::Image), None);
+    project.read_sound(&PassId::Image, 2, Path::new("/there/song.mp3"));
+    let input = project.pass(&PassId::Image).unwrap().channels[2].as_ref().unwrap().input.clone();
+    assert_eq!((input.kind(), input.media()), (InputKind::Music, Some(&Media::Picked("/there/song.mp3".into()))));
 }
 
 #[test]

@@ -105,9 +105,18 @@ impl Project {
 
     /// Lets a channel play a video.
     pub fn read_video(&mut self, id: &PassId, channel: usize, video: &Path) {
+        self.read_picked(InputKind::Video, id, channel, video);
+    }
+
+    /// Lets a channel read a sound as music.
+    pub fn read_sound(&mut self, id: &PassId, channel: usize, sound: &Path) {
+        self.read_picked(InputKind::Music, id, channel, sound);
+    }
+
+    fn read_picked(&mut self, kind: InputKind, id: &PassId, channel: usize, path: &Path) {
         if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            let media = Media::Picked(video.to_owned());
-            *slot = Some(Channel::new(Input::Media { kind: InputKind::Video, media }));
+            let media = Media::Picked(path.to_owned());
+            *slot = Some(Channel::new(Input::Media { kind, media }));
         }
     }
 

@@ -1,6 +1,7 @@
 //! The compile worker reads a project's media and builds its program.
 
 use crate::{
+    audio::{ChannelSound, sounds},
     disk::stamps::{Stamp, Stamps},
     drawing::Device,
     options::SessionOptions,
@@ -66,6 +67,8 @@ pub struct Compiled {
     pub probe: Option<Result<ProbedValue, String>>,
     /// The sound that it leads to.
     pub heard: Heard,
+    /// The music that its channels name.
+    pub sounds: Vec<ChannelSound>,
 }
 
 /// A compile that takes no longer than this is not felt, whatever is typed meanwhile.
@@ -139,7 +142,8 @@ pub fn work(
         let diagnostics = found.iter().map(|d| TabDiagnostic::new(d, &sources, &job.project)).collect();
         let includes = job.include_edit.map(|edit| (edit, job.project.includes.clone()));
         let Job { project, is_fallback, .. } = job;
-        let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe, heard };
+        let sounds = sounds(&project, &media.set);
+        let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds };
         Ok(Done { files, is_changed: false, includes, compiled: Some(compiled) })
     }
 }

@@ -33,6 +33,7 @@ impl Session {
         self.tick_sound();
         self.fit_canvas();
         self.keep_unsaved();
+        self.hear();
         self.follow_measures();
         self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.
@@ -42,6 +43,7 @@ impl Session {
             frame_drawn |= self.draw_due_frames(true);
         }
         frame_drawn |= std::mem::take(&mut self.picture.has_drawn);
+        self.play_sound();
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
@@ -167,7 +169,7 @@ impl Session {
     }
 
     fn take_program(&mut self, compiled: Compiled) {
-        let Compiled { project, is_fallback, program, diagnostics, took, probe, heard } = compiled;
+        let Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
             self.follow_sound(&project, heard);
@@ -184,6 +186,7 @@ impl Session {
         if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
             self.compile.succeed(millis);
         }
+        self.audio.expect(sounds);
         self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
         // They may have been turned while it was being compiled.

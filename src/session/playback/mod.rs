@@ -14,6 +14,7 @@ pub use replay::{Reading, Replay, ReplayView, ReplayedFrame, name};
 pub use seek::{Goal, Reach, Seeking, TimeRange};
 
 use clock::{Clock, FrameTime};
+use eddy_audio::Line;
 use eddy_engine::FrameInputs;
 use eddy_media::Keyboard;
 use eddy_playback::{date, mouse::Mouse};
@@ -58,6 +59,19 @@ impl Playback {
     /// Time runs, or will once the time that is sought is reached.
     pub fn is_playing(&self) -> bool {
         self.clock.is_playing() || self.seeking.resumes
+    }
+
+    /// Returns how `iTime` runs, while it does: for what is heard with the picture.
+    pub fn line(&self) -> Option<Line> {
+        if !self.is_running() || self.is_seeking() {
+            return None;
+        }
+        let speed = self.clock.speed();
+        let (at, secs) = match &self.replay.playing {
+            Some(playing) => playing.anchor()?,
+            None => self.clock.anchor()?,
+        };
+        Some(Line { at, secs, speed })
     }
 
     /// Nothing but what is done to the project or the window changes the picture.
@@ -184,6 +198,8 @@ impl Playback {
             drag: self.mouse.dragged(),
             date: date::i_date(date::now()),
             keyboard: self.keyboard.clone(),
+            // Who hears it says so.
+            microphone: None,
         };
         self.keyboard.frame_painted();
         inputs

@@ -108,6 +108,11 @@ impl Playing {
         Self { file, recording, next: 0, run: 0, anchor: None, newest: None, in_tick: (None, 0) }
     }
 
+    /// Returns a time and the recorded time that belongs to it, while frames are drawn.
+    pub fn anchor(&self) -> Option<(Instant, f64)> {
+        self.anchor.filter(|_| !self.is_over())
+    }
+
     pub fn view(&self) -> ReplayView {
         ReplayView { file: self.file.clone(), drawn: self.next, frames: self.recording.frames.len() }
     }

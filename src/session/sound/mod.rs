@@ -172,6 +172,8 @@ pub(super) struct Sounding {
     trouble: Option<String>,
     /// Revision and blocks made, as the front end was told.
     seen: (u64, usize),
+    /// Revision of the track that the player has.
+    played: Option<u64>,
     /// A thread was given up and may be at work still.
     has_lost: bool,
 }
@@ -203,6 +205,7 @@ impl Sounding {
             pending: None,
             trouble: None,
             seen: (0, 0),
+            played: None,
             has_lost: false,
         }
     }
@@ -366,6 +369,11 @@ impl Session {
             self.changed = true;
         }
         self.changed |= self.sounding.take_changed();
+        let track = self.sound_track();
+        let revision = track.as_ref().map(|(revision, _)| *revision);
+        if std::mem::replace(&mut self.sounding.played, revision) != revision {
+            self.play_track(track);
+        }
     }
 
     /// The next moment in which a step of the sound may have taken too long.

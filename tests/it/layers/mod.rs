@@ -64,8 +64,8 @@ const CRATES: &[(&[&str], &[&str])] = &[
 ];
 
 /// Names through which the world outside gets in, and the layers that may not use them. Durations may be measured
-/// (`Instant`) by who reports them: a front end and the lab. The time of day is read in `playback` and `session`, and the lab,
-/// whose results two machines shall share, asks for no environment.
+/// (`Instant`) by who reports them, a front end and the lab; the devices of `audio` run by them. The time of day is read in
+/// `playback` and `session`, and the lab, whose results two machines shall share, asks for no environment.
 const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["SystemTime", "Zoned"],
@@ -88,7 +88,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["audio", "texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
+    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
     (&["env"], &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
     (
         &["fs", "File", "OpenOptions"],

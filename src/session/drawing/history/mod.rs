@@ -30,6 +30,8 @@ const SHORT: u64 = 8;
 const LOOKED_THROUGH: u64 = 16;
 /// Frames whose inputs are kept: 73 minutes at 60 a second, 40 MiB.
 const KEPT: usize = 1 << 18;
+/// The same while frames have the microphone's texture, 1 KiB each: 18 minutes, 70 MiB.
+const KEPT_HEARD: usize = 1 << 16;
 
 /// The way to a goal, or a part of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,7 +144,8 @@ impl History {
         }
         self.again.drop_behind(self.drawn);
         self.keep(engine, self.interval());
-        self.forget(KEPT);
+        let hears = self.frames.back().is_some_and(|frame| frame.inputs.microphone.is_some());
+        self.forget(if hears { KEPT_HEARD } else { KEPT });
         Ok(())
     }
 

@@ -93,6 +93,12 @@ impl Clock {
         self.is_playing = false;
     }
 
+    /// Returns a time and the `iTime` that belongs to it. `None` before the first frame after a pause, and where frames
+    /// take the same time however long they really take.
+    pub fn anchor(&self) -> Option<(Instant, f64)> {
+        self.anchor.filter(|_| self.is_playing && self.fixed_rate.is_none())
+    }
+
     /// Time and frame number to zero. Playing or paused, speed and step stay as they are.
     pub fn reset(&mut self) {
         let Self { is_playing, speed, fixed_rate, .. } = *self;

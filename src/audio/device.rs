@@ -1,0 +1,348 @@
+//! The devices of the machine, by cpal.
+
+use crate::{
+    SAMPLE_RATE,
+    host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened, Take},
+};
+use cpal::{
+    BufferSize, Data, ErrorKind, FromSample, OutputStreamTimestamp, SampleFormat, SizedSample, StreamConfig,
+    StreamInstant, SupportedBufferSize, SupportedStreamConfig,
+    traits::{DeviceTrait, HostTrait, StreamTrait},
+};
+use std::time::{Duration, Instant};
+
+/// Samples that are converted at a time.
+const CONVERTED: usize = 4096;
+/// A device that takes sound so much faster than it is heard is none that anybody hears (ALSA's "null"): it is held back,
+/// so that it does not take a whole processor.
+const AHEAD: Duration = Duration::from_secs(3);
+/// Buffers of a device in a second, of which two are filled ahead.
+const BUFFERS_A_SECOND: u32 = 20;
+/// Errors that go on for so long end a stream.
+const TROUBLE: Duration = Duration::from_secs(2);
+/// ALSA's device that discards everything, which nobody chooses.
+const NULL: &str = "null";
+
+/// The sound of this machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Machine;
+
+impl AudioHost for Machine {
+    fn output(&self) -> Box<dyn AudioOut> {
+        Box::new(Machine)
+    }
+
+    fn input(&self) -> Box<dyn AudioIn> {
+        Box::new(Machine)
+    }
+}
+
+impl AudioOut for Machine {
+    fn names(&mut self) -> Vec<String> {
+        quiet();
+        names(cpal::default_host().output_devices().map(|devices| devices.collect()))
+    }
+
+    fn open(
+        &mut self,
+        name: Option<&str>,
+        fill: &mut dyn FnMut(Format) -> Fill,
+        events: Events,
+    ) -> Result<Opened, DeviceError> {
+        quiet();
+        let host = cpal::default_host();
+        let all = || host.output_devices().map(|devices| devices.collect());
+        let device = find(name, all, host.default_output_device(), "output")?;
+        let refused = |error: cpal::Error| refused(&device, &error);
+        let supported = device.default_output_config().map_err(refused)?;
+        let (format, config) = format(&supported);
+        // Long buffers are no delay: what is in them is what is to be heard then. They keep the sound going while the
+        // picture takes every processor.
+        let long = match supported.buffer_size() {
+            SupportedBufferSize::Range { min, max } => (format.rate / BUFFERS_A_SECOND).clamp(*min, (*max).max(*min)),
+            SupportedBufferSize::Unknown => format.rate / BUFFERS_A_SECOND,
+        };
+        let long = StreamConfig { buffer_size: BufferSize::Fixed(long), ..config };
+        let mut open = |config| {
+            let fill = held_back(fill(format), format);
+            let stream = output(&device, supported.sample_format(), config, format, fill, teller(events.clone()));
+            opened(&device, stream?, format)
+        };
+        open(long).or_else(|_| open(config))
+    }
+}
+
+/// Builds a stream of the device's own sample format.
+fn output(
+    device: &cpal::Device,
+    samples: SampleFormat,
+    config: StreamConfig,
+    format: Format,
+    fill: Fill,
+    told: impl FnMut(cpal::Error) + Send + 'static,
+) -> Result<Result<cpal::Stream, cpal::Error>, DeviceError> {
+    Ok(match samples {
+        SampleFormat::F32 => played::<f32>(device, config, format, fill, told),
+        SampleFormat::F64 => played::<f64>(device, config, format, fill, told),
+        SampleFormat::I8 => played::<i8>(device, config, format, fill, told),
+        SampleFormat::I16 => played::<i16>(device, config, format, fill, told),
+        SampleFormat::I24 => played::<cpal::I24>(device, config, format, fill, told),
+        SampleFormat::I32 => played::<i32>(device, config, format, fill, told),
+        SampleFormat::U8 => played::<u8>(device, config, format, fill, told),
+        SampleFormat::U16 => played::<u16>(device, config, format, fill, told),
+        SampleFormat::U32 => played::<u32>(device, config, format, fill, told),
+        other => return Err(unsupported(device, other)),
+    })
+}
+
+impl AudioIn for Machine {
+    fn names(&mut self) -> Vec<String> {
+        quiet();
+        names(cpal::default_host().input_devices().map(|devices| devices.collect()))
+    }
+
+    fn open(
+        &mut self,
+        name: Option<&str>,
+        take: &mut dyn FnMut(Format) -> Take,
+        events: Events,
+    ) -> Result<Opened, DeviceError> {
+        quiet();
+        let host = cpal::default_host();
+        let all = || host.input_devices().map(|devices| devices.collect());
+        let device = find(name, all, host.default_input_device(), "input")?;
+        let refused = |error: cpal::Error| refused(&device, &error);
+        let usual = device.default_input_config().map_err(refused)?;
+        // At the analyser's own rate where the device has that.
+        let ranges = device.supported_input_configs().ok().into_iter().flatten();
+        let ours = ranges
+            .filter(|range| range.channels() == usual.channels() && range.sample_format() == usual.sample_format())
+            .find_map(|range| range.try_with_sample_rate(SAMPLE_RATE));
+        let supported = ours.unwrap_or(usual);
+        let (format, config) = format(&supported);
+        let take = take(format);
+        let told = teller(events);
+        let stream = match supported.sample_format() {
+            SampleFormat::F32 => recorded::<f32>(&device, config, take, told),
+            SampleFormat::F64 => recorded::<f64>(&device, config, take, told),
+            SampleFormat::I8 => recorded::<i8>(&device, config, take, told),
+            SampleFormat::I16 => recorded::<i16>(&device, config, take, told),
+            SampleFormat::I24 => recorded::<cpal::I24>(&device, config, take, told),
+            SampleFormat::I32 => recorded::<i32>(&device, config, take, told),
+            SampleFormat::U8 => recorded::<u8>(&device, config, take, told),
+            SampleFormat::U16 => recorded::<u16>(&device, config, take, told),
+            SampleFormat::U32 => recorded::<u32>(&device, config, take, told),
+            other => return Err(unsupported(&device, other)),
+        };
+        opened(&device, stream, format)
+    }
+}
+
+/// Keeps what ALSA says of devices that are not there from the terminal: it is told in a notice.
+fn quiet() {
+    #[cfg(any(target_os = "linux", target_os = "dragonfly", target_os = "freebsd", target_os = "netbsd"))]
+    let _ = alsa::Output::local_error_handler();
+}
+
+fn names(devices: Result<Vec<cpal::Device>, cpal::Error>) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for device in devices.unwrap_or_default().iter().filter(|device| !is_null(device)) {
+        let name = device.to_string();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+fn is_null(device: &cpal::Device) -> bool {
+    device.id().is_ok_and(|id| id.id() == NULL)
+}
+
+fn find(
+    name: Option<&str>,
+    all: impl FnOnce() -> Result<Vec<cpal::Device>, cpal::Error>,
+    default: Option<cpal::Device>,
+    what: &'static str,
+) -> Result<cpal::Device, DeviceError> {
+    let Some(name) = name else { return default.ok_or(DeviceError::None(what)) };
+    let is_it = |device: &cpal::Device| device.to_string() == name || device.id().is_ok_and(|id| id.id() == name);
+    all().unwrap_or_default().into_iter().find(is_it).ok_or_else(|| DeviceError::Unknown(name.to_owned()))
+}
+
+fn format(supported: &SupportedStreamConfig) -> (Format, StreamConfig) {
+    let config = supported.config();
+    (Format { rate: config.sample_rate, channels: usize::from(config.channels).max(1) }, config)
+}
+
+fn refused(device: &cpal::Device, error: &cpal::Error) -> DeviceError {
+    let why = match error.kind() {
+        ErrorKind::DeviceNotAvailable => "it is not available".to_owned(),
+        ErrorKind::DeviceBusy => "another program uses it".to_owned(),
+        ErrorKind::PermissionDenied => "the system does not permit it".to_owned(),
+        _ => error.to_string().trim_end_matches('.').to_owned(),
+    };
+    DeviceError::Refused { name: device.to_string(), why }
+}
+
+fn unsupported(device: &cpal::Device, format: SampleFormat) -> DeviceError {
+    let why = format!("its sample format {format} is not supported");
+    DeviceError::Refused { name: device.to_string(), why }
+}
+
+fn opened(
+    device: &cpal::Device,
+    stream: Result<cpal::Stream, cpal::Error>,
+    format: Format,
+) -> Result<Opened, DeviceError> {
+    let stream = stream.map_err(|error| refused(device, &error))?;
+    stream.play().map_err(|error| refused(device, &error))?;
+    Ok(Opened { name: device.to_string(), format, stream: Box::new(stream) })
+}
+
+/// Returns what takes the errors of a stream. Only the first that ends it is passed on.
+///
+/// ALSA's plugin for PulseAudio fails with EIO until the server has told it of its delay, and plays on. So an error ends a
+/// stream only where it says so, or where errors follow each other for [`TROUBLE`].
+fn teller(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
+    let mut is_gone = false;
+    let mut trouble: Option<(Instant, Instant)> = None;
+    move |error| {
+        let is_end = match error.kind() {
+            ErrorKind::Xrun => return events.underrun(),
+            // The stream goes on, on another device or at another priority.
+            ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => return,
+            ErrorKind::DeviceNotAvailable | ErrorKind::StreamInvalidated | ErrorKind::HostUnavailable => true,
+            _ => {
+                let now = Instant::now();
+                let since =
+                    trouble.filter(|(_, last)| now.duration_since(*last) < TROUBLE / 4).map_or(now, |(first, _)| first);
+                trouble = Some((since, now));
+                now.duration_since(since) > TROUBLE
+            }
+        };
+        if is_end && !std::mem::replace(&mut is_gone, true) {
+            events.gone(error.to_string().trim_end_matches('.').to_owned());
+        }
+    }
+}
+
+/// Holds back a device that takes sound faster than it can be heard.
+fn held_back(mut fill: Fill, format: Format) -> Fill {
+    let mut since: Option<Instant> = None;
+    let mut frames = 0_u64;
+    Box::new(move |out, heard_at| {
+        fill(out, heard_at);
+        let since = *since.get_or_insert_with(Instant::now);
+        frames += (out.len() / format.channels) as u64;
+        let played = Duration::from_secs_f64(frames as f64 / f64::from(format.rate));
+        if let Some(ahead) = played.checked_sub(since.elapsed() + AHEAD) {
+            std::thread::sleep(ahead);
+        }
+    })
+}
+
+/// The clock of a stream against ours.
+///
+/// A callback may begin long after the moment that its times are of, where other threads take the processor: the shortest
+/// such wait of the last while is what both clocks differ by.
+#[derive(Default)]
+struct StreamClock {
+    /// Moments of both that belong together, but for the wait.
+    base: Option<(Instant, StreamInstant)>,
+    /// Seconds of the shortest wait, and when it was told last.
+    wait: f64,
+    told: f64,
+}
+
+impl StreamClock {
+    /// The clocks may drift apart by so many seconds in a second.
+    const DRIFT: f64 = 2e-4;
+
+    fn heard_at(&mut self, times: OutputStreamTimestamp, now: Instant) -> Instant {
+        let (ours, theirs) = *self.base.get_or_insert((now, times.callback));
+        let told = times.callback.duration_since(theirs).as_secs_f64();
+        let wait = now.duration_since(ours).as_secs_f64() - told;
+        self.wait = wait.min(self.wait + Self::DRIFT * (told - self.told).max(0.0));
+        self.told = told;
+        let delay = times.playback.duration_since(times.callback).as_secs_f64();
+        let secs = told + self.wait + delay;
+        ours.checked_add(Duration::try_from_secs_f64(secs.max(0.0)).unwrap_or_default()).unwrap_or(now)
+    }
+}
+
+fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
+    device: &cpal::Device,
+    config: StreamConfig,
+    format: Format,
+    mut fill: Fill,
+    told: impl FnMut(cpal::Error) + Send + 'static,
+) -> Result<cpal::Stream, cpal::Error> {
+    // Whole frames.
+    let mut scratch = vec![0.0_f32; (CONVERTED / format.channels).max(1) * format.channels];
+    let mut clock = StreamClock::default();
+    let callback = move |out: &mut Data, info: &cpal::OutputCallbackInfo| {
+        let mut heard_at = clock.heard_at(info.timestamp(), Instant::now());
+        if let Some(out) = out.as_slice_mut::<f32>() {
+            return fill(out, heard_at);
+        }
+        let Some(out) = out.as_slice_mut::<T>() else { return };
+        for part in out.chunks_mut(scratch.len()) {
+            let mixed = &mut scratch[..part.len()];
+            fill(mixed, heard_at);
+            part.iter_mut().zip(mixed).for_each(|(out, sample)| *out = T::from_sample_(*sample));
+            heard_at += Duration::from_secs_f64((part.len() / format.channels) as f64 / f64::from(format.rate));
+        }
+    };
+    device.build_output_stream_raw(config, T::FORMAT, callback, told, None)
+}
+
+fn recorded<T: SizedSample + Send + 'static>(
+    device: &cpal::Device,
+    config: StreamConfig,
+    mut take: Take,
+    told: impl FnMut(cpal::Error) + Send + 'static,
+) -> Result<cpal::Stream, cpal::Error>
+where
+    f32: FromSample<T>,
+{
+    let channels = usize::from(config.channels).max(1);
+    let mut scratch = vec![0.0_f32; (CONVERTED / channels).max(1) * channels];
+    let callback = move |heard: &Data, _: &cpal::InputCallbackInfo| {
+        if let Some(heard) = heard.as_slice::<f32>() {
+            return take(heard);
+        }
+        let Some(heard) = heard.as_slice::<T>() else { return };
+        for part in heard.chunks(scratch.len()) {
+            let taken = &mut scratch[..part.len()];
+            taken.iter_mut().zip(part).for_each(|(sample, heard)| *sample = f32::from_sample_(*heard));
+            take(taken);
+        }
+    };
+    device.build_input_stream_raw(config, T::FORMAT, callback, told, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_callback_that_comes_late_is_no_other_time() {
+        let start = Instant::now();
+        let mut clock = StreamClock::default();
+        let mut worst = Duration::ZERO;
+        for n in 0..200_u64 {
+            let theirs = StreamInstant::from_millis(5000 + 50 * n);
+            let playback = theirs + Duration::from_millis(100);
+            // A wait of 1 ms, and of 40 ms each third time.
+            let wait = Duration::from_millis(if n % 3 == 0 { 40 } else { 1 });
+            let at = start + Duration::from_millis(50 * n);
+            let heard_at = clock.heard_at(OutputStreamTimestamp { callback: theirs, playback }, at + wait);
+            let exact = at + Duration::from_millis(101);
+            if n > 0 {
+                worst = worst.max(heard_at.max(exact) - heard_at.min(exact));
+            }
+        }
+        assert!(worst < Duration::from_micros(100), "{worst:?}");
+    }
+}

@@ -1,0 +1,322 @@
+//! A device is kept open while it is needed: opened on a thread of its own, and again when it has vanished.
+
+use crate::host::{DeviceError, Events, Opened};
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    },
+    thread::JoinHandle,
+    time::{Duration, Instant},
+};
+
+/// The time between two attempts to open a device that could not be opened.
+const RETRY: Duration = Duration::from_secs(3);
+/// A device that is not needed for so long is closed.
+const IDLE: Duration = Duration::from_secs(20);
+/// An order that a device did not take is given again after this.
+const AGAIN: Duration = Duration::from_millis(30);
+
+/// Says what is known of a device.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum DeviceState {
+    /// Nothing needs it.
+    #[default]
+    Closed,
+    Open {
+        name: String,
+        rate: u32,
+    },
+    /// It could not be opened, or has vanished. It is tried again.
+    Missing(String),
+}
+
+/// A status that the thread writes and its owner reads.
+#[derive(Default)]
+struct Status {
+    state: DeviceState,
+    names: Option<Vec<String>>,
+}
+
+/// A thing that is done with a device: playing or recording.
+pub(crate) trait Work: Send {
+    /// An order of its owner.
+    type Order: Send;
+
+    /// Takes an order.
+    fn take(&mut self, order: Self::Order);
+
+    /// Returns whether the device is needed.
+    fn needs_device(&self) -> bool;
+
+    /// Returns whether the device stays open for a while after it is no longer needed.
+    fn lingers(&self) -> bool {
+        true
+    }
+
+    fn open(&mut self, name: Option<&str>, events: Events) -> Result<Opened, DeviceError>;
+
+    /// Passes on what is new to the device. False: it took it not, and is asked again.
+    fn feed(&mut self) -> bool;
+
+    /// The device is closed.
+    fn closed(&mut self);
+
+    fn names(&mut self) -> Vec<String>;
+}
+
+enum Message<O> {
+    Order(O),
+    Device(Option<String>),
+    Names,
+    /// With the number of the opening that it is about.
+    Gone(u64, String),
+    End,
+}
+
+/// The owner's end.
+pub(crate) struct Keeper<W: Work> {
+    link: Link<W>,
+    status: Arc<Mutex<Status>>,
+    underruns: Arc<AtomicU64>,
+}
+
+enum Link<W: Work> {
+    Thread {
+        to: Sender<Message<W::Order>>,
+        thread: Option<JoinHandle<()>>,
+    },
+    /// Everything is done where it is asked for: a test says what time it is.
+    Here {
+        worker: Box<Worker<W>>,
+        from: Receiver<Message<W::Order>>,
+    },
+}
+
+impl<W: Work + 'static> Keeper<W> {
+    /// `wake` is called when the state of the device has changed.
+    pub fn on_thread(name: &str, work: W, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+        let (to, from) = channel();
+        let mut worker = Worker::new(work, to.clone(), wake);
+        let (status, underruns) = (worker.status.clone(), worker.underruns.clone());
+        let thread = std::thread::Builder::new().name(name.into()).spawn(move || worker.run(&from))?;
+        Ok(Self { link: Link::Thread { to, thread: Some(thread) }, status, underruns })
+    }
+
+    /// Without a thread: [`Keeper::step`] does the work.
+    pub fn here(work: W) -> Self {
+        let (to, from) = channel();
+        let worker = Box::new(Worker::new(work, to, Arc::new(|| {})));
+        let (status, underruns) = (worker.status.clone(), worker.underruns.clone());
+        Self { link: Link::Here { worker, from }, status, underruns }
+    }
+
+    pub fn order(&mut self, order: W::Order) {
+        self.send(Message::Order(order));
+    }
+
+    /// Asks for a device by its name, or for the system's default one.
+    pub fn choose(&mut self, device: Option<String>) {
+        self.send(Message::Device(device));
+    }
+
+    /// Asks for the names of the devices, which come with the status.
+    pub fn ask_names(&mut self) {
+        self.send(Message::Names);
+    }
+
+    fn send(&mut self, message: Message<W::Order>) {
+        match &mut self.link {
+            // A thread that has ended by a panic plays nothing; the picture goes on.
+            Link::Thread { to, .. } => drop(to.send(message)),
+            Link::Here { worker, .. } => worker.take(message),
+        }
+    }
+
+    /// Does what is due, where there is no thread.
+    pub fn step(&mut self, now: Instant) {
+        if let Link::Here { worker, from } = &mut self.link {
+            while let Ok(message) = from.try_recv() {
+                worker.take(message);
+            }
+            worker.step(now);
+        }
+    }
+
+    pub fn state(&self) -> DeviceState {
+        self.status.lock().unwrap_or_else(PoisonError::into_inner).state.clone()
+    }
+
+    pub fn names(&self) -> Option<Vec<String>> {
+        self.status.lock().unwrap_or_else(PoisonError::into_inner).names.clone()
+    }
+
+    /// Buffers that came too late since the start.
+    pub fn underruns(&self) -> u64 {
+        self.underruns.load(Ordering::Relaxed)
+    }
+}
+
+impl<W: Work> Drop for Keeper<W> {
+    fn drop(&mut self) {
+        if let Link::Thread { to, thread } = &mut self.link {
+            let _ = to.send(Message::End);
+            // A driver that hangs must not keep the window from closing: the thread ends with the process.
+            drop(thread.take());
+        }
+    }
+}
+
+struct Worker<W: Work> {
+    work: W,
+    device: Option<String>,
+    opened: Option<Opened>,
+    /// Counts openings: what an earlier device tells is no news.
+    openings: u64,
+    /// The moment at which a device that could not be opened is tried again.
+    retry_at: Option<Instant>,
+    /// Since when it is not needed.
+    idle_since: Option<Instant>,
+    is_fed: bool,
+    to: Sender<Message<W::Order>>,
+    status: Arc<Mutex<Status>>,
+    underruns: Arc<AtomicU64>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl<W: Work + 'static> Worker<W> {
+    fn new(work: W, to: Sender<Message<W::Order>>, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            work,
+            device: None,
+            opened: None,
+            openings: 0,
+            retry_at: None,
+            idle_since: None,
+            is_fed: true,
+            to,
+            status: Arc::default(),
+            underruns: Arc::default(),
+            wake,
+        }
+    }
+
+    fn run(&mut self, from: &Receiver<Message<W::Order>>) {
+        let mut wait = None;
+        loop {
+            let message = match wait {
+                None => from.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(wait) => from.recv_timeout(wait),
+            };
+            match message {
+                Ok(Message::End) | Err(RecvTimeoutError::Disconnected) => break,
+                Ok(message) => self.take(message),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            while let Ok(message) = from.try_recv() {
+                if matches!(message, Message::End) {
+                    return self.close();
+                }
+                self.take(message);
+            }
+            let now = Instant::now();
+            self.step(now);
+            wait = self.due(now);
+        }
+        self.close();
+    }
+
+    fn take(&mut self, message: Message<W::Order>) {
+        match message {
+            Message::Order(order) => {
+                self.work.take(order);
+                self.is_fed = false;
+            }
+            Message::Device(device) if device != self.device => {
+                self.device = device;
+                self.close();
+                self.retry_at = None;
+            }
+            Message::Device(_) => {}
+            Message::Names => {
+                let names = self.work.names();
+                self.tell(|status| status.names = Some(names));
+            }
+            Message::Gone(opening, why) if opening == self.openings && self.opened.is_some() => {
+                self.close();
+                self.tell(|status| status.state = DeviceState::Missing(why));
+                // At once: the default may be another device by now.
+                self.retry_at = None;
+            }
+            Message::Gone(..) | Message::End => {}
+        }
+    }
+
+    /// Opens and closes the device as it is needed, and passes on what is new.
+    fn step(&mut self, now: Instant) {
+        if self.work.needs_device() {
+            self.idle_since = None;
+            if self.opened.is_none() && self.retry_at.is_none_or(|at| now >= at) {
+                self.open(now);
+            }
+        } else {
+            self.retry_at = None;
+            let since = *self.idle_since.get_or_insert(now);
+            let is_over = !self.work.lingers() || now.saturating_duration_since(since) >= IDLE;
+            if self.opened.is_none() || is_over {
+                self.close();
+                self.tell(|status| status.state = DeviceState::Closed);
+            }
+        }
+        if self.opened.is_some() && !self.is_fed {
+            self.is_fed = self.work.feed();
+        }
+    }
+
+    /// Returns how long the next step can wait if nothing is heard before.
+    fn due(&self, now: Instant) -> Option<Duration> {
+        let retry = self.retry_at.filter(|_| self.opened.is_none());
+        let idle = self.idle_since.filter(|_| self.opened.is_some()).map(|since| since + IDLE);
+        let again = (self.opened.is_some() && !self.is_fed).then_some(now + AGAIN);
+        let next = [retry, idle, again].into_iter().flatten().min()?;
+        Some(next.saturating_duration_since(now) + Duration::from_millis(1))
+    }
+
+    fn open(&mut self, now: Instant) {
+        self.openings += 1;
+        let (to, opening) = (self.to.clone(), self.openings);
+        let (to, underruns) = (Mutex::new(to), self.underruns.clone());
+        let gone = move |why| {
+            let _ = to.lock().unwrap_or_else(PoisonError::into_inner).send(Message::Gone(opening, why));
+        };
+        match self.work.open(self.device.as_deref(), Events { underruns, gone: Arc::new(gone) }) {
+            Ok(opened) => {
+                let state = DeviceState::Open { name: opened.name.clone(), rate: opened.format.rate };
+                (self.opened, self.retry_at, self.is_fed) = (Some(opened), None, false);
+                self.tell(|status| status.state = state);
+            }
+            Err(error) => {
+                self.retry_at = Some(now + RETRY);
+                self.tell(|status| status.state = DeviceState::Missing(error.to_string()));
+            }
+        }
+    }
+
+    fn close(&mut self) {
+        if self.opened.take().is_some() {
+            self.work.closed();
+        }
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut Status)) {
+        let mut status = self.status.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = (status.state.clone(), status.names.clone());
+        change(&mut status);
+        let is_news = before != (status.state.clone(), status.names.clone());
+        drop(status);
+        if is_news {
+            (self.wake)();
+        }
+    }
+}

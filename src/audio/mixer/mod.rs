@@ -1,0 +1,221 @@
+//! Sources are mixed for a device's callback at the time that the picture has, faded where that time changes.
+//!
+//! Works on memory alone and knows no device. [`Mixer::fill`] takes no lock and allocates and frees nothing: what it is
+//! to play comes through a ring, and what it no longer plays goes back through another.
+
+mod deck;
+#[cfg(test)]
+mod tests;
+
+use crate::{
+    SAMPLE_RATE,
+    kernel::Kernel,
+    scene::{Desired, Line, Scene},
+};
+use deck::Deck;
+use rtrb::{Consumer, Producer, RingBuffer};
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::Instant,
+};
+
+/// Seconds in which sound fades in and out.
+const FADE_SECS: f64 = 0.005;
+/// Seconds in which the volume goes from none to full.
+const VOLUME_SECS: f64 = 0.02;
+/// A sound that is so many seconds away from the picture's time jumps there.
+const JUMP_SECS: f64 = 0.02;
+/// Below that it is played faster or slower until it is there: so many times the seconds it is away, in each second.
+const PULL: f64 = 0.5;
+/// But not by more than this share, 5 cents, which nobody hears.
+const MOST_PULL: f64 = 0.003;
+/// Seconds over which the distance is averaged: what a device says of its delay is uncertain by a part of its buffer, and
+/// more while other programs keep its thread waiting.
+const AVERAGED_SECS: f64 = 1.0;
+/// Sounds that fade out beside the one that plays.
+const DECKS: usize = 4;
+/// Orders that may wait, and sources that may wait to be freed.
+const ORDERS: usize = 16;
+const FREED: usize = 64;
+
+/// Mixes what is desired into the buffers of one device.
+pub struct Mixer {
+    rate: f64,
+    orders: Consumer<Desired>,
+    freed: Producer<Arc<Scene>>,
+    desired: Desired,
+    /// The line of the last buffer.
+    line: Option<Line>,
+    decks: [Option<Deck>; DECKS],
+    kernel: Kernel,
+    gain: f32,
+    /// Seconds that the sound is behind the picture's time, averaged.
+    behind: f64,
+    state: Arc<MixerState>,
+}
+
+/// The other end of a mixer.
+pub struct Remote {
+    orders: Producer<Desired>,
+    freed: Consumer<Arc<Scene>>,
+    pub state: Arc<MixerState>,
+}
+
+/// Counts what a mixer has done.
+#[derive(Default)]
+pub struct MixerState {
+    buffers: AtomicU64,
+    jumps: AtomicU64,
+    behind: AtomicU64,
+}
+
+impl MixerState {
+    /// Buffers that were filled.
+    pub fn buffers(&self) -> u64 {
+        self.buffers.load(Ordering::Relaxed)
+    }
+
+    /// The number of times that the sound jumped to the picture's time.
+    pub fn jumps(&self) -> u64 {
+        self.jumps.load(Ordering::Relaxed)
+    }
+
+    /// Seconds that the sound is behind the picture's time, averaged.
+    pub fn behind_secs(&self) -> f64 {
+        f64::from_bits(self.behind.load(Ordering::Relaxed))
+    }
+}
+
+/// A mixer for a device of `rate` samples a second, which plays nothing yet.
+pub fn mixer(rate: u32) -> (Mixer, Remote) {
+    let (to, orders) = RingBuffer::new(ORDERS);
+    let (freed, back) = RingBuffer::new(FREED);
+    let state = Arc::new(MixerState::default());
+    let mixer = Mixer {
+        rate: f64::from(rate.max(1)),
+        orders,
+        freed,
+        desired: Desired::default(),
+        line: None,
+        decks: std::array::from_fn(|_| None),
+        kernel: Kernel::default(),
+        gain: 0.0,
+        behind: 0.0,
+        state: state.clone(),
+    };
+    (mixer, Remote { orders: to, freed: back, state })
+}
+
+impl Remote {
+    /// Says what is to be played from the next buffer on. False: the device takes nothing at present, try it again.
+    pub fn send(&mut self, desired: &Desired) -> bool {
+        self.free();
+        self.orders.push(desired.clone()).is_ok()
+    }
+
+    /// Frees what the mixer no longer plays.
+    pub fn free(&mut self) {
+        while self.freed.pop().is_ok() {}
+    }
+}
+
+impl Mixer {
+    /// Fills a buffer of interleaved frames whose first one is heard at a moment. The first two channels are left and
+    /// right, one alone is the mean of both, further ones are silent.
+    pub fn fill(&mut self, out: &mut [f32], channels: usize, heard_at: Instant) {
+        let channels = channels.max(1);
+        let frames = out.len() / channels;
+        self.take_orders();
+        let ratio = self.steer(frames, heard_at);
+        let fade = (1.0 / (FADE_SECS * self.rate)) as f32;
+        let volume = (1.0 / (VOLUME_SECS * self.rate)) as f32;
+        let Self { decks, kernel, .. } = self;
+        for frame in out.chunks_mut(channels) {
+            let mut sum = [0.0; 2];
+            for deck in decks.iter_mut().flatten() {
+                let [left, right] = deck.next(kernel, ratio, fade);
+                sum[0] += left;
+                sum[1] += right;
+            }
+            self.gain += (self.desired.gain - self.gain).clamp(-volume, volume);
+            let [left, right] = sum.map(|sample| (sample * self.gain).clamp(-1.0, 1.0));
+            match frame {
+                [one] => *one = 0.5 * (left + right),
+                [first, second, rest @ ..] => {
+                    (*first, *second) = (left, right);
+                    rest.fill(0.0);
+                }
+                [] => {}
+            }
+        }
+        for place in decks {
+            let Some(mut deck) = place.take_if(|deck| deck.is_over()) else { continue };
+            // Dropped here it might be freed here. It waits for room.
+            if let Err(rtrb::PushError::Full(scene)) = self.freed.push(deck.scene) {
+                deck.scene = scene;
+                *place = Some(deck);
+            }
+        }
+        self.state.buffers.fetch_add(1, Ordering::Relaxed);
+        self.state.behind.store(self.behind.to_bits(), Ordering::Relaxed);
+    }
+
+    fn take_orders(&mut self) {
+        while self.freed.slots() > DECKS
+            && let Ok(desired) = self.orders.pop()
+        {
+            let before = std::mem::replace(&mut self.desired, desired);
+            // There is room for it.
+            let _ = self.freed.push(before.scene);
+        }
+    }
+
+    /// Brings the sound to the picture's time. Returns the samples of a source for each sample of the device.
+    fn steer(&mut self, frames: usize, heard_at: Instant) -> f64 {
+        let before = std::mem::replace(&mut self.line, self.desired.line);
+        let Some(line) = self.desired.line else {
+            self.decks.iter_mut().flatten().for_each(|deck| deck.target = 0.0);
+            return before.map_or(1.0, |line| line.speed * f64::from(SAMPLE_RATE) / self.rate);
+        };
+        let ratio = line.speed * f64::from(SAMPLE_RATE) / self.rate;
+        let wanted = line.position_at(heard_at);
+        let Some(playing) = self.decks.iter_mut().flatten().find(|deck| deck.target > 0.0) else {
+            self.behind = 0.0;
+            if !self.desired.scene.sources.is_empty() {
+                self.start(wanted, ratio);
+            }
+            return ratio;
+        };
+        let is_other = !Arc::ptr_eq(&playing.scene, &self.desired.scene);
+        let at = playing.position;
+        let turned = before.is_some_and(|before| {
+            before != line && (before.secs_at(heard_at) - line.secs_at(heard_at)).abs() > JUMP_SECS
+        });
+        let behind = (wanted - at) / f64::from(SAMPLE_RATE);
+        let share = 1.0 - (-(frames as f64) / self.rate / AVERAGED_SECS).exp();
+        self.behind += share * (behind - self.behind);
+        if turned || self.behind.abs() > JUMP_SECS * line.speed.max(1.0) {
+            if self.start(wanted, ratio) {
+                self.behind = 0.0;
+                self.state.jumps.fetch_add(1, Ordering::Relaxed);
+            } else {
+                // It is tried again with the next buffer.
+                self.line = before;
+            }
+        } else if is_other {
+            self.start(at, ratio);
+        }
+        ratio * (1.0 + (PULL * self.behind / line.speed).clamp(-MOST_PULL, MOST_PULL))
+    }
+
+    /// Begins to play what is desired at a position, and fades out what is played. False while there is no room.
+    fn start(&mut self, position: f64, ratio: f64) -> bool {
+        let Some(place) = self.decks.iter().position(Option::is_none) else { return false };
+        self.decks.iter_mut().flatten().for_each(|deck| deck.target = 0.0);
+        self.decks[place] = Some(Deck::new(self.desired.scene.clone(), position, ratio));
+        true
+    }
+}

@@ -1,0 +1,101 @@
+//! Sources that are heard, and the time at which they are.
+
+use crate::{SAMPLE_RATE, Sound, Track};
+use std::{sync::Arc, time::Instant};
+
+/// The most sources that are mixed: four channels of four passes.
+pub const MOST_SOURCES: usize = 16;
+
+/// Something that is heard from time 0 on.
+#[derive(Clone)]
+pub enum Source {
+    /// A file that is played in a loop.
+    Loop(Arc<Sound>),
+    /// The sound pass: played once, as far as it is made.
+    Track(Arc<Track>),
+}
+
+impl Source {
+    /// Returns frame `n`; `None` where it is not made yet.
+    pub(crate) fn frame(&self, n: i64) -> Option<[f32; 2]> {
+        match self {
+            Source::Loop(sound) if n < 0 || sound.frames.is_empty() => Some([0.0; 2]),
+            Source::Loop(sound) => Some(sound.frames[(n % sound.frames.len() as i64) as usize].map(finite)),
+            Source::Track(track) => Some(track.frame(n)?.map(|sample| f32::from(sample) / 32_768.0)),
+        }
+    }
+
+    /// Returns whether both play the same.
+    pub fn is(&self, other: &Source) -> bool {
+        match (self, other) {
+            (Source::Loop(one), Source::Loop(other)) => Arc::ptr_eq(one, other),
+            (Source::Track(one), Source::Track(other)) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+}
+
+/// A file of floats may hold anything.
+fn finite(sample: f32) -> f32 {
+    if sample.is_finite() { sample.clamp(-8.0, 8.0) } else { 0.0 }
+}
+
+/// Sources that are heard together. The first [`MOST_SOURCES`] are mixed.
+#[derive(Clone, Default)]
+pub struct Scene {
+    pub sources: Vec<Source>,
+}
+
+impl Scene {
+    /// Returns whether both sound the same.
+    pub fn is(&self, other: &Scene) -> bool {
+        let pairs = self.sources.iter().zip(&other.sources);
+        self.sources.len() == other.sources.len() && pairs.into_iter().all(|(one, other)| one.is(other))
+    }
+}
+
+/// Time that runs at a constant speed: `secs` at the moment `at`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    pub at: Instant,
+    /// `iTime`, in seconds.
+    pub secs: f64,
+    /// Seconds of `iTime` in a second, above 0.
+    pub speed: f64,
+}
+
+impl Line {
+    pub fn secs_at(&self, at: Instant) -> f64 {
+        let since = at.saturating_duration_since(self.at).as_secs_f64();
+        let before = self.at.saturating_duration_since(at).as_secs_f64();
+        self.secs + self.speed * (since - before)
+    }
+
+    /// The position in samples of [`SAMPLE_RATE`] at a moment.
+    pub(crate) fn position_at(&self, at: Instant) -> f64 {
+        self.secs_at(at) * f64::from(SAMPLE_RATE)
+    }
+}
+
+/// Everything that a device is to play.
+#[derive(Clone)]
+pub struct Desired {
+    pub scene: Arc<Scene>,
+    /// Says how time runs; `None` while it stands.
+    pub line: Option<Line>,
+    /// The factor of each sample: 0 for mute, 1 for the files' own loudness.
+    pub gain: f32,
+}
+
+impl Default for Desired {
+    fn default() -> Self {
+        Self { scene: Arc::default(), line: None, gain: 1.0 }
+    }
+}
+
+impl Desired {
+    /// Returns whether a device is needed for it.
+    pub fn is_heard(&self) -> bool {
+        self.line.is_some() && self.gain > 0.0 && !self.scene.sources.is_empty()
+    }
+}

@@ -1,0 +1,87 @@
+//! Owns what is heard, in the bar under the picture: mute, volume, and the light of the microphone.
+
+use super::{
+    accessible,
+    actions::Action,
+    icons::{self, Icon},
+    settings::Change,
+    theme,
+    ui_output::{ShellCommand, UiOutput},
+};
+use crate::session::{Command, DeviceState, MicrophoneView, OutputView, Session};
+use egui::{Button, Id, RichText, Slider, Ui, vec2};
+
+/// Points of the slider.
+const SLIDER: f32 = 64.0;
+/// Points of the microphone's button.
+const MICROPHONE: f32 = 116.0;
+
+/// Shows the parts that the project has a use for. `room`: what may be taken in all; the switch of mute is always there.
+pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
+    let microphone = session.microphone_view().filter(|view| view.is_read || view.is_on);
+    let left = microphone.as_ref().map_or(room, |_| room - MICROPHONE);
+    if let Some(sound) = session.output_view().filter(|view| view.has_sound) {
+        mute(ui, &sound, out);
+        if left >= SLIDER + 40.0 {
+            volume(ui, &sound, out);
+        }
+    }
+    if let Some(view) = microphone {
+        light(ui, &view, out);
+    }
+}
+
+fn mute(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
+    let (icon, label) = match sound.is_muted {
+        true => (Icon::Muted, "Unmute"),
+        false => (Icon::Speaker, "Mute"),
+    };
+    let where_heard = match &sound.device {
+        DeviceState::Open { name, .. } => format!(" ({name})"),
+        DeviceState::Missing(why) => format!(" (no sound: {why})"),
+        DeviceState::Closed => String::new(),
+    };
+    let button = icons::button(ui, icon, label);
+    let tip = out.keys.tip(&format!("{label}{where_heard}"), Action::Mute);
+    if out.clicked("button:mute", &button.on_hover_text(tip)) {
+        out.act(Action::Mute);
+    }
+}
+
+/// Follows the hand while it is dragged; the setting is written when it lets go.
+fn volume(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
+    let mut percent = (sound.volume * 100.0).round();
+    ui.spacing_mut().slider_width = SLIDER;
+    let slider = Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).show_value(false).trailing_fill(true);
+    let slider = ui.add_enabled(!sound.is_muted, slider);
+    accessible::name(&slider, egui::Role::Slider, "Volume");
+    out.place("slider:volume", slider.rect);
+    let dragged = Id::unique("volume that is dragged");
+    if slider.changed() {
+        out.ask(Command::SetVolume(percent / 100.0));
+        ui.data_mut(|data| data.insert_temp(dragged, true));
+    }
+    let is_held = slider.dragged() || slider.is_pointer_button_down_on();
+    if !is_held && ui.data_mut(|data| data.remove_temp::<bool>(dragged)).is_some() {
+        out.shell_commands.push(ShellCommand::Set(Change::Volume(percent / 100.0)));
+    }
+    slider.on_hover_text(format!("Volume: {percent:.0} %"));
+}
+
+fn light(ui: &mut Ui, view: &MicrophoneView, out: &mut UiOutput) {
+    let p = theme::of(ui);
+    let (text, color, tip) = match (view.is_on, &view.device) {
+        (false, _) => {
+            ("Use microphone", p.text, "A channel reads the microphone; it shows a made-up spectrum until then")
+        }
+        (true, DeviceState::Missing(_)) => ("● No microphone", p.warning, "Click to stop looking for a microphone"),
+        (true, _) => ("● Microphone on", p.error, "Click to turn the microphone off"),
+    };
+    let text = RichText::new(text).size(12.0).color(color);
+    let button = ui.add(Button::new(text).min_size(vec2(MICROPHONE, 24.0)));
+    let name = if view.is_on { "Turn the microphone off" } else { "Use the microphone" };
+    accessible::name(&button, egui::Role::Button, name);
+    if out.clicked("button:microphone", &button.on_hover_text(out.keys.tip(tip, Action::Microphone))) {
+        out.act(Action::Microphone);
+    }
+}

@@ -1,0 +1,63 @@
+//! The microphone: switched on by a person, open while a channel reads it.
+
+use super::{Audio, News, news};
+use crate::{
+    Session,
+    view::{About, Level},
+};
+use eddy_audio::Spectrum;
+use eddy_project::{Input, InputKind, Pass};
+use std::sync::Arc;
+
+/// Returns whether a channel of a pass reads the microphone.
+pub(super) fn reads_it(pass: &Pass) -> bool {
+    pass.channels.iter().flatten().any(|channel| channel.input == Input::Device(InputKind::Microphone))
+}
+
+impl Audio {
+    /// Returns what a frame reads of the microphone. `is_new`: else it is one that is drawn while time stands, and reads
+    /// what the one before did.
+    pub fn spectrum(&mut self, is_new: bool) -> Option<Arc<Spectrum>> {
+        if !self.is_recording {
+            self.spectrum = None;
+        } else if is_new && let Some(microphone) = &mut self.microphone {
+            self.spectrum = microphone.frame();
+        }
+        self.spectrum.clone()
+    }
+}
+
+impl Session {
+    pub(crate) fn use_microphone(&mut self, on: bool) {
+        self.audio.uses_microphone = on;
+        self.settled(About::Microphone);
+        self.audio.input_is_missing = false;
+        self.hear();
+    }
+
+    /// Takes what the microphone has recorded, before frames are drawn.
+    pub(crate) fn hear(&mut self) {
+        self.audio.reads_microphone =
+            self.audio.uses_microphone && self.documents.current().passes.iter().any(reads_it);
+        let is_wanted = self.audio.reads_microphone;
+        if is_wanted != self.audio.is_recording
+            && let Some(microphone) = self.audio.microphone(&self.wake)
+        {
+            microphone.switch(is_wanted);
+            self.audio.is_recording = is_wanted;
+        }
+        let Some(microphone) = &mut self.audio.microphone else { return };
+        microphone.step(self.now);
+        match news(microphone.state(), &mut self.audio.input_is_missing) {
+            Some(News::Missing(why)) => {
+                let text = format!(
+                    "the microphone cannot be used: {why}. Its channel shows a made-up spectrum; Eddy tries again every 3 \
+                     seconds"
+                );
+                self.notice_about(About::Microphone, Level::Warning, text);
+            }
+            Some(News::Back(_) | News::Over) => self.settled(About::Microphone),
+            None => {}
+        }
+    }
+}

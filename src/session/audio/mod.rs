@@ -1,0 +1,255 @@
+//! Sound that is heard with the picture, and recorded for it.
+//!
+//! Owns the player and the microphone. Music of the channels and the sound pass are heard at `iTime`: what plays is told
+//! how time runs, and by the device's own clock it is brought there (`eddy_audio::mixer`). Devices are opened when
+//! something is to be heard or recorded, on threads of their own; one that is missing is told of once.
+
+mod microphone;
+mod view;
+
+use microphone::reads_it;
+pub use view::{ChannelSound, MicrophoneView, OutputView, sounds};
+
+use crate::{
+    Session,
+    view::{About, Level},
+};
+use eddy_audio::{
+    Desired, DeviceState, Line, Scene, Sound, Source, Spectrum, Track, host::AudioHost, microphone::Microphone,
+    player::Player,
+};
+use eddy_project::{Input, InputKind, Project};
+use std::{sync::Arc, time::Instant};
+
+/// Speeds at which sound is played. Slower and faster it is none that anybody would want to hear.
+const SPEEDS: std::ops::RangeInclusive<f64> = 0.25..=4.0;
+
+pub struct Audio {
+    host: Option<Arc<dyn AudioHost>>,
+    on_thread: bool,
+    output: Option<String>,
+    input: Option<String>,
+    player: Option<Player>,
+    microphone: Option<Microphone>,
+    /// The music of the program that draws, and of one that is coming.
+    sounds: Vec<ChannelSound>,
+    coming: Option<Vec<ChannelSound>>,
+    /// The sound pass, with its revision.
+    track: Option<(u64, Arc<Track>)>,
+    scene: Arc<Scene>,
+    /// Holds what the player was told last.
+    told: Option<(Arc<Scene>, Option<Line>, f32)>,
+    volume: f32,
+    is_muted: bool,
+    is_hidden: bool,
+    /// A person has switched the microphone on.
+    uses_microphone: bool,
+    /// The project reads it.
+    reads_microphone: bool,
+    is_recording: bool,
+    /// Holds what the newest frame read of it.
+    spectrum: Option<Arc<Spectrum>>,
+    /// A device that is missing was told of.
+    output_is_missing: bool,
+    input_is_missing: bool,
+}
+
+impl Audio {
+    pub fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool) -> Self {
+        Self {
+            host,
+            on_thread,
+            output: None,
+            input: None,
+            player: None,
+            microphone: None,
+            sounds: Vec::new(),
+            coming: None,
+            track: None,
+            scene: Arc::default(),
+            told: None,
+            volume: 1.0,
+            is_muted: false,
+            is_hidden: false,
+            uses_microphone: false,
+            reads_microphone: false,
+            is_recording: false,
+            spectrum: None,
+            output_is_missing: false,
+            input_is_missing: false,
+        }
+    }
+
+    /// Nothing of the project before is heard. The microphone stays as a person has left it.
+    pub fn begin_next_project(&mut self) {
+        (self.sounds, self.coming, self.track, self.spectrum) = (Vec::new(), None, None, None);
+    }
+
+    /// A program was built whose channels read this music.
+    pub fn expect(&mut self, sounds: Vec<ChannelSound>) {
+        self.coming = Some(sounds);
+    }
+
+    /// It draws from now on.
+    pub fn program_is_there(&mut self) {
+        if let Some(sounds) = self.coming.take() {
+            self.sounds = sounds;
+        }
+    }
+
+    pub fn set_volume(&mut self, volume: f32) {
+        if volume.is_finite() {
+            self.volume = volume.clamp(0.0, 1.0);
+        }
+    }
+
+    pub fn set_mute(&mut self, on: bool) {
+        self.is_muted = on;
+    }
+
+    pub fn choose_output(&mut self, device: Option<String>) {
+        if let Some(player) = &mut self.player {
+            player.choose(device.clone());
+        }
+        self.output = device;
+    }
+
+    pub fn choose_input(&mut self, device: Option<String>) {
+        if let Some(microphone) = &mut self.microphone {
+            microphone.choose(device.clone());
+        }
+        self.input = device;
+    }
+
+    pub fn list_devices(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) {
+        if let Some(player) = self.player(wake) {
+            player.ask_names();
+        }
+        if let Some(microphone) = self.microphone(wake) {
+            microphone.ask_names();
+        }
+    }
+
+    /// Returns the player, made if there is none and the machine has sound. It opens nothing yet.
+    fn player(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Option<&mut Player> {
+        if self.player.is_none() {
+            let host = self.host.as_deref()?;
+            let player = if self.on_thread { Player::on_thread(host, wake.clone()) } else { Ok(Player::here(host)) };
+            let mut player = player.inspect_err(|e| log::warn!("no thread for sound: {e}")).ok()?;
+            player.choose(self.output.clone());
+            self.player = Some(player);
+        }
+        self.player.as_mut()
+    }
+
+    fn microphone(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Option<&mut Microphone> {
+        if self.microphone.is_none() {
+            let host = self.host.as_deref()?;
+            let made =
+                if self.on_thread { Microphone::on_thread(host, wake.clone()) } else { Ok(Microphone::here(host)) };
+            let mut microphone = made.inspect_err(|e| log::warn!("no thread for the microphone: {e}")).ok()?;
+            microphone.choose(self.input.clone());
+            self.microphone = Some(microphone);
+        }
+        self.microphone.as_mut()
+    }
+
+    /// The factor of every sample. Ears hear ratios: half the way of the slider is a quarter, -12 dB.
+    fn gain(&self) -> f32 {
+        if self.is_muted { 0.0 } else { self.volume * self.volume }
+    }
+
+    /// Each music once, however many channels read it, then the sound pass.
+    fn sources(&self) -> Vec<Source> {
+        let mut sources: Vec<Source> = Vec::new();
+        for ChannelSound { sound, .. } in &self.sounds {
+            let source = Source::Loop(sound.clone());
+            if !sources.iter().any(|known| known.is(&source)) {
+                sources.push(source);
+            }
+        }
+        sources.extend(self.track.iter().map(|(_, track)| Source::Track(track.clone())));
+        sources
+    }
+
+    /// Tells the player what is to be heard from now on, where that is something else than before.
+    fn play(&mut self, line: Option<Line>, wake: &Arc<dyn Fn() + Send + Sync>, now: Instant) {
+        let scene = Scene { sources: self.sources() };
+        if !scene.is(&self.scene) {
+            self.scene = Arc::new(scene);
+        }
+        let line = line.filter(|line| SPEEDS.contains(&line.speed) && !self.is_hidden);
+        let desired = Desired { scene: self.scene.clone(), line, gain: self.gain() };
+        // Nothing is opened for a project without sound.
+        if self.player.is_none() && !desired.is_heard() {
+            return;
+        }
+        let wanted = (desired.scene.clone(), line, desired.gain);
+        let is_told = self
+            .told
+            .as_ref()
+            .is_some_and(|told| Arc::ptr_eq(&told.0, &wanted.0) && (told.1, told.2) == (wanted.1, wanted.2));
+        let Some(player) = self.player(wake) else { return };
+        if !is_told {
+            player.play(desired);
+        }
+        player.step(now);
+        self.told = Some(wanted);
+    }
+}
+
+/// Something to say of a device.
+enum News {
+    /// It could not be opened, or has vanished.
+    Missing(String),
+    /// One that was missing is open.
+    Back(String),
+    /// Nobody needs the one that was missing.
+    Over,
+}
+
+/// Compares the state of a device with what was told of it.
+fn news(state: DeviceState, is_missing: &mut bool) -> Option<News> {
+    match state {
+        DeviceState::Missing(why) if !std::mem::replace(is_missing, true) => Some(News::Missing(why)),
+        DeviceState::Open { name, .. } if std::mem::take(is_missing) => Some(News::Back(name)),
+        DeviceState::Closed if *is_missing => Some(News::Over),
+        _ => None,
+    }
+}
+
+impl Session {
+    /// Takes the sound pass as far as it is made, with its revision; `None`: there is none. The sound goes over from one
+    /// revision to the next without a gap.
+    pub fn play_track(&mut self, track: Option<(u64, Arc<Track>)>) {
+        self.audio.track = track;
+    }
+
+    /// Has what is heard follow the picture, at the end of a tick.
+    pub(crate) fn play_sound(&mut self) {
+        let is_drawn = self.drawing.has_program() && !self.halting.is_halted() && !self.halting.is_device_gone();
+        let line = self.playback.line().filter(|_| is_drawn);
+        self.audio.play(line, &self.wake, self.now);
+        let Some(player) = &self.audio.player else { return };
+        match news(player.state(), &mut self.audio.output_is_missing) {
+            Some(News::Missing(why)) => {
+                let text = format!("no sound: {why}. The picture goes on; Eddy looks for a device every 3 seconds");
+                self.notice_about(About::Sound, Level::Warning, text);
+            }
+            Some(News::Back(name)) => {
+                self.settled(About::Sound);
+                self.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
+            }
+            Some(News::Over) => self.settled(About::Sound),
+            None => {}
+        }
+    }
+
+    pub(crate) fn hide(&mut self, is_hidden: bool) {
+        if std::mem::replace(&mut self.audio.is_hidden, is_hidden) && !is_hidden {
+            // Nothing was drawn meanwhile: time goes on from where it was.
+            self.playback.rebase();
+        }
+        self.play_sound();
+    }
+}

@@ -1,0 +1,110 @@
+//! A front end shows these of what is heard and recorded.
+
+use super::{Audio, DeviceState, Input, InputKind, Project, Sound, Source};
+use crate::Session;
+use eddy_media::MediaSet;
+use eddy_project::Media;
+use std::sync::Arc;
+
+/// The music of a channel.
+#[derive(Clone, Debug)]
+pub struct ChannelSound {
+    pub media: Media,
+    pub sound: Arc<Sound>,
+}
+
+/// Returns the music that the channels of a project name, each once.
+pub fn sounds(project: &Project, media: &MediaSet) -> Vec<ChannelSound> {
+    let mut found: Vec<ChannelSound> = Vec::new();
+    let channels = project.passes.iter().filter(|pass| pass.id.is_picture()).flat_map(|pass| &pass.channels);
+    for channel in channels.flatten() {
+        let Input::Media { kind: InputKind::Music, media: name } = &channel.input else { continue };
+        if let Some(sound) = media.sound(name)
+            && found.iter().all(|known| known.media != *name)
+        {
+            found.push(ChannelSound { media: name.clone(), sound: sound.clone() });
+        }
+    }
+    found
+}
+
+/// Shows what is heard.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputView {
+    /// From 0 to 1.
+    pub volume: f32,
+    pub is_muted: bool,
+    /// The project has something to hear.
+    pub has_sound: bool,
+    pub device: DeviceState,
+}
+
+/// The microphone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MicrophoneView {
+    /// A person has switched it on.
+    pub is_on: bool,
+    /// A channel of the project reads it.
+    pub is_read: bool,
+    pub device: DeviceState,
+    /// The largest sample of the last 50 ms, from 0 to 1.
+    pub level: f32,
+}
+
+impl Audio {
+    fn has_sound(&self) -> bool {
+        !self.sounds.is_empty() || self.track.is_some()
+    }
+}
+
+impl Session {
+    /// Returns what is heard; `None` where the front end has given no sound to hear it on.
+    pub fn output_view(&self) -> Option<OutputView> {
+        let audio = &self.audio;
+        audio.host.as_ref()?;
+        Some(OutputView {
+            volume: audio.volume,
+            is_muted: audio.is_muted,
+            has_sound: audio.has_sound(),
+            device: audio.player.as_ref().map_or(DeviceState::Closed, |player| player.state()),
+        })
+    }
+
+    /// Returns what is known of the microphone; `None` where the front end has given none.
+    pub fn microphone_view(&self) -> Option<MicrophoneView> {
+        let audio = &self.audio;
+        audio.host.as_ref()?;
+        let is_read = self.project().passes.iter().any(super::reads_it);
+        Some(MicrophoneView {
+            is_on: audio.uses_microphone,
+            is_read,
+            device: audio.microphone.as_ref().map_or(DeviceState::Closed, |microphone| microphone.state()),
+            level: audio.microphone.as_ref().map_or(0.0, |microphone| microphone.level()),
+        })
+    }
+
+    /// Returns the music of a channel, as the program that draws has it.
+    pub fn music(&self, media: &Media) -> Option<&Arc<Sound>> {
+        self.audio.sounds.iter().find(|known| known.media == *media).map(|known| &known.sound)
+    }
+
+    /// Returns the names of the devices that play and of those that record, once
+    /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) has been given and they are known.
+    pub fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
+        let audio = &self.audio;
+        (audio.player.as_ref().and_then(|player| player.names()), audio.microphone.as_ref().and_then(|m| m.names()))
+    }
+
+    /// Seconds that the sound is behind the picture's time, and how often it had to jump there, since its device was
+    /// opened; buffers that came too late, since the start.
+    pub fn sound_health(&self) -> Option<(f64, u64, u64)> {
+        let player = self.audio.player.as_ref()?;
+        let mixed = player.mixed()?;
+        Some((mixed.behind_secs(), mixed.jumps(), player.underruns()))
+    }
+
+    /// Returns how many sources are mixed.
+    pub fn sources_heard(&self) -> usize {
+        self.audio.scene.sources.iter().filter(|source| matches!(source, Source::Loop(_) | Source::Track(_))).count()
+    }
+}

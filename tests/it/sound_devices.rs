@@ -1,0 +1,419 @@
+//! Sound that is heard with the picture and recorded for it: a session with devices that run by the test's own clock.
+
+use crate::support::{gpu, stage::Stage};
+use eddy::{
+    audio::{
+        Track,
+        fake::{FakeHost, FakeOut},
+        host::Format,
+    },
+    project::{InputKind, Media, PassId},
+    session::{Command, DeviceState, Level, SessionOptions},
+};
+use std::{
+    f64::consts::TAU,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+const RATE: f64 = 44_100.0;
+/// Samples of the song.
+const LENGTH: f64 = 441_000.0;
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, vec2(0.1, 0.75)); }\n";
+
+/// A WAV file of 16 bits, stereo, 44.1 kHz, with the same on both channels.
+pub fn wav(samples: impl ExactSizeIterator<Item = i16>) -> Vec<u8> {
+    let count = samples.len() as u32;
+    let mut file = b"RIFF".to_vec();
+    file.extend((36 + 4 * count).to_le_bytes());
+    file.extend(b"WAVEfmt \x10\0\0\0\x01\0\x02\0");
+    file.extend(44_100u32.to_le_bytes());
+    file.extend(176_400u32.to_le_bytes());
+    file.extend(b"\x04\0\x10\0data");
+    file.extend((4 * count).to_le_bytes());
+    for value in samples {
+        file.extend(value.to_le_bytes().repeat(2));
+    }
+    file
+}
+
+/// Ten seconds whose sample `n` says what `n` is, 22 times in a second.
+fn saw(n: usize) -> i16 {
+    ((n % 2000) as i16 - 1000) * 10
+}
+
+/// A session that plays by a clock of its own, with a device that plays by the same.
+struct Room {
+    stage: Stage,
+    host: FakeHost,
+    now: Instant,
+}
+
+impl Room {
+    fn open(host: FakeHost, manifest: &str) -> Option<Room> {
+        let gpu = gpu()?;
+        let audio = host.clone();
+        let mut stage = Stage::with_options(gpu, |_| SessionOptions {
+            audio: Some(Arc::new(audio)),
+            audio_on_thread: false,
+            ..SessionOptions::default()
+        });
+        stage.write("song.wav", wav((0..441_000).map(saw)));
+        stage.write("eddy.toml", format!("[passes.image]\n{manifest}\n"));
+        stage.write("image.glsl", SHOW);
+        if manifest.contains("buffer_a") {
+            stage.write("buffer_a.glsl", SHOW);
+        }
+        let folder = stage.folder();
+        stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+        stage.session.apply(Command::Pause);
+        stage.until_compiled();
+        stage.session.apply(Command::Reset);
+        Some(Room { stage, host, now: Instant::now() + Duration::from_secs(1) })
+    }
+
+    fn with_song(host: FakeHost) -> Option<Room> {
+        Self::open(host, "channels.0 = { file = \"song.wav\", kind = \"music\" }")
+    }
+
+    /// So much time goes by, at 60 frames a second.
+    fn run(&mut self, secs: f64) {
+        let end = self.now + Duration::from_secs_f64(secs);
+        while self.now < end {
+            self.stage.session.tick(self.now);
+            // As the device has it: what is to be heard in the next frame is mixed now.
+            self.host.out.run_until(self.now);
+            self.now += Duration::from_micros(16_667);
+        }
+    }
+
+    fn time(&self) -> f64 {
+        self.stage.session.transport().time_secs
+    }
+
+    /// The left channel of what was heard since the last call, and the moment of its first sample.
+    fn heard(&self) -> (Instant, Vec<f32>) {
+        let (at, samples) = self.host.out.take_heard();
+        (at.expect("something was played"), samples.chunks(2).map(|frame| frame[0]).collect())
+    }
+
+    /// The worst distance, in samples, of what was heard in the last `secs` from the file at `iTime`.
+    fn worst(&self, secs: f64, speed: f64) -> f64 {
+        let (at, left) = self.heard();
+        // The newest frame was drawn at the tick before now.
+        let (drawn, time) = (self.now - Duration::from_micros(16_667), self.time());
+        let mut worst = 0.0_f64;
+        for (n, sample) in left.iter().enumerate().skip(left.len() - (secs * RATE) as usize) {
+            let heard_at = at + Duration::from_secs_f64(n as f64 / RATE);
+            let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
+            let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
+            let place = ((time + speed * (ahead - since)) * RATE).rem_euclid(LENGTH);
+            let said = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
+            let distance = (place - said).rem_euclid(2000.0);
+            // At the edge of the saw tooth an interpolated sample says nothing.
+            if (100.0..1900.0).contains(&place.rem_euclid(2000.0)) && (100.0..LENGTH - 100.0).contains(&place) {
+                worst = worst.max(distance.min(2000.0 - distance));
+            }
+        }
+        worst
+    }
+}
+
+#[test]
+fn what_is_heard_is_the_file_at_the_pictures_time() {
+    let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
+    room.run(0.2);
+    assert!(!room.host.out.is_open(), "nothing is opened before something is heard");
+    room.stage.session.apply(Command::Play);
+    room.run(1.0);
+    assert!(room.host.out.is_open());
+    assert!(room.time() > 0.9);
+    let worst = room.worst(0.9, 1.0);
+    assert!(worst < 1.0, "{worst} samples off");
+    // A seek, forwards and back.
+    for secs in [7.3, 2.0] {
+        room.stage.session.apply(Command::Seek(secs));
+        room.run(0.5);
+        assert!((room.time() - secs - 0.48).abs() < 0.03, "{}", room.time());
+        let worst = room.worst(0.4, 1.0);
+        assert!(worst < 1.0, "{worst} samples off after a seek to {secs}");
+    }
+    // Past the end it begins again.
+    room.stage.session.apply(Command::Seek(9.8));
+    room.run(0.6);
+    assert!(room.worst(0.25, 1.0) < 1.0);
+    room.stage.session.apply(Command::Reset);
+    room.run(0.5);
+    assert!(room.time() < 0.52 && room.worst(0.4, 1.0) < 1.0);
+    // Speeds: the file at iTime, read faster or slower.
+    for speed in [0.25, 0.5, 2.0, 4.0] {
+        room.stage.session.apply(Command::Seek(1.0));
+        room.stage.session.apply(Command::SetSpeed(speed));
+        room.run(0.6);
+        let worst = room.worst(0.4, speed);
+        assert!(worst < 1.0 + speed, "{worst} samples off at {speed}");
+    }
+    room.stage.session.apply(Command::SetSpeed(8.0));
+    room.run(0.2);
+    room.heard();
+    room.run(0.2);
+    assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "too fast to be heard");
+    assert_eq!(room.stage.notices(Level::Warning), [""; 0]);
+}
+
+#[test]
+fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_where_the_picture_does() {
+    let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
+    let silence: [(Command, Command); 3] = [
+        (Command::Pause, Command::Play),
+        (Command::SetFixedRate(Some(60.0)), Command::SetFixedRate(None)),
+        (Command::Hide(true), Command::Hide(false)),
+    ];
+    room.stage.session.apply(Command::Play);
+    for (stop, go_on) in silence {
+        room.run(0.5);
+        room.stage.session.apply(stop.clone());
+        room.run(0.1);
+        room.heard();
+        room.run(0.5);
+        assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "silent after {stop:?}");
+        room.stage.session.apply(go_on);
+        room.run(0.5);
+        let worst = room.worst(0.4, 1.0);
+        assert!(worst < 1.0, "{worst} samples off after {stop:?}");
+    }
+    // Steps and scrubs while paused are not heard.
+    room.stage.session.apply(Command::Pause);
+    room.run(0.1);
+    room.heard();
+    for _ in 0..5 {
+        room.stage.session.apply(Command::Step);
+        room.run(0.05);
+        room.stage.session.apply(Command::Seek(3.0));
+        room.run(0.05);
+    }
+    assert!(room.heard().1.iter().all(|sample| *sample == 0.0));
+}
+
+#[test]
+fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
+    let two = "channels.0 = { file = \"song.wav\", kind = \"music\" }\n[passes.buffer_a]\nchannels.0 = { file = \
+               \"song.wav\", kind = \"music\" }";
+    let Some(mut room) = Room::open(FakeHost::default(), two) else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(0.5);
+    assert_eq!(room.stage.session.sources_heard(), 1);
+    let loudest = |room: &Room| {
+        let left = room.heard().1;
+        left[left.len() - 9000..].iter().fold(0.0_f32, |most, sample| most.max(sample.abs()))
+    };
+    let full = loudest(&room);
+    assert!((full - 10_000.0 / 32_768.0).abs() < 0.01, "{full}");
+    room.stage.session.apply(Command::SetVolume(0.5));
+    room.run(0.5);
+    assert!((loudest(&room) - full / 4.0).abs() < 0.01, "half the way is a quarter");
+    room.stage.session.apply(Command::SetMute(true));
+    room.run(0.5);
+    assert_eq!(loudest(&room), 0.0);
+    room.stage.session.apply(Command::SetMute(false));
+    room.run(0.5);
+    assert!((loudest(&room) - full / 4.0).abs() < 0.01);
+    let view = room.stage.session.output_view().unwrap();
+    assert!(view.has_sound && !view.is_muted && view.volume == 0.5);
+    // A sound pass beside it, and another after an edit.
+    for (revision, value) in [(1, 3000_i16), (2, -3000)] {
+        let track = Track::new(441_000, 44_100);
+        (0..10).for_each(|block| track.write(block, vec![[value; 2]; 44_100]));
+        room.stage.session.apply(Command::SetVolume(1.0));
+        room.stage.session.play_track(Some((revision, Arc::new(track))));
+        room.run(0.5);
+        assert_eq!(room.stage.session.sources_heard(), 2);
+        let left = room.heard().1;
+        let mean = left[left.len() - 8000..].iter().sum::<f32>() / 8000.0;
+        // Four whole teeth of the song, whose mean is near nothing.
+        assert!((mean - f32::from(value) / 32_768.0).abs() < 0.001, "{mean}");
+    }
+    // Another project is silent.
+    room.stage.session.play_track(None);
+    room.stage.session.apply(Command::New);
+    room.run(0.5);
+    assert_eq!(room.stage.session.sources_heard(), 0);
+}
+
+#[test]
+fn a_device_that_is_missing_or_vanishes_is_told_of_once_and_comes_back() {
+    let host = FakeHost::default();
+    host.out.set_names(&[]);
+    let Some(mut room) = Room::with_song(host) else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(7.0);
+    let told = |room: &Room| room.stage.count("no sound: ");
+    assert_eq!(told(&room), 1);
+    assert!(room.time() > 6.5, "the picture goes on");
+    assert_eq!(room.host.out.attempts(), 3, "every three seconds");
+    assert!(matches!(room.stage.session.output_view().unwrap().device, DeviceState::Missing(_)));
+    room.host.out.set_names(&["speakers"]);
+    room.run(3.5);
+    assert!(room.host.out.is_open());
+    assert_eq!((told(&room), room.stage.count("sound plays on speakers")), (0, 1));
+    assert!(room.worst(0.3, 1.0) < 1.0, "in step with the picture");
+    room.host.out.set_names(&[]);
+    room.run(1.0);
+    assert_eq!(told(&room), 1);
+    room.host.out.set_names(&["headphones"]);
+    room.run(3.5);
+    assert!(room.host.out.is_open() && told(&room) == 0);
+    // By name: one that is not there, and then the one that is.
+    room.stage.session.apply(Command::SetAudioOutput(Some("Kitchen".into())));
+    room.run(0.5);
+    assert!(!room.host.out.is_open());
+    assert_eq!(room.stage.notices(Level::Warning).len(), 1);
+    assert!(room.stage.notices(Level::Warning)[0].contains("there is no device \"Kitchen\""));
+    room.stage.session.apply(Command::SetAudioOutput(None));
+    room.run(0.5);
+    assert!(room.host.out.is_open());
+}
+
+#[test]
+fn a_project_without_sound_opens_nothing_and_says_nothing() {
+    let host = FakeHost::default();
+    host.out.set_names(&[]);
+    let Some(mut room) = Room::open(host, "channels.0 = { keyboard = true }") else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(5.0);
+    assert_eq!((room.host.out.attempts(), room.stage.session.notices().len()), (0, 0));
+    // Nor where there is no sound at all.
+    let Some(gpu) = gpu() else { return };
+    let mut bare = Stage::open(gpu, &[("image.glsl", SHOW)]);
+    bare.session.apply(Command::UseMicrophone(true));
+    bare.session.apply(Command::ListAudioDevices);
+    bare.for_a_while();
+    assert!(bare.session.output_view().is_none() && bare.session.microphone_view().is_none());
+}
+
+#[test]
+fn a_device_is_closed_when_it_is_not_needed_for_long() {
+    let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(0.5);
+    room.stage.session.apply(Command::Pause);
+    room.run(15.0);
+    assert!(room.host.out.is_open());
+    room.run(8.0);
+    assert!(!room.host.out.is_open());
+    room.stage.session.apply(Command::Play);
+    room.run(0.5);
+    assert!(room.host.out.is_open() && room.worst(0.3, 1.0) < 1.0);
+}
+
+#[test]
+fn another_rate_of_the_device_changes_no_place() {
+    let host = FakeHost { out: FakeOut::new(Format { rate: 48_000, channels: 2 }, 480), ..FakeHost::default() };
+    let Some(mut room) = Room::with_song(host) else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(1.0);
+    let (at, left) = room.heard();
+    let (drawn, time) = (room.now - Duration::from_micros(16_667), room.time());
+    let mut worst = 0.0_f64;
+    for (n, sample) in left.iter().enumerate().skip(20_000) {
+        let heard_at = at + Duration::from_secs_f64(n as f64 / 48_000.0);
+        let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
+        let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
+        let place = ((time + ahead - since) * RATE).rem_euclid(2000.0);
+        if (100.0..1900.0).contains(&place) {
+            worst = worst.max((f64::from(*sample) * 32_768.0 / 10.0 + 1000.0 - place).abs());
+        }
+    }
+    assert!(worst < 3.0, "{worst} samples off: the ripple of the saw tooth's edge");
+}
+
+/// The brightest place of the first row: which bin the shader saw.
+fn seen(room: &mut Room) -> u8 {
+    room.stage.red()
+}
+
+#[test]
+fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
+    let host = FakeHost::default();
+    let Some(mut room) = Room::open(host, "channels.0 = { microphone = true }") else { return };
+    // The wave at rest is 128; the made-up one never is for long.
+    room.host.input.plug_in();
+    room.stage.session.apply(Command::Play);
+    room.run(0.3);
+    assert!(!room.host.input.is_open(), "no project opens it");
+    let view = room.stage.session.microphone_view().unwrap();
+    assert!(view.is_read && !view.is_on);
+    room.stage.session.apply(Command::UseMicrophone(true));
+    room.run(0.1);
+    assert!(room.host.input.is_open());
+    let tone = |from: usize| -> Vec<f32> {
+        (from..from + 735).map(|n| (0.2 * (TAU * 441.0 * n as f64 / RATE).sin()) as f32).collect()
+    };
+    room.stage.session.apply(Command::Record);
+    for frame in 0..30 {
+        room.host.input.hear(&tone(735 * frame));
+        room.run(0.016);
+    }
+    assert!(room.stage.session.microphone_view().unwrap().level > 0.15);
+    room.stage.session.apply(Command::Pause);
+    room.run(0.1);
+    let shown = seen(&mut room);
+    // What is heard while time stands is not seen.
+    room.host.input.hear(&vec![0.9; 4410]);
+    room.run(0.1);
+    assert_eq!(seen(&mut room), shown);
+    room.stage.session.apply(Command::Record);
+    room.run(0.1);
+    let notice = room.stage.session.notices().iter().rev().find(|n| n.text.contains("frames of input saved"));
+    let file = notice.and_then(|notice| notice.path.clone()).expect("a recording");
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert!(text.matches("\"mic\"").count() >= 29, "{} frames with it", text.matches("\"mic\"").count());
+    // It is closed at once, and the recording has what it heard.
+    room.stage.session.apply(Command::UseMicrophone(false));
+    room.run(0.05);
+    assert!(!room.host.input.is_open());
+    room.stage.session.apply(Command::PlayRecording(file));
+    let end = Instant::now() + Duration::from_secs(20);
+    while !room.stage.session.notices().iter().any(|n| n.text.contains(" ended: ")) {
+        assert!(Instant::now() < end, "{:#?}", room.stage.session.notices());
+        std::thread::sleep(Duration::from_millis(2));
+        room.run(0.05);
+    }
+    assert_eq!(seen(&mut room), shown, "the same picture without the microphone");
+    assert_eq!(room.stage.session.shown_pass(), &PassId::Image);
+}
+
+#[test]
+fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays_closed() {
+    let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { microphone = true }") else { return };
+    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(Command::UseMicrophone(true));
+    room.run(4.0);
+    assert_eq!(room.stage.count("the microphone cannot be used: this machine has no input device"), 1);
+    room.host.input.plug_in();
+    room.run(3.5);
+    assert!(room.host.input.is_open());
+    assert_eq!(room.stage.count("the microphone cannot be used"), 0);
+    room.stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: None });
+    room.run(0.2);
+    assert!(!room.host.input.is_open());
+}
+
+#[test]
+fn a_song_that_is_dropped_is_music_of_a_free_channel() {
+    let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { keyboard = true }") else { return };
+    let elsewhere = room.stage.dir.path().join("tune.WAV");
+    std::fs::write(&elsewhere, wav((0..44_100).map(saw))).unwrap();
+    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassId::Image, None)) });
+    room.stage.until("music", |session| session.output_view().is_some_and(|view| view.has_sound));
+    let channel = room.stage.session.project().pass(&PassId::Image).unwrap().channels[1].clone().unwrap();
+    assert_eq!(channel.input.kind(), InputKind::Music);
+    assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
+    assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);
+    // A copy comes into the project's folder when it is saved.
+    room.stage.session.apply(Command::Save);
+    room.run(0.3);
+    assert!(room.stage.path("tune.wav").is_file());
+    assert!(room.stage.read("eddy.toml").contains("kind = \"music\""), "{}", room.stage.read("eddy.toml"));
+}
