@@ -2,10 +2,13 @@
 
 use std::{ops::Range, sync::OnceLock};
 
+/// Left and right of each frame.
+type Block = Box<[[i16; 2]]>;
+
 /// Stereo frames of 16 bits in blocks of equal length. A block is written once, as a whole; blocks may come in any order.
 /// Reading takes no lock, so that a device's callback can do it.
 pub struct Track {
-    blocks: Box<[OnceLock<Box<[[i16; 2]]>>]>,
+    blocks: Box<[OnceLock<Block>]>,
     block_frames: usize,
     frames: usize,
 }

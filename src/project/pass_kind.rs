@@ -89,7 +89,6 @@ pub(super) const CUBEMAP: PassRow = PassRow {
         NO_MESHES,
     ],
     note: "A cubemap has six faces of 1024x1024 texels of 16-bit floats.",
-    ..BUFFER
 };
 
 const SOUND: PassRow = PassRow {
@@ -107,7 +106,6 @@ const SOUND: PassRow = PassRow {
     entry: "mainSound",
     refused: NO_PICTURE,
     note: "A sound pass makes 180 s of sound once, and not in each frame. It reads image files and cubemaps.",
-    ..BUFFER
 };
 
 const IMAGE: PassRow = PassRow {

@@ -133,7 +133,7 @@ pub fn work(
         let heard = match is_sound {
             None => Heard::Nothing,
             Some(false) => Heard::Broken,
-            Some(true) => Heard::Sound(media.set.clone()),
+            Some(true) => Heard::Sound(Box::new(media.set.clone())),
         };
         let took = start.elapsed();
         diag::append(&mut found, project::advice(&job.project));

@@ -36,7 +36,7 @@ pub(super) enum Heard {
     /// The sound pass has errors: what was made before stays.
     Broken,
     /// It compiles; with the pictures that it may read.
-    Sound(MediaSet),
+    Sound(Box<MediaSet>),
 }
 
 /// A sound that is to be made.
@@ -342,7 +342,7 @@ impl Session {
                 let mut project = project.clone();
                 // They may have been turned while it was being compiled.
                 project.custom_uniform_values.clone_from(&self.documents.current().custom_uniform_values);
-                self.sounding.order(project, media, self.disk.opened());
+                self.sounding.order(project, *media, self.disk.opened());
             }
         }
     }
