@@ -148,7 +148,7 @@ impl Session {
 }
 
 fn reads(project: &Project, kind: InputKind) -> bool {
-    let passes = project.passes.iter().filter(|pass| pass.id.is_drawn());
+    let passes = project.passes.iter().filter(|pass| pass.id.is_picture());
     passes.flat_map(|pass| pass.channels.iter().flatten()).any(|channel| channel.input.kind() == kind)
 }
 

@@ -289,10 +289,7 @@ pub const KEYS: &[Key] = &[
         }),
         about: "Volume, from 0 to 1",
         usual: "1.0",
-        read: |settings, value| {
-            settings.volume = number(value, &(0.0..=1.0))?;
-            Ok(())
-        },
+        read: |value| number(value, &(0.0..=1.0)).map(Change::Volume),
     },
     Key {
         name: "mute",
@@ -301,10 +298,7 @@ pub const KEYS: &[Key] = &[
         control: Control::Switch { get: |settings| settings.mute, change: Change::Mute },
         about: "Play no sound: true or false",
         usual: "false",
-        read: |settings, value| {
-            settings.mute = value.as_bool().ok_or("must be true or false")?;
-            Ok(())
-        },
+        read: |value| switch(value).map(Change::Mute),
     },
     Key {
         name: "audio-output",
@@ -317,10 +311,7 @@ pub const KEYS: &[Key] = &[
         },
         about: "Name of the device that plays; \"\" for the default of the system",
         usual: "\"\"",
-        read: |settings, value| {
-            settings.audio_output = device(value)?;
-            Ok(())
-        },
+        read: |value| device(value).map(Change::AudioOutput),
     },
     Key {
         name: "audio-input",
@@ -333,10 +324,7 @@ pub const KEYS: &[Key] = &[
         },
         about: "Name of the device that records; \"\" for the default of the system",
         usual: "\"\"",
-        read: |settings, value| {
-            settings.audio_input = device(value)?;
-            Ok(())
-        },
+        read: |value| device(value).map(Change::AudioInput),
     },
 ];
 

@@ -2,7 +2,7 @@
 
 use super::around::Around;
 use crate::{
-    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Sampler, Wrap, file_names, kind_of_file,
+    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
