@@ -98,8 +98,11 @@ pub trait FrameSource: Send + Sync {
 pub struct Place<'a> {
     pub path: &'a Path,
     /// Reads a file beside it: of a sequence each image, whenever its turn comes.
-    pub read: Arc<dyn Fn(&Path) -> Result<Vec<u8>, FileError> + Send + Sync>,
+    pub read: ReadFile,
 }
+
+/// Reads a file by its name.
+pub type ReadFile = Arc<dyn Fn(&Path) -> Result<Vec<u8>, FileError> + Send + Sync>;
 
 /// A video that is ready to play, with its first frame decoded.
 pub struct Video {

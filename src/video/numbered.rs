@@ -1,7 +1,7 @@
 //! Numbered image files as a video: `walk/0001.png`, `walk/0002.png` and so on.
 
-use super::{Decode, Film, Place, VideoError, VideoInfo, check_size, process::Stop};
-use eddy_project::{FileError, limits};
+use super::{Decode, Film, Place, ReadFile, VideoError, VideoInfo, check_size, process::Stop};
+use eddy_project::limits;
 use image::{ImageReader, Limits};
 use std::{
     ffi::OsString,
@@ -39,11 +39,9 @@ pub fn frame_rate_of(path: &Path) -> f64 {
     rate.filter(|rate| (0.01..=1000.0).contains(rate)).unwrap_or(FRAME_RATE)
 }
 
-type Read = Arc<dyn Fn(&Path) -> Result<Vec<u8>, FileError> + Send + Sync>;
-
 pub struct Sequence {
     first: PathBuf,
-    read: Read,
+    read: ReadFile,
     info: VideoInfo,
     count: usize,
 }
@@ -100,7 +98,7 @@ impl Film for Sequence {
 
 struct Run {
     path: Option<PathBuf>,
-    read: Read,
+    read: ReadFile,
     info: VideoInfo,
     next: usize,
     count: usize,

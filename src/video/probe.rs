@@ -107,7 +107,7 @@ pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoErr
     if seconds > f64::from(limits::VIDEO_SECONDS) {
         return Err(VideoError::TooLong { seconds });
     }
-    if !(seconds > 0.0) {
+    if seconds <= 0.0 || seconds.is_nan() {
         // A single frame.
         probed.info.seconds = 1.0 / probed.info.frame_rate;
     }

@@ -218,7 +218,7 @@ fn a_hanging_ffmpeg_is_given_up() {
     b.write("p/clip.mp4", "anything");
     for name in ["ffmpeg", "ffprobe"] {
         b.write(&format!("bin/{name}"), "#!/bin/sh\nexec /bin/sleep 600\n");
-        std::fs::set_permissions(b.path(&format!("bin/{name}")), std::fs::Permissions::from_mode(0o755)).unwrap();
+        std::fs::set_permissions(b.path(format!("bin/{name}")), std::fs::Permissions::from_mode(0o755)).unwrap();
     }
     project(&b, "{ file = \"clip.mp4\", kind = \"video\" }");
     let began = Instant::now();

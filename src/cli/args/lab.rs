@@ -34,6 +34,7 @@ pub struct LabArgs {
 }
 
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "there is one, and it is made once")]
 pub enum LabCommand {
     /// Run simulations under hard conditions and report which leave their bounds
     Stability(StabilityArgs),
