@@ -7,7 +7,6 @@ use std::{
     ffi::OsString,
     io::Cursor,
     path::{Path, PathBuf},
-    sync::Arc,
 };
 
 /// Frames a second of a sequence that says nothing else.
