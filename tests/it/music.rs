@@ -75,8 +75,7 @@ fn without_a_file_the_spectrum_is_the_sites_own() {
 
 #[test]
 fn a_microphone_that_nobody_records_is_the_sites_own_spectrum_too() {
-    let Some(_) = gpu() else { return };
-    let b = Bench::new();
+    let Some(b) = Bench::with_gpu() else { return };
     project(&b, "{ microphone = true }");
     let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
     assert!(run.err.contains("iChannel0 of Image: the microphone is not recorded"), "{}", run.err);
