@@ -98,7 +98,7 @@ impl MediaError {
                  cross of 4:3 or 3:4, a strip of 6:1 or 1:6, or a panorama of 2:1"
                     .into()
             }
-            MediaError::TextureFile { kind, .. } => format!("write the {kind} file anew, or save the texture in another format"),
+            MediaError::TextureFile { kind, .. } => format!("write the {kind} file again, or save the texture in another format"),
             MediaError::Volume { .. } => {
                 "give the first of a stack of images of one size (brain_000.png, brain_001.png, ...), or a file of the site's \
                  kind: 20 bytes before the texels (BIN, a zero, three sides (u32), the number of channels (1 or 4), a \

@@ -37,7 +37,7 @@ fn sky(direction: Vector) -> f64 {
     0.4 + 0.3 * direction[1] + 8.0 * (400.0 * (dot(direction, normalize([0.4, 0.5, 0.75])) - 1.0)).exp()
 }
 
-/// What the lobe about a normal reflects, by so many directions of Hammersley's points.
+/// Returns what the lobe about a normal reflects, by so many directions of Hammersley's points.
 fn reflected(normal: Vector, eye: Vector, directions: usize) -> f64 {
     let side = normalize(cross(normal, [0.0, 1.0, 0.0]));
     let up = cross(normal, side);

@@ -41,7 +41,7 @@ fn harmonic_part(signal: &[f64], periods: usize) -> Vec<f64> {
     part
 }
 
-/// How loud a harmonic is, over what a sawtooth has of it.
+/// Returns how loud a harmonic is, over what a sawtooth has of it.
 fn loudness(signal: &[f64], bin: usize, harmonic: usize) -> f64 {
     let n = signal.len();
     let (mut sin_sum, mut cos_sum) = (0.0, 0.0);

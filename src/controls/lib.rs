@@ -1,1 +1,0 @@
-//! Values from outside: OSC, MIDI and gamepads.
