@@ -34,9 +34,9 @@ int arpeggio(int sixteenth) {
     if (sixteenth < 0) return 0;
     int bar = sixteenth / 16, place = sixteenth % 16;
     uint chance = hash(uint(bar % 32) * 16u + uint(place));
-    // It begins after four bars, and fills up over the next eight.
-    float density = clamp(float(bar - 3) / 8.0, 0.0, 1.0) * (bar % 16 == 15 ? 0.4 : 0.8);
-    if (float(chance & 255u) / 256.0 >= density && (place % 4 != 0 || bar < 4)) return 0;
+    // It begins after a bar, and fills up over the next eight.
+    float density = clamp(float(bar + 1) / 9.0, 0.0, 1.0) * (bar % 16 == 15 ? 0.4 : 0.8);
+    if (bar == 0 || (float(chance & 255u) / 256.0 >= density && place % 4 != 0)) return 0;
     const int walk[16] = int[16](0, 2, 1, 3, 2, 3, 1, 2, 0, 3, 2, 1, 3, 2, 3, 1);
     int octave = 12 + ((chance >> 9u) % 5u == 0u ? 12 : 0);
     return rootOf(bar) + chordOf(bar)[walk[place]] + octave;
