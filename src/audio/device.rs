@@ -177,16 +177,16 @@ fn format(supported: &SupportedStreamConfig) -> (Format, StreamConfig) {
 
 fn refused(device: &cpal::Device, error: &cpal::Error) -> DeviceError {
     let why = match error.kind() {
-        ErrorKind::DeviceNotAvailable => "it is not available".to_owned(),
-        ErrorKind::DeviceBusy => "another program uses it".to_owned(),
-        ErrorKind::PermissionDenied => "the system does not permit it".to_owned(),
-        _ => error.to_string().trim_end_matches('.').to_owned(),
+        ErrorKind::DeviceNotAvailable => "is not available".to_owned(),
+        ErrorKind::DeviceBusy => "is used by another program".to_owned(),
+        ErrorKind::PermissionDenied => "may not be used: the system does not permit it".to_owned(),
+        _ => format!("cannot be opened: {}", error.to_string().trim_end_matches('.')),
     };
     DeviceError::Refused { name: device.to_string(), why }
 }
 
 fn unsupported(device: &cpal::Device, format: SampleFormat) -> DeviceError {
-    let why = format!("its sample format {format} is not supported");
+    let why = format!("has the sample format {format}, which is not supported");
     DeviceError::Refused { name: device.to_string(), why }
 }
 

@@ -75,7 +75,7 @@ pub enum DeviceError {
     None(&'static str),
     #[error("there is no device \"{0}\"")]
     Unknown(String),
-    #[error("{name}: {why}")]
+    #[error("{name} {why}")]
     Refused { name: String, why: String },
 }
 

@@ -263,7 +263,6 @@ impl FramePlan {
         let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
             None => TexelSource::Nothing,
             Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
-            Some(input) if input.row().undrawn.is_some() => TexelSource::Nothing,
             Some(Input::Media { .. } | Input::Device(_)) => TexelSource::External,
         };
         Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })

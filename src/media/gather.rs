@@ -21,7 +21,7 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
 
 /// Loads the picture files of the project's own folder alone, with the warnings of [`gather`].
 pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
-    pictures(project, None, set, |input| input.row().undrawn.is_none() && matches!(input.media(), Some(Media::File(_))))
+    pictures(project, None, set, |input| matches!(input.media(), Some(Media::File(_))))
 }
 
 /// Says what a channel shows whose file is not there.
@@ -53,11 +53,6 @@ fn pictures(
             warnings
                 .push(Diagnostic::warning(None, format!("iChannel{n} of {}: {message}", pass.id.title())).hint(hint));
         };
-        if let Some(undrawn) = channel.input.row().undrawn {
-            let hint = "read an image file, a buffer or the keyboard instead".into();
-            warn(format!("{undrawn}; the channel is black and of size 0"), hint);
-            continue;
-        }
         let Some(key) = MediaKey::of_channel(channel) else { continue };
         let (is_music, is_video) = (channel.input.kind() == InputKind::Music, channel.input.kind() == InputKind::Video);
         if let Some((message, hint)) = failed.get(&key) {

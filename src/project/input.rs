@@ -66,8 +66,6 @@ pub struct InputRow {
     pub has_vflip: bool,
     /// Files that one of media is made of, none for others.
     pub files: usize,
-    /// The beginning of a sentence, for a kind that Eddy does not read yet; `None` for those that it does.
-    pub undrawn: Option<&'static str>,
 }
 
 const LINEAR_CLAMP: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
@@ -88,7 +86,6 @@ const PICTURE: InputRow = InputRow {
     has_fixed_sampler: false,
     has_vflip: true,
     files: 1,
-    undrawn: None,
 };
 /// The same of a pass.
 const PASS: InputRow = InputRow { source: InputSource::Pass, has_vflip: false, files: 0, ..PICTURE };
@@ -311,8 +308,6 @@ mod tests {
         for (index, row) in ROWS.iter().enumerate() {
             assert_eq!((row.kind as usize, row.kind.row().key, example(row).kind()), (index, row.key, row.kind));
             assert!(![row.title, row.glyph, row.key, row.json_type].contains(&""), "{row:?}");
-            let is_sentence = |text: &str| text.split(' ').count() > 2;
-            assert!(row.undrawn.is_none_or(is_sentence), "{row:?}");
             assert_eq!(row.files > 0, row.source == InputSource::Media, "{row:?}");
             assert!(row.files != 1 || row.dimension != Dimension::Cube, "a cube has six faces: {row:?}");
         }

@@ -247,14 +247,15 @@ fn an_input_that_cannot_be_had_is_black_and_a_warning() {
     b.image(
         "w/image.glsl",
         "fragColor = vec4(0.25) + texture(iChannel0, fragCoord) + texture(iChannel1, fragCoord); fragColor.b = \
-         iChannelResolution[0].x + iChannelResolution[1].x;",
+         iChannelResolution[1].x; fragColor.r = iChannelResolution[0].x;",
     );
     let line = b.line("render w --size 4x4 --out w.npy --json").expect(0).json().remove(0);
     assert_eq!(line["status"], "ok", "{line}");
     let found = line["diagnostics"].as_array().unwrap();
     assert!(found.iter().all(|d| d["severity"] == "warning"), "{line}");
     assert!(found.iter().any(|d| d["message"].as_str().unwrap().contains("gone.png")), "{line}");
-    assert_eq!(b.npy("w.npy").at(0, 0)[2], 0.0, "an unloaded channel has size 0");
+    let [camera, _, picture, _] = b.npy("w.npy").at(0, 0);
+    assert_eq!((camera, picture), (320.0, 0.0), "an unloaded channel has size 0, a camera that is off the site's");
 }
 
 #[test]

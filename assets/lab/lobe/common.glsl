@@ -2,7 +2,9 @@
 #define MIRROR 0
 #define PLAIN 1
 #define FILTERED 2
+#ifndef METHOD
 #define METHOD FILTERED
+#endif
 
 #iUniform int samples = 16
 #iUniform float alpha = 0.16

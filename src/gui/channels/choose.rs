@@ -50,7 +50,7 @@ pub fn choose(
             }
         }
         let rows = InputKind::all().map(InputKind::row);
-        for row in rows.filter(|row| row.source == InputSource::Device && row.undrawn.is_none()) {
+        for row in rows.filter(|row| row.source == InputSource::Device) {
             let input = Input::Device(row.kind);
             let item = ui.selectable_label(now == Some(&input), row.title);
             if out.clicked(&format!("choose:{}", row.key), &item) {

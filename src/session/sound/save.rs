@@ -24,7 +24,7 @@ impl Session {
         let track = match (self.sound_unsaved(), self.sound_track()) {
             (None, Some((_, track))) => track,
             (why, _) => {
-                let text = format!("nothing to save: {}", why.unwrap_or_default());
+                let text = why.unwrap_or_default();
                 self.notice_about(About::Capture, Level::Warning, text);
                 return;
             }
