@@ -9,9 +9,15 @@ float loudest(float from, float to) {
     return here;
 }
 
+// A row as it was; one that holds no level any more, as after a fault, is silence.
+vec4 row(ivec2 texel) {
+    vec4 held = texelFetch(iChannel1, texel, 0);
+    return abs(held.x) <= 2.0 && abs(held.y) <= 1.0 ? held : vec4(0.0);
+}
+
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     ivec2 texel = ivec2(fragCoord);
-    vec4 before = texelFetch(iChannel1, texel, 0);
+    vec4 before = row(texel);
     if (texel.y == 0) {
         float at = (fragCoord.x - 0.5) / iResolution.x, width = 1.0 / iResolution.x;
         float level = loudest(frequency(at), frequency(at + width));
@@ -23,5 +29,5 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     }
     // The row below moves up when the clock of the rows has gone on.
     int steps = int(floor(iTime * RATE)) - int(floor((iTime - iTimeDelta) * RATE));
-    fragColor = iFrame == 0 ? vec4(0.0) : steps == 0 ? before : texelFetch(iChannel1, texel - ivec2(0, min(steps, texel.y)), 0);
+    fragColor = iFrame == 0 ? vec4(0.0) : steps == 0 ? before : row(texel - ivec2(0, min(steps, texel.y)));
 }

@@ -9,6 +9,9 @@ const ALPHA: f64 = 0.16;
 /// Directions of the reference: from 2,000 to 8,000 its values move by less than 1e-4.
 const DIRECTIONS: usize = 2000;
 
+/// A buffer reads the cubemap of the frame before.
+const FRAMES: u32 = 2;
+
 const COUNTS: &[f64] = &[4.0, 8.0, 16.0, 32.0, 64.0];
 
 const METHODS: &[Method] = &[
@@ -99,8 +102,8 @@ fn setup(point: &Point) -> Setup {
 }
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-    let after = rig.after(&setup(point), 1, "field")?.component(0);
-    let even = rig.after(&setup(point).flag("even", true), 1, "field")?.component(0);
+    let after = rig.after(&setup(point), FRAMES, "field")?.component(0);
+    let even = rig.after(&setup(point).flag("even", true), FRAMES, "field")?.component(0);
     let worst = even.iter().fold(0.0f64, |a, b| a.max((b - 1.0).abs()));
     let norms = Norms::of(&after, &exact(point.grid as usize, DIRECTIONS));
     Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }.hard(HardCase::at_most(
