@@ -143,7 +143,7 @@ fn probe_ratio(
     let (media, _) = eddy::media::gather(project, None);
     // What a session draws: all that the picture needs, and of Image the value in its place.
     let own = if pass == PassId::Image { vec![PassId::Image] } else { Vec::new() };
-    let buffers = || project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image);
+    let buffers = || project.passes.iter().map(|p| p.id.clone()).filter(|id| id.is_picture() && *id != PassId::Image);
     let plain: Vec<PassId> = own.into_iter().chain(buffers()).collect();
     let wanted = [BuildOptions::probed()].into_iter().chain(buffers()).collect();
     let with = |options: &BuildOptions| engine_with(gpu, project, &media, options, size);

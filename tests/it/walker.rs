@@ -310,7 +310,7 @@ fn what_a_probe_and_a_traced_pixel_cost() {
         let (media, _) = media::gather(&project, None);
         let index = project.passes.iter().position(|p| p.id == PassId::Image).unwrap();
         let text = &project.passes[index].source.text;
-        let ids = project.passes.iter().map(|p| p.id.clone());
+        let ids = project.passes.iter().map(|p| p.id.clone()).filter(PassId::is_picture);
         let buffers: Vec<PassId> = ids.filter(|id| *id != PassId::Image).collect();
         let engine = |probe: Option<(PassId, eddy::glsl::Probe)>| {
             let own = if probe.is_some() { BuildOptions::probed() } else { PassId::Image };

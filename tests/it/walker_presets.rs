@@ -186,7 +186,7 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassId, Found)> {
     let project = project::load(&format!("presets/{name}")).unwrap().project;
     let (media, _) = media::gather(&project, None);
     let sources = Sources::new(&project);
-    let wanted: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
+    let wanted: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).filter(PassId::is_picture).collect();
     let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, &project, &media, &options, SIZE);
     let mut found: Vec<(PassId, Found)> = wanted.into_iter().map(|id| (id, Found::default())).collect();

@@ -99,7 +99,7 @@ pub fn bits(pixels: &Pixels) -> Vec<[u32; 4]> {
 }
 
 pub fn buffers(project: &Project) -> impl Iterator<Item = &PassId> {
-    project.passes.iter().map(|p| &p.id)
+    project.passes.iter().map(|p| &p.id).filter(|id| id.is_picture())
 }
 
 /// An engine in which every pass can be read.
