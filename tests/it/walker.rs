@@ -257,7 +257,7 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
     for name in presets::names() {
         let project = project::load(&format!("presets/{name}")).unwrap().project;
         let (media, _) = media::gather(&project, None);
-        for pass in &project.passes {
+        for pass in project.passes.iter().filter(|pass| pass.id.is_picture()) {
             let options = BuildOptions { wanted: vec![pass.id.clone()], ..BuildOptions::default() };
             let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
             (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));

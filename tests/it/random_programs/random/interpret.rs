@@ -196,6 +196,26 @@ impl Machine<'_> {
         }
     }
 
+    /// An operand in its turn: a variable is read when the others have been evaluated.
+    fn operand(&mut self, expr: &Expr) -> Result<Operand, TooLong> {
+        Ok(match expr {
+            Expr::Read(place, _) => Operand::Place(self.place(place)?),
+            _ => Operand::Value(self.value(expr)?),
+        })
+    }
+
+    fn read(&self, operand: Operand) -> Words {
+        match operand {
+            Operand::Value(words) => words,
+            Operand::Place(at) => self.load(&at),
+        }
+    }
+
+    fn both(&mut self, left: &Expr, right: &Expr) -> Result<(Words, Words), TooLong> {
+        let (left, right) = (self.operand(left)?, self.operand(right)?);
+        Ok((self.read(left), self.read(right)))
+    }
+
     fn scalar(&mut self, expr: &Expr) -> Result<u32, TooLong> {
         Ok(self.value(expr)?[0])
     }
@@ -221,15 +241,19 @@ impl Machine<'_> {
             }
             Expr::Binary(op, left, right, ty) => {
                 let base = left.ty().base();
-                let (l, r) = (self.value(left)?, self.value(right)?);
+                let (l, r) = self.both(left, right)?;
                 binary(*op, base.unwrap_or(Base::Int), &l, &r, ty)
+            }
+            Expr::Logic(Logic::Xor, left, right) => {
+                let (l, r) = self.both(left, right)?;
+                vec![((l[0] != 0) != (r[0] != 0)).into()]
             }
             Expr::Logic(op, left, right) => {
                 let left = self.scalar(left)? != 0;
                 let value = match op {
                     Logic::And => left && self.scalar(right)? != 0,
                     Logic::Or => left || self.scalar(right)? != 0,
-                    Logic::Xor => left != (self.scalar(right)? != 0),
+                    Logic::Xor => unreachable!("has been"),
                 };
                 vec![value.into()]
             }
@@ -243,8 +267,9 @@ impl Machine<'_> {
             }
             Expr::Construct(ty, parts) => {
                 let mut words = Vec::new();
+                let parts: Vec<Operand> = parts.iter().map(|part| self.operand(part)).collect::<Result<_, _>>()?;
                 for part in parts {
-                    words.extend(self.value(part)?);
+                    words.extend(self.read(part));
                 }
                 if let (Ty::Num(_, size), 1) = (ty, words.len()) {
                     words = vec![words[0]; (*size).into()];
@@ -281,7 +306,7 @@ impl Machine<'_> {
             }
             Expr::Extreme { max, left, right, ty } => {
                 let signed = ty.base() == Some(Base::Int);
-                let (l, r) = (self.value(left)?, self.value(right)?);
+                let (l, r) = self.both(left, right)?;
                 let key = |bits: u32| if signed { i64::from(bits as i32) } else { i64::from(bits) };
                 let pick = |(i, &l): (usize, &u32)| {
                     let r = r[i.min(r.len() - 1)];
@@ -291,7 +316,8 @@ impl Machine<'_> {
             }
             Expr::Abs(of) => vec![(self.scalar(of)? as i32).wrapping_abs() as u32],
             Expr::Fetch { channel, at, component } => {
-                let (x, y) = (self.scalar(&at.0)? as i32, self.scalar(&at.1)? as i32);
+                let (x, y) = self.both(&at.0, &at.1)?;
+                let (x, y) = (x[0] as i32, y[0] as i32);
                 let (width, texels) = self.inputs.channels[*channel];
                 let height = texels.len() / width;
                 let inside = (0..width as i32).contains(&x) && (0..height as i32).contains(&y);
@@ -308,15 +334,15 @@ impl Machine<'_> {
         let mut copies_out = Vec::new();
         for ((param, mode), arg) in function.params.iter().zip(args) {
             values.push(match arg {
-                Arg::In(value) => self.value(value)?,
+                Arg::In(value) => self.operand(value)?,
                 Arg::Place(place) => {
                     let at = self.place(place)?;
-                    let value = if *mode == Mode::Inout { self.load(&at) } else { vec![0; at.1.len()] };
-                    copies_out.push((at, *param));
-                    value
+                    copies_out.push((at.clone(), *param));
+                    if *mode == Mode::Inout { Operand::Place(at) } else { Operand::Value(vec![0; at.1.len()]) }
                 }
             });
         }
+        let values: Vec<Words> = values.into_iter().map(|value| self.read(value)).collect();
         for ((param, _), value) in function.params.iter().zip(values) {
             self.memory[*param] = value;
         }
@@ -331,6 +357,12 @@ impl Machine<'_> {
             _ => Vec::new(),
         })
     }
+}
+
+/// An operand that has been evaluated: its value, or where it is read.
+enum Operand {
+    Value(Words),
+    Place((VarId, Vec<usize>)),
 }
 
 fn convert(bits: u32, from: Base, to: Base) -> u32 {

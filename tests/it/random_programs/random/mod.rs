@@ -2,8 +2,8 @@
 //! them.
 //!
 //! All numbers are ints and uints, which wrap, and floats that hold small whole numbers. So the same program has one
-//! result only, on every device and in [`interpret`]; any difference is a fault. Order is from left to right, as Eddy
-//! promises it.
+//! result only, on every device and in [`interpret`]; any difference is a fault. Order is from left to right, and
+//! variables among operands are read last, as Eddy promises it.
 
 pub mod interpret;
 pub mod make;
