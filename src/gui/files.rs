@@ -216,9 +216,9 @@ impl Asked {
 }
 
 /// Endings of images and videos that a channel can show.
-const SHOWN: [&str; 17] = [
-    "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg",
-    "mpeg",
+const SHOWN: [&str; 20] = [
+    "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx2", "dds", "mp4", "webm", "mkv", "mov", "m4v",
+    "ogv", "avi", "mpg", "mpeg",
 ];
 
 fn help(pick: &Pick) -> &'static str {
@@ -233,7 +233,9 @@ fn help(pick: &Pick) -> &'static str {
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
         Pick::CodeFont => "A .ttf or .otf file",
-        Pick::Picture { .. } => "An image (png, jpg, webp, bmp, tga, gif, hdr) or a video (mp4, webm, mkv, mov)",
+        Pick::Picture { .. } => {
+            "An image (png, jpg, webp, bmp, tga, gif, hdr, exr, ktx2, dds) or a video (mp4, webm, mkv, mov)"
+        }
         Pick::Sound { .. } => "An mp3, ogg, wav, flac, m4a, aac or aiff file",
     }
 }
