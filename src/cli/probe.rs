@@ -66,6 +66,9 @@ fn probed(
     inputs: ScriptedInputs,
 ) -> Result<Probed, Trouble> {
     let pass = args.pass();
+    if !pass.is_picture() {
+        return Err(anyhow::anyhow!("a sound pass has no pixels to probe").into());
+    }
     let face = args.face().map_err(anyhow::Error::msg)?;
     let out = args.file();
     // A file that nobody named is written over nothing.

@@ -255,6 +255,7 @@ pub(super) fn options(
     (place, is_gone): &(ProbePlace, bool),
 ) -> Result<(BuildOptions, ProbedValue), String> {
     let pass = match &place.tab {
+        Tab::Pass(PassId::Sound) => return Err("a sound pass has no pixels to probe".into()),
         Tab::Pass(pass) => pass.clone(),
         Tab::Common => shown.clone(),
         Tab::Included(_) => {
