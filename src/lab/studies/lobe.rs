@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 /// The square of the roughness .4.
 const ALPHA: f64 = 0.16;
 
-/// Directions of the reference: from 2,000 to 8,000 its values move by less than 1e-4.
-const DIRECTIONS: usize = 2000;
+/// Directions of the reference: with four times as many its values move by .00023 of their norm.
+const DIRECTIONS: usize = 16_384;
 
 /// A buffer reads the cubemap of the frame before.
 const FRAMES: u32 = 2;
@@ -79,7 +79,7 @@ pub static STUDY: Study = Study {
     title: "Reflections of a rough surface",
     text: "What a GGX lobe of roughness .4 about normals up to 50 degrees from the eye reflects of a sky that brightens \
            upwards and has a sun six degrees wide, by reads of a cubemap pass of 1024 texels a side. The reference is \
-           importance sampling with 2,000 directions of the sky itself, in double precision. The hard case is that an \
+           importance sampling with 16,384 directions of the sky itself, in double precision. The hard case is that an \
            even sky stays even, within .001.",
     parameter: "directions",
     unit: Unit::Frame,
@@ -121,8 +121,8 @@ mod tests {
     fn the_reference_has_settled_and_sees_the_sun() {
         let (few, many) = (exact(4, DIRECTIONS), exact(4, 4 * DIRECTIONS));
         let moved = Norms::of(&few, &many);
-        assert!(moved.linf < 2e-3 && moved.l2 < 5e-4, "{moved:?}");
+        assert!(moved.linf < 1e-3 && moved.l2 < 4e-4, "{moved:?}");
         let (low, high) = many.iter().fold((f64::MAX, 0.0f64), |(low, high), v| (low.min(*v), high.max(*v)));
-        assert!(low < 0.7 && high > 0.9, "{low} {high}");
+        assert!(low < 0.2 && high > 0.6, "{low} {high}");
     }
 }

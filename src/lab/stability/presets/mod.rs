@@ -91,7 +91,7 @@ pub const NAMES: [&str; 25] = [
 ];
 
 /// Says how many of them have a state.
-pub const WITH_STATE: usize = 15;
+pub const WITH_STATE: usize = 16;
 
 /// For a project on disk that has the name of a preset and the passes of its checks.
 pub fn declared_for_copy(project: &Project) -> Option<Declared> {
