@@ -36,6 +36,7 @@ mod glsl_errors;
 mod glsl_loops;
 mod glsl_memory;
 mod glsl_mutations;
+mod glsl_order;
 mod glsl_variables;
 mod golden;
 mod hostile_projects;

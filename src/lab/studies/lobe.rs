@@ -78,7 +78,7 @@ pub static STUDY: Study = Study {
     name: "lobe",
     title: "Reflections of a rough surface",
     text: "What a GGX lobe of roughness .4 about normals up to 50 degrees from the eye reflects of a sky that brightens \
-           upwards and has a sun six degrees wide, by reads of a cubemap pass of 1024 texels a side. The reference is \
+           upwards and has a sun seven degrees wide, by reads of a cubemap pass of 1024 texels a side. The reference is \
            importance sampling with 16,384 directions of the sky itself, in double precision. The hard case is that an \
            even sky stays even, within .001.",
     parameter: "directions",
