@@ -124,7 +124,7 @@ fn summary(
     (audit, grid): (&Audit, &[(u32, u32)]),
     device: &Pixels,
 ) -> Result<Audited, Trouble> {
-    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.settings.format);
+    let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.formats()[0]);
     let (stored, is_32_bit) = (format.components(), format.is_32_bit());
     let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
     let differences = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored);

@@ -119,7 +119,7 @@ fn compare_run(
         for (pass, other) in project.passes.iter().zip(&other.passes) {
             // A pass that nothing reaches is not drawn.
             let Ok([a, b]) = both(&mut engines, &pass.id) else { continue };
-            let formats = [pass, other].map(|p| p.settings.format.name());
+            let formats = [pass, other].map(|p| p.formats()[0].name());
             let (reference, values) = (values(&a), values(&b));
             let sum = |v: &[f64]| v.iter().sum::<f64>();
             let size = reference.iter().map(|x| x.abs()).sum::<f64>();
@@ -154,7 +154,7 @@ pub fn halved_by(
 ) -> Result<Comparison, PrecisionError> {
     let mut half = project.clone();
     halve(&mut half);
-    if half.passes.iter().zip(&project.passes).all(|(a, b)| a.settings.formats() == b.settings.formats()) {
+    if half.passes.iter().zip(&project.passes).all(|(a, b)| a.formats() == b.formats()) {
         // What does not compile says that first.
         open(gpu, project, media, size)?;
         return Err(PrecisionError::NoFloats);

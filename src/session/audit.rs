@@ -171,7 +171,7 @@ fn audit_pass(project: &Project, inspected: Inspected) -> Result<AuditSummary, S
     let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass was removed")?;
     let pixels = audit::grid(PIXELS, &project.passes[index].settings, inputs.size);
     let found = audit::audit(&Sources::new(project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
-    let stored = project.passes[index].settings.format.components();
+    let stored = project.passes[index].formats()[0].components();
     let texel = |(x, y): (u32, u32)| picture.texels.get((y * picture.width + x) as usize).copied().unwrap_or_default();
     let error = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored).into_iter().fold(0.0, f64::max);
     let mut worst: Vec<WorstPixel> = found

@@ -125,7 +125,7 @@ fn walk_pass(
     found: &mut Found,
 ) {
     let pass = &project.passes[index];
-    let format = pass.settings.format;
+    let format = pass.formats()[0];
     let extent = Extent { steps: 0, ..Extent::default() };
     let tracer = Tracer::new(sources, index, read, extent).unwrap_or_else(|e| panic!("{}: {e}", pass.id.title()));
     let (width, height) = read.size;
