@@ -2,7 +2,15 @@
 
 use crate::{SAMPLE_RATE, Sound};
 use rubato::{Fft, FixedSync, Resampler, WindowFunction, audioadapter_buffers::direct::InterleavedSlice};
-use std::{io::Cursor, sync::Arc};
+use std::{
+    io::Cursor,
+    sync::{
+        Arc,
+        mpsc::{RecvTimeoutError, sync_channel},
+    },
+    thread,
+    time::{Duration, Instant},
+};
 use symphonia::core::{
     codecs::audio::{AudioDecoder, AudioDecoderOptions},
     errors::Error,
@@ -19,11 +27,13 @@ pub struct Limits {
     pub channels: usize,
     /// Lowest and highest number of samples a second.
     pub rate: (u32, u32),
+    /// Time for which a file is decoded.
+    pub patience: Duration,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { seconds: 20 * 60, channels: 8, rate: (4_000, 384_000) }
+        Limits { seconds: 20 * 60, channels: 8, rate: (4_000, 384_000), patience: Duration::from_secs(60) }
     }
 }
 
@@ -40,8 +50,10 @@ pub enum AudioError {
     Rate(u32, u32, u32),
     #[error("damaged: {0}")]
     Damaged(String),
-    #[error("decoding took too long")]
-    GivenUp,
+    #[error("it was not decoded within {} s", .0.as_secs_f32())]
+    Late(Duration),
+    #[error("decoding failed: {0}")]
+    Failed(String),
 }
 
 impl AudioError {
@@ -52,24 +64,53 @@ impl AudioError {
             AudioError::NoTrack => "choose a file with sound in it",
             AudioError::Channels(..) => "mix it down: ffmpeg -i FILE -ac 2 music.ogg",
             AudioError::Rate(..) => "resample it: ffmpeg -i FILE -ar 44100 music.ogg",
-            AudioError::Damaged(_) | AudioError::GivenUp => "write it again: ffmpeg -i FILE music.ogg",
+            AudioError::Damaged(_) | AudioError::Late(_) | AudioError::Failed(_) => {
+                "write it again: ffmpeg -i FILE music.ogg"
+            }
         }
     }
 }
 
-/// Decodes a file. `extension` helps where the content does not tell its kind; `go_on` is asked after every packet.
-pub fn decode(
+/// Decodes a file. `extension` helps where the content does not tell its kind. A decoder that does not end in time is
+/// left behind on its thread.
+pub fn decode(file: Arc<[u8]>, extension: Option<&str>, limits: &Limits) -> Result<Sound, AudioError> {
+    let (limits, extension) = (*limits, extension.map(str::to_owned));
+    within(limits.patience, move |give_up| {
+        decode_packets(file, extension.as_deref(), &limits, || Instant::now() < give_up)
+    })
+}
+
+/// Runs `work` on a thread of its own, and returns when it ends, or when it should have. It is given the time at which
+/// it should end by itself.
+fn within<T: Send + 'static>(
+    patience: Duration,
+    work: impl FnOnce(Instant) -> Result<T, AudioError> + Send + 'static,
+) -> Result<T, AudioError> {
+    /// Time after that for work that sees by itself that it is late.
+    const GRACE: Duration = Duration::from_millis(500);
+    let (send, receive) = sync_channel(1);
+    let give_up = Instant::now() + patience;
+    let started = thread::Builder::new().name("sound file".into()).spawn(move || send.send(work(give_up)));
+    started.map_err(|error| AudioError::Failed(error.to_string()))?;
+    match receive.recv_timeout(patience + GRACE) {
+        Ok(result) => result,
+        Err(RecvTimeoutError::Timeout) => Err(AudioError::Late(patience)),
+        Err(RecvTimeoutError::Disconnected) => Err(AudioError::Failed("the decoder has a fault".into())),
+    }
+}
+
+fn decode_packets(
     file: Arc<[u8]>,
     extension: Option<&str>,
     limits: &Limits,
-    mut go_on: impl FnMut() -> bool,
+    go_on: impl Fn() -> bool,
 ) -> Result<Sound, AudioError> {
     let mut format = open(file, extension)?;
     let (track, mut decoder) = decoder(&*format)?;
     let mut stereo = Stereo::new(limits);
     loop {
         if !go_on() {
-            return Err(AudioError::GivenUp);
+            return Err(AudioError::Late(limits.patience));
         }
         let packet = match format.next_packet() {
             Ok(Some(packet)) => packet,
@@ -215,7 +256,7 @@ mod tests {
     use crate::wav::wav;
 
     fn read(file: &[u8]) -> Result<Sound, AudioError> {
-        decode(file.into(), None, &Limits::default(), || true)
+        decode(file.into(), None, &Limits::default())
     }
 
     fn sine(count: usize, rate: f64) -> Vec<[i16; 2]> {
@@ -253,7 +294,7 @@ mod tests {
     #[test]
     fn a_long_file_is_cut_and_says_so() {
         let limits = Limits { seconds: 1, ..Limits::default() };
-        let sound = decode(wav(&sine(50_000, 44_100.0)).into(), None, &limits, || true).unwrap();
+        let sound = decode(wav(&sine(50_000, 44_100.0)).into(), None, &limits).unwrap();
         assert_eq!((sound.frames.len(), sound.truncated), (44_100, true));
     }
 
@@ -265,7 +306,21 @@ mod tests {
         let mut file = wav(&sine(100, 44_100.0));
         file[24..28].copy_from_slice(&1u32.to_le_bytes());
         assert_eq!(read(&file), Err(AudioError::Rate(1, 4_000, 384_000)));
-        assert_eq!(decode(wav(&sine(9, 1.0)).into(), None, &Limits::default(), || false), Err(AudioError::GivenUp));
+    }
+
+    #[test]
+    fn a_decoder_that_is_late_is_left_behind() {
+        let none = Limits { patience: Duration::ZERO, ..Limits::default() };
+        assert_eq!(decode(wav(&sine(9, 1.0)).into(), None, &none), Err(AudioError::Late(Duration::ZERO)));
+        let patience = Duration::from_millis(20);
+        let hangs = |_: Instant| -> Result<(), AudioError> {
+            loop {
+                thread::park();
+            }
+        };
+        assert_eq!(within(patience, hangs), Err(AudioError::Late(patience)));
+        let panics = |_: Instant| -> Result<(), AudioError> { std::panic::resume_unwind(Box::new(())) };
+        assert!(matches!(within(patience, panics), Err(AudioError::Failed(_))));
     }
 
     #[test]

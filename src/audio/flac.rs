@@ -42,7 +42,7 @@ mod tests {
             .collect();
         let file = flac(&frames).unwrap();
         assert!(file.starts_with(b"fLaC") && file.len() < frames.len() * 4);
-        let sound = decode(file.into(), Some("flac"), &Limits::default(), || true).unwrap();
+        let sound = decode(file.into(), Some("flac"), &Limits::default()).unwrap();
         assert_eq!(sound.frames.len(), frames.len());
         let back = sound.frames.iter().map(|frame| frame.map(|sample| (sample * 32768.0) as i16));
         assert!(back.eq(frames.iter().copied()));

@@ -3,7 +3,10 @@
 use super::{MediaError, gather::room_of};
 use eddy_audio::{Limits, Sound, decode};
 use eddy_project::{Media, confine, limits};
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 /// Endings that are tried for a file of the site, after the one that it has there.
 const ENDINGS: [&str; 6] = ["wav", "mp3", "ogg", "flac", "m4a", "aac"];
@@ -30,8 +33,9 @@ pub(super) fn load(
     };
     let seconds = u64::from(limits::SOUND_SECONDS).min(room_of(room)) as u32;
     let ending = path.extension().and_then(|ending| ending.to_str());
-    let limits = Limits { seconds, ..Limits::default() };
-    decode(bytes.into(), ending, &limits, || true).map_err(|source| MediaError::Sound { path, source })
+    let patience = Duration::from_secs(limits::SOUND_DECODE_SECONDS);
+    let limits = Limits { seconds, patience, ..Limits::default() };
+    decode(bytes.into(), ending, &limits).map_err(|source| MediaError::Sound { path, source })
 }
 
 /// The file that stands in for one of the site: of the same name, or with another ending.

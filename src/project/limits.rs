@@ -53,6 +53,8 @@ pub const PICTURE_BYTES: u64 = 512 << 20;
 pub const VOLUME_SIDE: u32 = 2048;
 /// Seconds of a sound file that are decoded; 8 bytes a sample are kept of them.
 pub const SOUND_SECONDS: u32 = 1_200;
+/// Seconds after which a decoder of a sound file is given up.
+pub const SOUND_DECODE_SECONDS: u64 = 60;
 /// A video file. It is read piece by piece.
 pub const VIDEO_FILE: Limit = Limit { bytes: 8 << 30, of: "a video" };
 /// A decoded frame of a video, at 4 bytes a texel: 7680x4320 texels.

@@ -18,15 +18,15 @@ pub struct Seed {
     pub entry: &'static str,
 }
 
-fn target(name: &'static str, bytes: impl Into<Vec<u8>>) -> File {
+pub fn target(name: &'static str, bytes: impl Into<Vec<u8>>) -> File {
     File { name, bytes: bytes.into(), is_target: true }
 }
 
-fn fixed(name: &'static str, text: &str) -> File {
+pub fn fixed(name: &'static str, text: &str) -> File {
     File { name, bytes: text.into(), is_target: false }
 }
 
-const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }\n";
+pub const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }\n";
 const VERTEX: &str = "in vec3 aPosition;\nin vec3 aNormal;\nin vec4 aTangent;\nin vec2 aUv;\nin vec4 aColor;\nout vec4 \
                       vColor;\n\
     void main() { vColor = aColor + aTangent + vec4(aNormal, aUv.x); gl_Position = iProjection * iView * iModel * \
@@ -50,6 +50,7 @@ pub fn all() -> Vec<Seed> {
     seeds.push(model("gltf with data", "m.gltf", vec![target("m.gltf", gltf(Some(&inside)))]));
     seeds.push(model("glb", "m.glb", vec![target("m.glb", glb())]));
     seeds.push(model("obj", "m.obj", vec![target("m.obj", OBJ)]));
+    seeds.extend(super::media_seeds::all());
     seeds
 }
 

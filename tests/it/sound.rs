@@ -298,7 +298,7 @@ fn a_file_has_the_samples_and_is_the_same_each_time() {
     b.line("render p --pass sound --secs 6.5 --out a.flac").expect(0);
     let flac = b.bytes("a.flac");
     assert!(flac.len() < file.len());
-    let decoded = |bytes: Vec<u8>| decode(bytes.into(), None, &Limits::default(), || true).unwrap().frames;
+    let decoded = |bytes: Vec<u8>| decode(bytes.into(), None, &Limits::default()).unwrap().frames;
     assert!(decoded(flac) == decoded(file.clone()));
     // Into a folder, with a line of JSON.
     let run = b.line("render p --pass sound --secs 1 --out o --json").expect(0);
