@@ -12,7 +12,7 @@ impl Readback {
     /// Reads level 0 of an rgba32float texture, rows in texture order without padding. Waits for the device.
     pub fn rgba32float(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<[f32; 4]>, GpuError> {
         let mut texels = Vec::with_capacity(texture.width() as usize * texture.height() as usize);
-        self.rows(gpu, texture, 16, |row| {
+        self.rows(gpu, texture, (0, 16), |row| {
             texels.extend(row.chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>));
         })?;
         Ok(texels)
@@ -21,16 +21,26 @@ impl Readback {
     /// Reads level 0 of an rgba8unorm texture likewise.
     pub fn rgba8(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError> {
         let mut bytes = Vec::with_capacity(texture.width() as usize * texture.height() as usize * 4);
-        self.rows(gpu, texture, 4, |row| bytes.extend_from_slice(row))?;
+        self.rows(gpu, texture, (0, 4), |row| bytes.extend_from_slice(row))?;
         Ok(bytes)
     }
 
-    /// Gives each row of a texture whose texels have so many bytes.
+    /// Reads level 0 of all layers of a texture in its own format: the bytes that [`Texture::write`] takes.
+    pub fn bytes(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError> {
+        let shape = texture.shape.without_mips();
+        let mut bytes = Vec::with_capacity(shape.bytes() as usize);
+        for layer in 0..shape.depth * shape.layers() {
+            self.rows(gpu, texture, (layer, shape.format.bytes() as usize), |row| bytes.extend_from_slice(row))?;
+        }
+        Ok(bytes)
+    }
+
+    /// Gives each row of a layer of a texture whose texels have so many bytes.
     fn rows(
         &mut self,
         gpu: &Gpu,
         texture: &Texture,
-        texel: usize,
+        (layer, texel): (u32, usize),
         mut take: impl FnMut(&[u8]),
     ) -> Result<(), GpuError> {
         let (width, height) = (texture.width(), texture.height());
@@ -59,7 +69,10 @@ impl Readback {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded as u32), rows_per_image: None };
         encoder.copy_texture_to_buffer(
-            texture.raw.as_image_copy(),
+            wgpu::TexelCopyTextureInfo {
+                origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+                ..texture.raw.as_image_copy()
+            },
             wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );

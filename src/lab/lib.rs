@@ -10,7 +10,6 @@ pub mod background;
 pub mod cost;
 pub mod difference;
 mod error;
-mod fingerprint;
 pub mod flip;
 pub mod metrics;
 mod number;

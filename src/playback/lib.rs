@@ -2,10 +2,11 @@
 //!
 //! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
 //! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
-//! a project ([`comparing`], [`revision`]), and pictures on disk ([`capture`], [`npy`]). Needs no session; time is an
+//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]), and states of runs on disk ([`checkpoint`]). Needs no session; time is an
 //! argument.
 
 pub mod capture;
+pub mod checkpoint;
 pub mod comparing;
 pub mod date;
 pub mod mouse;

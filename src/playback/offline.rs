@@ -7,7 +7,7 @@ use crate::{recording::Change, script::ScriptedInputs};
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
     BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
-    Program,
+    Program, State, StateError,
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
@@ -107,6 +107,17 @@ impl Offline {
         self.inputs.rewind();
         self.engine.as_mut().ok_or_else(gone)?.reset();
         Ok(())
+    }
+
+    /// Goes on at a frame without drawing those before it: the state is that of a run which has drawn them. Fails for a
+    /// frame that is over.
+    pub fn resume(&mut self, frame: u32, state: &State) -> Result<(), ResumeError> {
+        let over = || ResumeError::Over { frame, next: self.inputs.frame() };
+        let frame = i32::try_from(frame).ok().filter(|frame| *frame >= self.inputs.frame()).ok_or_else(over)?;
+        while self.inputs.frame() < frame {
+            self.next_inputs()?;
+        }
+        Ok(self.engine.as_mut().ok_or_else(gone)?.set_state(state)?)
     }
 
     /// Draws the next frame and waits until the device has finished it.
@@ -227,6 +238,17 @@ pub fn change(engine: &mut Engine, change: &Change) -> Result<(), EngineError> {
         engine.reset();
     }
     Ok(())
+}
+
+/// A run cannot go on from a state.
+#[derive(Debug, thiserror::Error)]
+pub enum ResumeError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    State(#[from] StateError),
+    #[error("frame {frame} is over: frame {next} is drawn next")]
+    Over { frame: u32, next: i32 },
 }
 
 /// A frame could not be drawn.

@@ -15,6 +15,7 @@ mod file_names;
 mod files;
 mod fill_texts;
 mod fills;
+mod fingerprint;
 mod folder;
 mod geometry;
 mod imports;
@@ -52,6 +53,7 @@ pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
 pub use fill_texts::FillText;
 pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
+pub use fingerprint::Fingerprint;
 pub use folder::declare_channels;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,

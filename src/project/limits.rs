@@ -45,6 +45,11 @@ pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound o
 /// A model file together with the buffers that it names.
 pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
+/// A checkpoint of a run.
+pub const CHECKPOINT: Limit = Limit { bytes: 16 << 30, of: "a checkpoint" };
+/// The texels in a checkpoint.
+pub const CHECKPOINT_BYTES: u64 = 16 << 30;
+
 /// Texels across or along a picture: what the largest devices take.
 pub const PICTURE_SIDE: u32 = 32_768;
 /// A decoded picture: 4 bytes a texel, 16 where it holds floats. 8192x16384 texels, or 8192x4096 of floats.

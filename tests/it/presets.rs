@@ -99,7 +99,7 @@ fn drawing_what_nobody_needs_changes_no_byte() {
         let pictures = [true, false].map(|skip| {
             let options = BuildOptions { skip, ..Default::default() };
             let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (48, 27));
-            draw(&mut engine, 0..30, drag);
+            draw(&mut engine, 0..12, drag);
             bits(&engine.read(&PassId::Image).unwrap())
         });
         assert!(pictures[0] == pictures[1], "{name} is another picture when nothing is skipped");
@@ -112,16 +112,16 @@ fn a_run_repeats_itself_whole_or_in_halves() {
     for name in presets::names() {
         let project = preset(name);
         let mut engines = [(); 2].map(|()| whole(&gpu, &project, true, (48, 27)));
-        draw(&mut engines[0], 0..30, drag);
-        draw(&mut engines[1], 0..15, drag);
+        draw(&mut engines[0], 0..12, drag);
+        draw(&mut engines[1], 0..6, drag);
         engines[1].read(&PassId::Image).unwrap();
-        draw(&mut engines[1], 15..30, drag);
+        draw(&mut engines[1], 6..12, drag);
         for id in buffers(&project) {
             let [a, b] = engines.each_mut().map(|e| bits(&e.read(id).unwrap()));
             assert!(a == b, "{name}, {}", id.title());
         }
         let after = bits(&engines[0].read(&PassId::Image).unwrap());
-        draw(&mut engines[0], 30..31, drag);
+        draw(&mut engines[0], 12..13, drag);
         assert!(after != bits(&engines[0].read(&PassId::Image).unwrap()), "{name} stands still: the test sees nothing");
     }
 }
@@ -169,7 +169,7 @@ fn every_preset_survives_every_size() {
     for name in presets::names() {
         let project = preset(name);
         for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
-            let mut engine = drawn(&gpu, &project, true, size, 0..20, drag);
+            let mut engine = drawn(&gpu, &project, true, size, 0..10, drag);
             for id in buffers(&project) {
                 let pixels = engine.read(id).unwrap();
                 assert!(pixels.texels.iter().flatten().all(|v| v.is_finite()), "{name} {size:?} {}", id.title());

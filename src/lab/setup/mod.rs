@@ -1,6 +1,6 @@
 //! A method's project, with everything set for one point.
 
-use super::{LabError, fingerprint::Fingerprint};
+use super::LabError;
 use eddy_diag::SourceId;
 use eddy_engine::BuildOptions;
 use eddy_media::{MediaSet, Texels};
@@ -276,7 +276,7 @@ impl Setup {
     /// texels, the canvas and what is looked at.
     pub fn fingerprint(&self) -> Result<String, LabError> {
         let (project, _) = self.project()?;
-        let mut print = Fingerprint::of(&project);
+        let mut print = project::Fingerprint::of(&project);
         for (path, texels) in &self.states {
             print.eat(format!("{} {} {}", path.display(), texels.shape.width, texels.shape.height).as_bytes());
             print.eat(&texels.bytes);

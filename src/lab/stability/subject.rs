@@ -4,7 +4,7 @@ use super::{
     check::{Allowed, Area, Check, Quantity, Rule, Situation},
     presets,
 };
-use crate::{LabError, fingerprint::Fingerprint};
+use crate::LabError;
 use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassId, Project};
 use std::collections::BTreeSet;
@@ -140,7 +140,7 @@ impl Subject {
     /// others says nothing about these. The range of the picture is not in it: as a record has the picture's extremes,
     /// [`judge`](super::judge) holds it to the range that there is now.
     pub fn fingerprint(&self) -> String {
-        let mut print = Fingerprint::of(&self.project);
+        let mut print = project::Fingerprint::of(&self.project);
         let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
             let allowed = match check.pass {

@@ -222,6 +222,12 @@ impl ScriptedInputs {
         self
     }
 
+    /// Returns all that the inputs are made of, so that two runs can be told apart.
+    pub fn written(&self) -> String {
+        let Self { fps, mouse_events, key_events, date, replay, .. } = self;
+        format!("{fps:?} {mouse_events:?} {key_events:?} {date:?} {replay:?}")
+    }
+
     /// Returns how many frames the recording has, if there is one.
     pub fn recorded_frames(&self) -> Option<usize> {
         self.replay.as_ref().map(|recording| recording.frames.len())

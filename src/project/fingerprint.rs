@@ -1,9 +1,9 @@
 //! A number for what is measured: what was measured of other texts says nothing about these.
 
-use eddy_project::{Channel, Input, InputKind, PassId, Project};
+use super::{Channel, Input, InputKind, PassId, Project};
 
 /// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
-pub(super) struct Fingerprint(u64);
+pub struct Fingerprint(u64);
 
 impl Fingerprint {
     /// Returns that of a project's texts, groups, slider values, channels and settings.

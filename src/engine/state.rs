@@ -1,0 +1,127 @@
+//! The texels that the next frame reads, out of the device: to go on with them in another process.
+
+use super::{EngineError, run::Engine, running::Running, shared::Shared, targets::Target};
+use eddy_gpu::{GpuError, Readback};
+use eddy_graph::Carried;
+use eddy_project::PassId;
+use eddy_texture::TextureShape;
+
+/// Holds what the next frame of a program reads of the frames before it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    pub targets: Vec<TargetState>,
+}
+
+/// Holds the texels of one target of a pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetState {
+    pub pass: PassId,
+    /// The place among the pass's targets.
+    pub index: usize,
+    /// The shape of each texture: one level.
+    pub shape: TextureShape,
+    /// The bytes of the texture that was drawn last, and of the one before where the pass keeps what it does not draw:
+    /// rows in texture order without padding, one layer after the other.
+    pub textures: Vec<Vec<u8>>,
+}
+
+/// A state that a program cannot go on with.
+#[derive(Debug, thiserror::Error)]
+pub enum StateError {
+    #[error("nothing is kept of {0}, which the next frame reads")]
+    Missing(String),
+    #[error("{pass} was {was}, and is {is} now")]
+    Shape { pass: String, was: String, is: String },
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// Returns how many textures of a target the next frame reads.
+fn kept(carried: Carried, target: &Target) -> usize {
+    match carried {
+        Carried::Nothing => 0,
+        Carried::Newest => 1,
+        Carried::All => target.textures.len(),
+    }
+}
+
+/// The targets of which a frame reads something, with how many of their textures.
+fn carried(running: &Running) -> impl Iterator<Item = (usize, &Target, usize)> {
+    let plan = &running.program.plan;
+    let of = move |(index, target)| (index, target, kept(plan.carried(index), target));
+    running.targets.iter().enumerate().map(of).filter(|(.., count)| *count > 0)
+}
+
+impl Engine {
+    /// Returns the passes of which the next frame reads what they drew in the frames before.
+    pub fn passes_with_state(&self) -> Vec<PassId> {
+        let mut passes: Vec<PassId> = Vec::new();
+        for (_, target, _) in self.running.iter().flat_map(carried) {
+            if !passes.contains(&target.id) {
+                passes.push(target.id.clone());
+            }
+        }
+        passes
+    }
+
+    /// Reads back what the next frame reads. Waits for the device.
+    pub fn state(&self) -> Result<State, EngineError> {
+        let mut readback = Readback::default();
+        let mut state = State::default();
+        for (_, target, count) in self.running.iter().flat_map(carried) {
+            let order = (0..count).map(|n| &target.textures[(target.front + n) % target.textures.len()]);
+            let textures = order.map(|texture| readback.bytes(self.gpu(), texture)).collect::<Result<_, _>>()?;
+            state.targets.push(TargetState {
+                pass: target.id.clone(),
+                index: target.index,
+                shape: target.textures[0].shape.without_mips(),
+                textures,
+            });
+        }
+        Ok(state)
+    }
+
+    /// Takes up a state: the next frame reads its texels. An error, and nothing is changed, where it does not have all
+    /// that the program reads, or has it in another shape. What more it has is left.
+    pub fn set_state(&mut self, state: &State) -> Result<(), StateError> {
+        let shared = &self.shared;
+        self.running.as_mut().map_or(Ok(()), |running| running.set_state(shared, state))
+    }
+}
+
+impl Running {
+    fn set_state(&mut self, shared: &Shared, state: &State) -> Result<(), StateError> {
+        let mut found = Vec::new();
+        for (place, target, count) in carried(self) {
+            let title = target.id.title();
+            let of = |kept: &&TargetState| kept.pass == target.id && kept.index == target.index;
+            let kept = state.targets.iter().find(of);
+            let kept = kept.filter(|kept| kept.textures.len() >= count).ok_or(StateError::Missing(title.clone()))?;
+            let shape = target.textures[0].shape.without_mips();
+            let is_whole = kept.textures.iter().all(|bytes| bytes.len() as u64 == shape.bytes());
+            if kept.shape != shape || !is_whole {
+                let (was, is) = (in_words(kept.shape), in_words(shape));
+                return Err(StateError::Shape { pass: title, was, is });
+            }
+            found.push((place, count, kept));
+        }
+        self.drop_remaining();
+        let gpu = &shared.gpu;
+        for (place, count, kept) in found {
+            let target = &self.targets[place];
+            for (n, bytes) in kept.textures.iter().take(count).enumerate() {
+                target.textures[(target.front + n) % target.textures.len()].write(gpu, bytes);
+            }
+            let mut encoder =
+                gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("state") });
+            target.chains.iter().for_each(|chain| shared.mips.build(gpu, &mut encoder, chain));
+            gpu.queue.submit([encoder.finish()]);
+        }
+        self.changes.invalidate();
+        gpu.take_trouble("a state").map_err(Into::into)
+    }
+}
+
+fn in_words(shape: TextureShape) -> String {
+    format!("{}x{} {}", shape.width, shape.height, shape.format.name())
+}
