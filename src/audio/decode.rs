@@ -105,13 +105,20 @@ fn decode_packets(
     limits: &Limits,
     go_on: impl Fn() -> bool,
 ) -> Result<Sound, AudioError> {
+    // symphonia-format-riff 0.6.1 shifts a word by the number of channels, however many that are.
+    if let Some(channels) = wav_channels(&file).filter(|channels| *channels > limits.channels) {
+        return Err(AudioError::Channels(channels, limits.channels));
+    }
     let mut format = open(file, extension)?;
     let (track, mut decoder) = decoder(&*format)?;
     let mut stereo = Stereo::new(limits);
-    loop {
+    // Of a damaged file some readers give the same error for ever.
+    let mut silent = 0;
+    while silent < MOST_SILENT {
         if !go_on() {
             return Err(AudioError::Late(limits.patience));
         }
+        silent += 1;
         let packet = match format.next_packet() {
             Ok(Some(packet)) => packet,
             // A file that was cut off plays up to there, as in browsers.
@@ -128,6 +135,9 @@ fn decode_packets(
                 let (rate, channels) = (audio.spec().rate(), audio.spec().channels().count());
                 let mut samples = Vec::new();
                 stereo.expect(rate, channels, audio.frames())?;
+                if audio.frames() > 0 {
+                    silent = 0;
+                }
                 audio.copy_to_vec_interleaved::<f32>(&mut samples);
                 if !stereo.push(&samples) {
                     break;
@@ -139,6 +149,23 @@ fn decode_packets(
         }
     }
     stereo.finish()
+}
+
+/// Packets in a row that are damaged or empty, after which a file is at its end. A second of an MP3 file has 38.
+const MOST_SILENT: u32 = 10_000;
+
+/// Returns the number of channels that the format chunk of a WAV file has (Multimedia Programming Interface and Data
+/// Specifications 1.0, page 58).
+fn wav_channels(file: &[u8]) -> Option<usize> {
+    let mut chunks = file.strip_prefix(b"RIFF")?.get(4..)?.strip_prefix(b"WAVE")?;
+    loop {
+        let (head, rest) = chunks.split_at_checked(8)?;
+        let length = u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize;
+        if head.starts_with(b"fmt ") {
+            return rest.get(2..4).map(|count| usize::from(u16::from_le_bytes([count[0], count[1]])));
+        }
+        chunks = rest.get(length.checked_next_multiple_of(2)?..)?;
+    }
 }
 
 fn open(file: Arc<[u8]>, extension: Option<&str>) -> Result<Box<dyn FormatReader>, AudioError> {
@@ -306,6 +333,9 @@ mod tests {
         let mut file = wav(&sine(100, 44_100.0));
         file[24..28].copy_from_slice(&1u32.to_le_bytes());
         assert_eq!(read(&file), Err(AudioError::Rate(1, 4_000, 384_000)));
+        let mut file = wav(&sine(100, 44_100.0));
+        file[22..24].copy_from_slice(&511u16.to_le_bytes());
+        assert_eq!(read(&file), Err(AudioError::Channels(511, 8)));
     }
 
     #[test]

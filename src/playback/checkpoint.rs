@@ -1,4 +1,5 @@
-//! What the next frame of a run reads, in a file: a run goes on from there, in another process or on another machine.
+//! Files that hold the texels which the next frame of a run reads. A run goes on from one in another process, or on
+//! another machine.
 //!
 //! A checkpoint is one line of JSON, then the texels as a gzip stream (RFC 1952), whose checksum covers them. Sliders,
 //! scripts, recorded input and music are functions of the frame's number, and are worked out again from the command
@@ -76,7 +77,7 @@ pub enum CheckpointError {
     File(#[from] FileError),
     #[error("cannot write {path}: {source}")]
     Write { path: PathBuf, source: io::Error },
-    #[error("{path} is no checkpoint: {reason}")]
+    #[error("{path} is not a checkpoint: {reason}")]
     Form { path: PathBuf, reason: String },
     #[error("{path} has version {version} of checkpoints, which a newer Eddy wrote; this one reads version {VERSION}")]
     Version { path: PathBuf, version: u32 },

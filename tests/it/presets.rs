@@ -168,8 +168,11 @@ fn every_preset_survives_every_size() {
     let Some(gpu) = gpu() else { return };
     for name in presets::names() {
         let project = preset(name);
+        let mut engine = whole(&gpu, &project, true, (48, 27));
         for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
-            let mut engine = drawn(&gpu, &project, true, size, 0..10, drag);
+            engine.resize(size.0, size.1).unwrap();
+            engine.reset();
+            draw(&mut engine, 0..10, drag);
             for id in buffers(&project) {
                 let pixels = engine.read(id).unwrap();
                 assert!(pixels.texels.iter().flatten().all(|v| v.is_finite()), "{name} {size:?} {}", id.title());
