@@ -103,7 +103,9 @@ fn name_of(answer: &Answer) -> &'static str {
 fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], out: &mut UiOutput) {
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
-        PendingAction::Open(_) | PendingAction::OpenProject { .. } => "by opening another project",
+        PendingAction::Open(_) | PendingAction::OpenProject { .. } | PendingAction::OpenPicture(_) => {
+            "by opening another project"
+        }
         PendingAction::Keep(_) => "by opening the new one",
         PendingAction::New => "by starting a new shader",
         PendingAction::Recover(_) => "by restoring the recovered project",

@@ -4,7 +4,7 @@
 //! the user's pictures folder, or where there is none in the home folder. The file is `NAME-0001.png`, with the first
 //! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
 
-use crate::npy;
+use crate::{npy, scene::Scene};
 use eddy_engine::Pixels;
 use eddy_project::{Origin, PassId, Project, confine};
 use std::{
@@ -58,9 +58,28 @@ pub fn encode(out: &mut impl Write, pixels: &Pixels, format: Format) -> io::Resu
     }
 }
 
+/// Does the same with the scene in the file, where its format has a place for it.
+pub fn encode_scene(out: &mut impl Write, pixels: &Pixels, format: Format, scene: Option<&Scene>) -> io::Result<()> {
+    match scene {
+        Some(scene) if format == Format::Png => {
+            let mut png = Vec::new();
+            encode(&mut png, pixels, format)?;
+            out.write_all(&scene.embed(png)?)
+        }
+        _ => encode(out, pixels, format),
+    }
+}
+
 /// Writes to a new numbered file in `folder` (made if it is not there) and gives its path.
-pub fn save_new(folder: &Path, stem: &str, pixels: &Pixels, format: Format) -> Result<PathBuf, CaptureError> {
-    write_new(folder, |n| format!("{stem}-{n:04}.{}", format.extension()), stem, |out| encode(out, pixels, format))
+pub fn save_new(
+    folder: &Path,
+    stem: &str,
+    pixels: &Pixels,
+    format: Format,
+    scene: Option<&Scene>,
+) -> Result<PathBuf, CaptureError> {
+    let name = |n| format!("{stem}-{n:04}.{}", format.extension());
+    write_new(folder, name, stem, |out| encode_scene(out, pixels, format, scene))
 }
 
 /// Writes to the first file of `name(1)`, `name(2)` … that is not there yet.
@@ -152,7 +171,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         fs::write(dir.path().join("a-0001.png"), "mine").unwrap();
         fs::write(dir.path().join("a-0003.png"), "mine too").unwrap();
-        let save = || save_new(dir.path(), "a", &pixels(), Format::Png).unwrap();
+        let save = || save_new(dir.path(), "a", &pixels(), Format::Png, None).unwrap();
         let names: Vec<_> = [save(), save()].iter().map(|p| p.file_name().unwrap().to_owned()).collect();
         assert_eq!(names, ["a-0002.png", "a-0004.png"]);
         assert_eq!(fs::read_to_string(dir.path().join("a-0001.png")).unwrap(), "mine");
@@ -162,7 +181,7 @@ mod tests {
     #[test]
     fn a_png_has_the_top_row_first() {
         let dir = tempfile::tempdir().unwrap();
-        let path = save_new(&dir.path().join("new folder"), "a", &pixels(), Format::Png).unwrap();
+        let path = save_new(&dir.path().join("new folder"), "a", &pixels(), Format::Png, None).unwrap();
         let image = image::open(path).unwrap().to_rgba8();
         assert_eq!(image.dimensions(), (1, 2));
         assert_eq!(image.as_raw()[..], [0, 255, 0, 255, 255, 0, 0, 255]);
@@ -184,7 +203,7 @@ mod tests {
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
         let file = dir.path().join("file");
         fs::write(&file, "").unwrap();
-        assert!(save_new(&file, "a", &pixels(), Format::Png).is_err(), "a file is no folder");
+        assert!(save_new(&file, "a", &pixels(), Format::Png, None).is_err(), "a file is no folder");
     }
 
     #[test]

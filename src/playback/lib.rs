@@ -2,7 +2,8 @@
 //!
 //! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
 //! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
-//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]), and states of runs on disk ([`checkpoint`]). Needs no session; time is an
+//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]), states of runs on disk ([`checkpoint`]), and pictures
+//! that open again ([`scene`]). Needs no session; time is an
 //! argument.
 
 pub mod capture;
@@ -16,5 +17,6 @@ pub mod recording;
 pub mod reduction;
 pub mod revision;
 pub mod run;
+pub mod scene;
 pub mod script;
 pub mod trial;

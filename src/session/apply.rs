@@ -72,6 +72,7 @@ impl Session {
             Command::SetSpeed(speed) => self.playback.clock.set_speed(speed),
             Command::SetFixedRate(rate) => self.playback.clock.set_fixed_rate(rate),
             Command::SetTimeRange(range) => self.playback.seeking.range = range,
+            Command::SetProjectInPictures(on) => self.watched.captures.with_project = on,
             Command::SetKeepInputs(on) => self.playback.seeking.keeps_inputs = on,
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
@@ -247,7 +248,7 @@ impl Session {
         }
     }
 
-    fn show_pass(&mut self, pass: PassId) {
+    pub(super) fn show_pass(&mut self, pass: PassId) {
         if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }

@@ -3,10 +3,11 @@
 use super::{
     Session,
     drawing::{RenderTask, Renderer, Tasks, Ticket},
+    scene::PictureSource,
     view::{About, Level},
 };
 use eddy_engine::{EngineError, Pixels};
-use eddy_playback::capture;
+use eddy_playback::{capture, scene::Scene};
 use eddy_project::PassId;
 use std::path::PathBuf;
 
@@ -17,21 +18,34 @@ struct Capture {
     format: capture::Format,
     folder: PathBuf,
     stem: String,
+    /// The project that is saved in the file.
+    source: Option<PictureSource>,
 }
 
+/// A picture, and what it was drawn from.
+type Captured = (Result<Pixels, EngineError>, Option<Scene>);
+
 impl RenderTask for Capture {
-    type Output = Result<Pixels, EngineError>;
+    type Output = Captured;
 
     fn run(self, renderer: &mut Renderer) -> Self::Output {
-        renderer.engine_mut().read(&self.pass)
+        let scene = self.source.and_then(|source| source.scene(renderer));
+        (renderer.engine_mut().read(&self.pass), scene)
     }
 }
 
 /// The pictures that are to be written, oldest first. Another project changes none of them.
-#[derive(Default)]
 pub(super) struct Captures {
+    /// The project is saved in them.
+    pub with_project: bool,
     due: Vec<Capture>,
-    in_flight: Vec<(Capture, Ticket<Result<Pixels, EngineError>>)>,
+    in_flight: Vec<(Capture, Ticket<Captured>)>,
+}
+
+impl Default for Captures {
+    fn default() -> Self {
+        Self { with_project: true, due: Vec::new(), in_flight: Vec::new() }
+    }
 }
 
 impl Captures {
@@ -54,11 +68,19 @@ impl Session {
             return;
         }
         let project = self.documents.current();
+        // A value that is looked at is no picture of the project.
+        let is_asked = self.watched.captures.with_project && format == capture::Format::Png;
+        let source = (is_asked && self.pictured() == self.picture.shown).then(|| PictureSource {
+            project: project.clone(),
+            pass: self.picture.shown.clone(),
+            has_state: self.has_state(),
+        });
         self.watched.captures.due.push(Capture {
             pass: self.pictured(),
             format,
             folder: capture::folder_for(project, &self.options.pictures),
             stem: capture::stem_for(project, &self.picture.shown),
+            source,
         });
         if !self.drawing.is_apart() {
             let mut tasks = Tasks::default();
@@ -77,7 +99,7 @@ impl Session {
         }
     }
 
-    fn write_capture(&mut self, capture: &Capture, pixels: Result<Pixels, EngineError>) {
+    fn write_capture(&mut self, capture: &Capture, (pixels, scene): Captured) {
         let pixels = match pixels {
             Ok(pixels) => pixels,
             Err(e) => {
@@ -85,9 +107,10 @@ impl Session {
                 return;
             }
         };
-        match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
+        match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format, scene.as_ref()) {
             Ok(path) => {
-                let text = format!("saved {}", path.display());
+                let with = if scene.is_some() { ", with the project in it" } else { "" };
+                let text = format!("saved {}{with}", path.display());
                 self.notice_with_path(About::Capture, Level::Info, text, path);
             }
             Err(e) => self.notice_about(About::Capture, Level::Error, e.to_string()),

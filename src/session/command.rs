@@ -7,7 +7,7 @@ use super::{
     probe::{ProbeLook, ProbePlace},
     view::Level,
 };
-use eddy_playback::comparing::Baseline;
+use eddy_playback::{comparing::Baseline, scene::Scene};
 use eddy_project::{Channel, CustomUniformValue, InputKind, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -55,6 +55,8 @@ pub enum Command {
     /// Edits of texts are compiled when they are saved, or by [`Command::CompileNow`], and not a while after they are
     /// typed.
     SetCompileOnSave(bool),
+    /// PNG images are saved with the project in them, which opens again from there.
+    SetProjectInPictures(bool),
     /// Compiles at once.
     CompileNow,
     /// The person turns a device that channels read on or off: see [`DeviceConsent`](super::DeviceConsent).
@@ -301,6 +303,8 @@ pub enum PendingAction {
         project: Box<Project>,
         size: Option<(u32, u32)>,
     },
+    /// The project of a picture, at its frame.
+    OpenPicture(Box<Scene>),
     New,
     /// A project that lies nowhere else: it counts as unsaved.
     Keep(Box<Project>),

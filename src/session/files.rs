@@ -5,7 +5,7 @@ use super::{
     command::{Answer, Command, PendingAction, Question, Request},
     documents::Documents,
     recovery::{KEPT_DAYS, place_for_replaced},
-    template,
+    scene, template,
     view::{About, Level, TabDiagnostic},
 };
 use eddy_diag::{Diagnostic, SourceMap};
@@ -25,6 +25,7 @@ impl Session {
             _ if self.question().is_some() => {
                 self.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
+            Command::Open(spec) if scene::holds_project(Path::new(&spec)) => self.open_picture(Path::new(&spec)),
             Command::Open(spec) => self.unless_unsaved(PendingAction::Open(spec)),
             Command::OpenProject { project, size } => self.unless_unsaved(PendingAction::OpenProject { project, size }),
             Command::Paste(text) => self.paste(&text),
@@ -63,6 +64,7 @@ impl Session {
                     self.canvas.asked.fixed = size;
                 }
             }
+            PendingAction::OpenPicture(scene) => self.show_scene(&scene),
             PendingAction::New => {
                 self.replace(Documents::new(template::project()));
                 self.begun += 1;

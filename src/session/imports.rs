@@ -6,6 +6,7 @@
 use super::{
     Session,
     command::{Command, PendingAction},
+    scene,
     view::{About, Level},
 };
 use eddy_media::mesh;
@@ -56,6 +57,11 @@ impl Session {
             }
             let place = parts.unwrap_or(first).display().to_string();
             return self.apply_to_files(Command::Open(place));
+        }
+        // On a channel a picture is a picture.
+        let is_on_channel = matches!(&to, Some((_, Some(_))));
+        if let Some(picture) = of(FileKind::Picture).find(|path| !is_on_channel && scene::holds_project(path)) {
+            return self.open_picture(picture);
         }
         if let Some(recording) = of(FileKind::Recording).next() {
             let file = recording.clone();

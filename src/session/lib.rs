@@ -46,6 +46,7 @@ mod recovery;
 mod rename;
 mod reopen;
 mod runs;
+mod scene;
 mod sound;
 mod state;
 mod structure;

@@ -7,6 +7,7 @@
 use super::kept_files;
 use eddy_playback::recording::{EXTENSION, RecordedFrame, Recording};
 use eddy_playback::run::Frame;
+use eddy_playback::scene::LONGEST;
 use eddy_project::{self as project, Origin, limits};
 use std::{
     fs::{self, File},
@@ -15,8 +16,6 @@ use std::{
     sync::Arc,
 };
 
-/// A longer run is not drawn again when its project is opened: ten minutes at 60 frames a second.
-const LONGEST: usize = 36_000;
 /// So many projects have one; the oldest go.
 const MOST: usize = 50;
 

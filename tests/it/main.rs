@@ -76,6 +76,7 @@ mod random_floats;
 mod random_programs;
 mod recovery;
 mod reload;
+mod reopened_pictures;
 mod replaying;
 mod session;
 mod session_compare;

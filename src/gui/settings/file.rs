@@ -116,7 +116,7 @@ mod tests {
     fn settings_are_read_and_every_mistake_is_told_at_its_line() {
         let (settings, mistakes) = read(
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
-             code-font = \"/a/b.ttf\"\nvolume = 0.25\nmute = true\naudio-output = \"Speakers\"\naudio-input = \"\"\n",
+             code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\naudio-output = \"Speakers\"\naudio-input = \"\"\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -127,6 +127,7 @@ mod tests {
             compile_on_save: false,
             word_wrap: true,
             frame_timeout: Duration::from_millis(500),
+            project_in_images: false,
             volume: 0.25,
             mute: true,
             audio_output: Some("Speakers".into()),
@@ -138,7 +139,7 @@ mod tests {
         let (settings, mistakes) = read(text);
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
-        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, volume, mute, \
+        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, volume, mute, \
                    audio-output, audio-input";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [

@@ -48,6 +48,8 @@ pub struct Settings {
     pub compile_on_save: bool,
     /// A frame that takes longer pauses the picture.
     pub frame_timeout: Duration,
+    /// PNG images are saved with the project in them.
+    pub project_in_images: bool,
     /// The volume, from 0 to 1.
     pub volume: f32,
     pub mute: bool,
@@ -70,6 +72,7 @@ impl Default for Settings {
             word_wrap: false,
             compile_on_save: false,
             frame_timeout: Duration::from_secs(2),
+            project_in_images: true,
             volume: 1.0,
             mute: false,
             audio_output: None,
@@ -89,6 +92,7 @@ pub enum Change {
     WordWrap(bool),
     CompileOnSave(bool),
     FrameTimeout(Duration),
+    ProjectInImages(bool),
     Volume(f32),
     Mute(bool),
     /// The name of a device; none: the system's default one.
@@ -110,6 +114,7 @@ impl Change {
             Change::WordWrap(on) => ("word-wrap", (*on).into()),
             Change::CompileOnSave(on) => ("compile-on-save", (*on).into()),
             Change::FrameTimeout(limit) => ("frame-timeout", short(limit.as_secs_f64())),
+            Change::ProjectInImages(on) => ("project-in-images", (*on).into()),
             Change::Volume(volume) => ("volume", number(volume.clamp(0.0, 1.0))),
             Change::Mute(on) => ("mute", (*on).into()),
             Change::AudioOutput(device) => ("audio-output", device.as_deref().unwrap_or_default().into()),
@@ -126,6 +131,7 @@ impl Change {
             Change::WordWrap(on) => settings.word_wrap = *on,
             Change::CompileOnSave(on) => settings.compile_on_save = *on,
             Change::FrameTimeout(limit) => settings.frame_timeout = *limit,
+            Change::ProjectInImages(on) => settings.project_in_images = *on,
             Change::Volume(volume) => settings.volume = volume.clamp(0.0, 1.0),
             Change::Mute(on) => settings.mute = *on,
             Change::AudioOutput(device) => settings.audio_output.clone_from(device),
@@ -274,6 +280,15 @@ pub const KEYS: &[Key] = &[
             let secs = secs.ok_or_else(|| format!("must be a number of seconds above 0, at most {MOST_SECONDS}"))?;
             Ok(Change::FrameTimeout(Duration::from_secs_f64(secs)))
         },
+    },
+    Key {
+        name: "project-in-images",
+        title: "Project in images",
+        help: "Save the code and the inputs in PNG images, so that Eddy opens them as the frame they show",
+        control: Control::Switch { get: |settings| settings.project_in_images, change: Change::ProjectInImages },
+        about: "Save the project in PNG images: true or false",
+        usual: "true",
+        read: |value| switch(value).map(Change::ProjectInImages),
     },
     Key {
         name: "volume",

@@ -310,6 +310,7 @@ impl Shell {
         commands.push(Command::SetMute(settings.mute));
         commands.push(Command::SetAudioOutput(settings.audio_output.clone()));
         commands.push(Command::SetAudioInput(settings.audio_input.clone()));
+        commands.push(Command::SetProjectInPictures(settings.project_in_images));
         commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));

@@ -11,6 +11,7 @@ use crate::{
 use eddy_engine::FrameInputs;
 use eddy_media::Keyboard;
 use jiff::{SignedDuration, civil::DateTime};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// An action of the mouse.
@@ -175,6 +176,19 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Scripts as a command line has them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Script {
+    pub fps: f64,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub mouse: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub keys: String,
+    /// Local time of frame 0.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub date: String,
+}
+
 /// The inputs of frame 0, 1, 2 … of a run at a fixed step.
 #[derive(Clone, Debug, Default)]
 pub struct ScriptedInputs {
@@ -220,6 +234,45 @@ impl ScriptedInputs {
     pub fn with_replay(mut self, recording: Option<Arc<Recording>>) -> Self {
         self.replay = recording.filter(|recording| !recording.frames.is_empty());
         self
+    }
+
+    /// Returns the inputs that a script says. Err: it cannot be read.
+    pub fn of_script(script: &Script) -> Result<Self, String> {
+        if !script.fps.is_finite() || script.fps <= 0.0 {
+            return Err(format!("{} frames per second cannot be", script.fps));
+        }
+        let mouse = parse_mouse(&script.mouse).map_err(|e| format!("mouse: {e}"))?;
+        let keys = parse_keys(&script.keys).map_err(|e| format!("keys: {e}"))?;
+        let date = Some(&script.date).filter(|date| !date.is_empty());
+        let date = date.map(|date| date::parse(date)).transpose().map_err(|e| format!("date: {e}"))?;
+        Ok(Self::new(script.fps).with_mouse(mouse).with_keys(keys).with_date(date))
+    }
+
+    /// Returns the script that says the inputs; none where they are recorded.
+    pub fn script(&self) -> Option<Script> {
+        if self.replay.is_some() {
+            return None;
+        }
+        let mouse = |at: &At<MouseAction>| match at.action {
+            MouseAction::Down(x, y) => format!("{}:down {x},{y}", at.frame),
+            MouseAction::Move(x, y) => format!("{}:move {x},{y}", at.frame),
+            MouseAction::Up => format!("{}:up", at.frame),
+        };
+        let key = |at: &At<KeyAction>| match at.action {
+            KeyAction::Down(code) => format!("{}:down {code}", at.frame),
+            KeyAction::Up(code) => format!("{}:up {code}", at.frame),
+        };
+        Some(Script {
+            fps: self.fps,
+            mouse: self.mouse_events.iter().map(mouse).collect::<Vec<_>>().join("; "),
+            keys: self.key_events.iter().map(key).collect::<Vec<_>>().join("; "),
+            date: self.date.map(|date| date.to_string()).unwrap_or_default(),
+        })
+    }
+
+    /// Returns the recording that the inputs are taken from, if there is one.
+    pub fn recording(&self) -> Option<&Arc<Recording>> {
+        self.replay.as_ref()
     }
 
     /// Returns all that the inputs are made of, so that two runs can be told apart.

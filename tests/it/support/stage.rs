@@ -169,8 +169,8 @@ impl Stage {
         // A session that draws apart has it when the frame under way is drawn.
         self.until("a notice of the picture", |s| s.notices().len() > before);
         let notice = self.session.notices().last().unwrap();
-        let path = notice.text.strip_prefix("saved ").unwrap_or_else(|| panic!("{}", notice.text));
-        PathBuf::from(path)
+        assert!(notice.text.starts_with("saved "), "{}", notice.text);
+        notice.path.clone().unwrap()
     }
 }
 

@@ -1,0 +1,253 @@
+//! The project, the inputs and the frame of a picture, in the picture's own file: opened again, it is that frame.
+//!
+//! Owns the text chunk of a PNG file that holds them: `iTXt` with the keyword `eddy`, compressed (PNG specification, third
+//! edition, section 11.3.3.4). No path of the machine is in it. Files that channels read are named, not carried.
+
+use crate::{
+    recording::{RecordedFrame, Recording},
+    run::Frame,
+    script::{Script, ScriptedInputs},
+};
+use eddy_project::{
+    FileError, Media, MeshSource, Origin, PassId, Project, confine, limits, read_snapshot, write_snapshot,
+};
+use flate2::{Compression, Crc, read::ZlibDecoder, write::ZlibEncoder};
+use serde::{Deserialize, Serialize};
+use std::{
+    io::{self, Read, Write},
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// Version of the form that this build writes, and the newest one it reads.
+const VERSION: u32 = 1;
+const KEYWORD: &[u8] = b"eddy";
+const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+/// The most frames that are drawn again to show one: ten minutes at 60 frames a second.
+pub const LONGEST: usize = 36_000;
+
+/// Holds what a picture was drawn from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The version of Eddy that drew it.
+    pub eddy: String,
+    /// The device that drew it.
+    pub device: String,
+    /// The pass that the picture is of.
+    pub pass: PassId,
+    /// The picture's frame, counted from the first one of the run.
+    pub frame: u32,
+    /// The canvas, in pixels.
+    pub size: (u32, u32),
+    pub project: Project,
+    pub inputs: SceneInputs,
+}
+
+/// Says what the frames up to a picture were drawn with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneInputs {
+    Script(Script),
+    /// All frames from the first one on, or the last one alone.
+    Recording(Recording),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Form {
+    eddy_picture: u32,
+    eddy: String,
+    device: String,
+    pass: String,
+    frame: u32,
+    size: (u32, u32),
+    project: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    script: Option<Script>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<String>,
+}
+
+/// A picture whose project cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{path} holds no project: it was not saved by Eddy, or another program has written it since")]
+    None { path: PathBuf },
+    #[error("the project in {path} has version {version}, which a newer Eddy wrote; this one reads version {VERSION}")]
+    Version { path: PathBuf, version: u32 },
+    #[error("the project in {path} is damaged: {reason}")]
+    Damaged { path: PathBuf, reason: String },
+}
+
+/// Returns the project as it may leave the machine: without its place, and without files from elsewhere.
+fn portable(project: &Project) -> Project {
+    let mut project = project.clone();
+    project.origin = Origin::Unsaved;
+    project.tab_sources_mut().into_iter().for_each(|source| source.path = None);
+    for included in &mut project.includes {
+        (included.source.path, included.is_edited) = (None, true);
+    }
+    for slot in project.passes.iter_mut().flat_map(|pass| &mut pass.channels) {
+        if slot.as_ref().is_some_and(|channel| matches!(channel.input.media(), Some(Media::Picked(_)))) {
+            *slot = None;
+        }
+    }
+    for meshes in project.passes.iter_mut().filter_map(|pass| pass.settings.meshes_mut()) {
+        meshes.draws.retain(|draw| !matches!(draw.mesh, MeshSource::Picked(_)));
+    }
+    project
+}
+
+impl Scene {
+    /// Returns a PNG file with the scene in it. A file that is not a PNG comes back as it is.
+    pub fn embed(&self, png: Vec<u8>) -> io::Result<Vec<u8>> {
+        // The header is the first chunk, and has 25 bytes.
+        let begin = SIGNATURE.len() + 25;
+        if !png.starts_with(SIGNATURE) || png.len() < begin {
+            return Ok(png);
+        }
+        let mut data = [KEYWORD, b"\0\x01\0\0\0"].concat();
+        let mut packed = ZlibEncoder::new(&mut data, Compression::default());
+        packed.write_all(self.text()?.as_bytes())?;
+        packed.finish()?;
+        let mut out = png[..begin].to_vec();
+        out.extend(u32::try_from(data.len()).map_err(io::Error::other)?.to_be_bytes());
+        let mut crc = Crc::new();
+        for part in [b"iTXt".as_slice(), &data] {
+            crc.update(part);
+            out.extend_from_slice(part);
+        }
+        out.extend(crc.sum().to_be_bytes());
+        out.extend_from_slice(&png[begin..]);
+        Ok(out)
+    }
+
+    fn text(&self) -> io::Result<String> {
+        let (script, recording) = match &self.inputs {
+            SceneInputs::Script(script) => (Some(script.clone()), None),
+            SceneInputs::Recording(recording) => {
+                let mut lines = Vec::new();
+                recording.write(&mut lines)?;
+                (None, Some(String::from_utf8(lines).map_err(io::Error::other)?))
+            }
+        };
+        let form = Form {
+            eddy_picture: VERSION,
+            eddy: self.eddy.clone(),
+            device: self.device.clone(),
+            pass: self.pass.key(),
+            frame: self.frame,
+            size: self.size,
+            project: write_snapshot(&portable(&self.project)).map_err(io::Error::other)?,
+            script,
+            recording,
+        };
+        Ok(serde_json::to_string(&form)?)
+    }
+
+    /// Reads the scene of a PNG file.
+    pub fn read(path: &Path) -> Result<Scene, SceneError> {
+        Self::of_png(&confine::read_own(path, limits::MEDIA_FILE)?, path)
+    }
+
+    /// Returns whether a PNG file holds a scene, whole or not.
+    pub fn is_in(png: &[u8]) -> bool {
+        chunk(png).is_some()
+    }
+
+    fn of_png(png: &[u8], path: &Path) -> Result<Scene, SceneError> {
+        let packed = chunk(png).ok_or_else(|| SceneError::None { path: path.into() })?;
+        let damaged = |reason: String| SceneError::Damaged { path: path.into(), reason };
+        let mut text = String::new();
+        let limit = limits::ALL_TEXTS.bytes;
+        let read = ZlibDecoder::new(packed).take(limit + 1).read_to_string(&mut text);
+        read.map_err(|error| damaged(error.to_string()))?;
+        if text.len() as u64 > limit {
+            return Err(damaged(format!("it is larger than {}", limits::ALL_TEXTS)));
+        }
+        let version = serde_json::from_str::<serde_json::Value>(&text).map_err(|error| damaged(error.to_string()))?;
+        match version["eddy_picture"].as_u64().and_then(|version| u32::try_from(version).ok()) {
+            Some(VERSION) => {}
+            Some(version) if version > VERSION => return Err(SceneError::Version { path: path.into(), version }),
+            _ => return Err(damaged("its version cannot be read".into())),
+        }
+        let form: Form = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+        let inputs = match (form.script, form.recording) {
+            (Some(script), _) => SceneInputs::Script(script),
+            (None, Some(recording)) => {
+                let recording = Recording::read_within(recording.as_bytes(), limits::RUN, limits::RUN_BYTES);
+                SceneInputs::Recording(recording.map_err(|error| damaged(error.to_string()))?)
+            }
+            (None, None) => return Err(damaged("it has no inputs".into())),
+        };
+        let side = 1..=limits::PICTURE_SIDE;
+        if !side.contains(&form.size.0) || !side.contains(&form.size.1) {
+            return Err(damaged(format!("a picture of {}x{} pixels cannot be", form.size.0, form.size.1)));
+        }
+        let project = read_snapshot(&form.project).map_err(|error| damaged(error.to_string()))?;
+        Ok(Scene {
+            eddy: form.eddy,
+            device: form.device,
+            pass: PassId::parse(&form.pass).unwrap_or(PassId::Image),
+            frame: form.frame,
+            size: form.size,
+            // A snapshot may name a place.
+            project: portable(&project),
+            inputs,
+        })
+    }
+
+    /// Returns the frames up to the picture's: all of them, or the last one alone where `is_whole` is not asked for or
+    /// the others are not known or too many.
+    pub fn frames(&self, is_whole: bool) -> Result<Vec<Frame>, String> {
+        match &self.inputs {
+            SceneInputs::Recording(recording) => {
+                let one = |frame: &RecordedFrame| Frame {
+                    inputs: frame.inputs.clone(),
+                    values: Arc::new(frame.values.clone()),
+                    size: frame.size,
+                };
+                let count = recording.frames.len();
+                let kept = if is_whole && count <= LONGEST { count } else { 1 };
+                Ok(recording.frames[count - kept..].iter().map(one).collect())
+            }
+            SceneInputs::Script(script) => {
+                let mut inputs = ScriptedInputs::of_script(script)?;
+                let values = Arc::new(self.project.custom_uniform_values.clone());
+                let first = if is_whole && (self.frame as usize) < LONGEST { 0 } else { self.frame };
+                let mut frames = Vec::new();
+                for frame in 0..=self.frame {
+                    let inputs = inputs.next_frame();
+                    if frame >= first {
+                        frames.push(Frame { inputs, values: values.clone(), size: self.size });
+                    }
+                }
+                Ok(frames)
+            }
+        }
+    }
+}
+
+/// The compressed text of the scene's chunk.
+fn chunk(png: &[u8]) -> Option<&[u8]> {
+    let mut rest = png.strip_prefix(SIGNATURE)?;
+    loop {
+        let (length, after) = rest.split_first_chunk::<4>()?;
+        let (kind, after) = after.split_first_chunk::<4>()?;
+        let (data, after) = after.split_at_checked(u32::from_be_bytes(*length) as usize)?;
+        match kind {
+            b"iTXt" => {
+                if let Some(packed) = data.strip_prefix(KEYWORD).and_then(|data| data.strip_prefix(b"\0\x01\0\0\0")) {
+                    return Some(packed);
+                }
+            }
+            b"IEND" => return None,
+            _ => {}
+        }
+        rest = after.get(4..)?;
+    }
+}
+
+#[cfg(test)]
+mod tests;

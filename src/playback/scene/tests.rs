@@ -1,0 +1,106 @@
+use super::*;
+use crate::script::{parse_keys, parse_mouse};
+use eddy_engine::{FrameInputs, Pixels};
+use eddy_project::{Channel, Input, Pass, Source};
+
+fn project() -> Project {
+    let source = |text: &str| Source {
+        name: "image.glsl".into(),
+        path: Some("/home/somebody/waves/image.glsl".into()),
+        text: text.into(),
+    };
+    let mut image =
+        Pass::new(PassId::Image, source("void mainImage(out vec4 o, in vec2 p) { o = vec4(p, iTime, 1.0); }"));
+    image.channels[0] = Some(Channel::new(Input::texture(Media::Picked("/home/somebody/cat.png".into()))));
+    image.channels[1] = Some(Channel::new(Input::texture(Media::File("own.png".into()))));
+    let place = Origin::Folder { path: "/home/somebody/waves".into(), has_manifest: true };
+    Project::new("waves", vec![image], place)
+}
+
+fn scripted() -> ScriptedInputs {
+    ScriptedInputs::new(59.94)
+        .with_mouse(parse_mouse("0:down 40,40; 4:move 80.5,45; 10:up").unwrap())
+        .with_keys(parse_keys("2:down 32; 3:up 32").unwrap())
+        .with_date(Some(crate::date::parse("2026-03-04T05:06:07").unwrap()))
+}
+
+fn scene() -> Scene {
+    Scene {
+        eddy: "1.2.3".into(),
+        device: "a device".into(),
+        pass: PassId::Image,
+        frame: 12,
+        size: (4, 3),
+        project: project(),
+        inputs: SceneInputs::Script(scripted().script().unwrap()),
+    }
+}
+
+fn png() -> Vec<u8> {
+    let pixels = Pixels { width: 4, height: 3, texels: vec![[0.5; 4]; 12] };
+    let mut out = Vec::new();
+    crate::capture::encode(&mut out, &pixels, crate::capture::Format::Png).unwrap();
+    out
+}
+
+fn read(png: &[u8]) -> Result<Scene, SceneError> {
+    Scene::of_png(png, Path::new("a.png"))
+}
+
+#[test]
+fn a_scene_comes_back_without_places_of_the_machine() {
+    let file = scene().embed(png()).unwrap();
+    let back = read(&file).unwrap();
+    assert_eq!((back.frame, back.size, &back.device), (12, (4, 3), &"a device".to_owned()));
+    assert_eq!(back.inputs, scene().inputs);
+    let text = scene().text().unwrap();
+    assert!(!text.contains("somebody"), "{text}");
+    let [picked, own] = [0, 1].map(|n| back.project.passes[0].channels[n].as_ref().map(|c| c.input.media().cloned()));
+    assert_eq!((picked, own), (None, Some(Some(Media::File("own.png".into())))));
+    assert_eq!(back.project.passes[0].source.text, project().passes[0].source.text);
+    // The picture is the same, and other programs read it.
+    let decoded = |bytes: &[u8]| image::load_from_memory(bytes).unwrap();
+    assert_eq!(decoded(&file), decoded(&png()));
+    assert!(Scene::is_in(&file) && !Scene::is_in(&png()));
+    assert!(matches!(read(&png()), Err(SceneError::None { .. })));
+}
+
+#[test]
+fn frames_are_those_of_the_run() {
+    let back = read(&scene().embed(png()).unwrap()).unwrap();
+    let mut inputs = scripted();
+    let expected: Vec<FrameInputs> = (0..13).map(|_| inputs.next_frame()).collect();
+    let frames = back.frames(true).unwrap();
+    assert!(frames.iter().map(|frame| &frame.inputs).eq(&expected));
+    let last = back.frames(false).unwrap();
+    assert!(last.len() == 1 && last[0].inputs == expected[12]);
+    let frame = |inputs: FrameInputs| RecordedFrame { inputs, size: (4, 3), values: Default::default(), reset: false };
+    let recording = Recording { project: "waves".into(), frames: expected.into_iter().map(frame).collect() };
+    let recorded = Scene { inputs: SceneInputs::Recording(recording.clone()), ..scene() };
+    let back = read(&recorded.embed(png()).unwrap()).unwrap();
+    assert_eq!(back.inputs, SceneInputs::Recording(recording));
+    assert_eq!((back.frames(true).unwrap().len(), back.frames(false).unwrap().len()), (13, 1));
+}
+
+#[test]
+fn damaged_files_are_refused_or_read_whole() {
+    let whole = scene().embed(png()).unwrap();
+    for at in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x10;
+        // A word of the text may be another one; none may panic.
+        let _ = read(&bytes);
+        assert!(read(&whole[..at]).is_err() || at > whole.len() - png().len());
+    }
+    let newer = |text: &str| {
+        let mut data = b"eddy\0\x01\0\0\0".to_vec();
+        let mut packed = ZlibEncoder::new(&mut data, Compression::fast());
+        packed.write_all(text.as_bytes()).unwrap();
+        packed.finish().unwrap();
+        [&png()[..33], &(data.len() as u32).to_be_bytes(), b"iTXt", &data, &[0; 4], &png()[33..]].concat()
+    };
+    assert!(matches!(read(&newer("{\"eddy_picture\":2}")), Err(SceneError::Version { version: 2, .. })));
+    for text in ["", "{}", "[]", "{\"eddy_picture\":1}", "{\"eddy_picture\":-1}"] {
+        assert!(matches!(read(&newer(text)), Err(SceneError::Damaged { .. })), "{text}");
+    }
+}
