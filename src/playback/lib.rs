@@ -2,12 +2,13 @@
 //!
 //! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
 //! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
-//! a project ([`comparing`], [`revision`]), and pictures on disk ([`capture`], [`npy`]). Needs no session; time is an
-//! argument.
+//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]), and which frames of a run are a machine's
+//! ([`frames`], [`shard`]). Needs no session; time is an argument.
 
 pub mod capture;
 pub mod comparing;
 pub mod date;
+pub mod frames;
 pub mod mouse;
 pub mod npy;
 pub mod offline;
@@ -16,4 +17,5 @@ pub mod reduction;
 pub mod revision;
 pub mod run;
 pub mod script;
+pub mod shard;
 pub mod trial;
