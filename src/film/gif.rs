@@ -6,6 +6,7 @@
 use super::{
     FilmError,
     queue::{Shape, Sink},
+    rate::Rate,
     rgb,
 };
 use eddy_engine::Pixels;
@@ -34,10 +35,7 @@ pub struct Gif {
 impl Gif {
     /// Starts with no frame. `to` is the file that is written in the end, and the temporary ones are beside it.
     pub fn start(shape: Shape, to: &Path, (tools, stop): (&Tools, &Stop)) -> Result<Gif, FilmError> {
-        let fps = shape.rate.per_second();
-        if fps > FASTEST {
-            return Err(FilmError::GifRate(fps));
-        }
+        check_rate(shape.rate)?;
         let kept = Staged::new(to).map_err(FilmError::io(to))?;
         let palette = Staged::new(to).map_err(FilmError::io(to))?;
         let size = format!("{}x{}", shape.width, shape.height);
@@ -53,6 +51,14 @@ impl Gif {
 
     fn run(&self, arguments: Vec<OsString>) -> Result<(), FilmError> {
         Ok(Encoder::start(&self.tools, arguments, &self.stop)?.finish()?)
+    }
+}
+
+/// Fails for a rate that browsers do not show.
+pub fn check_rate(rate: Rate) -> Result<(), FilmError> {
+    match rate.per_second() {
+        fps if fps > FASTEST => Err(FilmError::GifRate(fps)),
+        _ => Ok(()),
     }
 }
 

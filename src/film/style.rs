@@ -3,6 +3,8 @@
 use super::{
     FilmError,
     coded::Coded,
+    gif,
+    rate::Rate,
     rgb,
     still::Still,
     values::{Chroma, Codec, ColorRange, Format, Quality},
@@ -81,6 +83,14 @@ impl FilmEncoding {
     /// Returns whether the file holds sound.
     pub fn holds_sound(&self) -> bool {
         matches!(self, FilmEncoding::Coded(_))
+    }
+
+    /// Fails for a rate that the format does not have.
+    pub fn check_rate(&self, rate: Rate) -> Result<(), FilmError> {
+        match self {
+            FilmEncoding::Gif => gif::check_rate(rate),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -37,7 +37,7 @@ pub enum LabError {
     Mixed { folder: PathBuf, first: PathBuf, what: &'static str, theirs: String, ours: String },
     #[error("there is no study {name}{}; there are {known}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
     NoStudy { name: String, near: Option<String>, known: String },
-    #[error(transparent)]
+    #[error("--shard {0}")]
     Shard(#[from] ShardError),
     #[error(
         "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not \

@@ -9,6 +9,7 @@ const MOST: u64 = 1 << 24;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameList {
     parts: Vec<Part>,
+    has_range: bool,
 }
 
 /// The numbers from `first` to `last`, `step` apart. `last` is one of them where `step` divides the distance.
@@ -29,8 +30,7 @@ impl FrameList {
     /// Reads `A`, `A-B` (with both ends), `A-B:S` (every `S`th of them, from `A` on), and several with commas between.
     pub fn parse(text: &str) -> Result<FrameList, String> {
         let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
-        let list = FrameList { parts };
-        list.check()
+        FrameList { parts, has_range: text.contains('-') }.check()
     }
 
     fn check(self) -> Result<FrameList, String> {
@@ -40,7 +40,12 @@ impl FrameList {
         }
     }
 
-    /// Returns the number where the list is a single one, written without a range.
+    /// Returns whether a part of it was written as a range.
+    pub fn has_range(&self) -> bool {
+        self.has_range
+    }
+
+    /// Returns the number where the list is a single one.
     pub fn single(&self) -> Option<u32> {
         match self.parts[..] {
             [Part { first, last, .. }] if first == last => Some(first),
@@ -50,7 +55,8 @@ impl FrameList {
 
     /// Puts several lists together.
     pub fn joined(lists: &[FrameList]) -> Result<FrameList, String> {
-        FrameList { parts: lists.iter().flat_map(|list| list.parts.clone()).collect() }.check()
+        let parts = lists.iter().flat_map(|list| list.parts.clone()).collect();
+        FrameList { parts, has_range: lists.iter().any(|list| list.has_range) }.check()
     }
 
     /// Returns the numbers, rising, each once.

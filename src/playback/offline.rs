@@ -122,6 +122,17 @@ impl Offline {
         })
     }
 
+    /// Passes over the next frame: its input happens, and nothing is drawn.
+    pub fn skip(&mut self) -> Result<(), EngineError> {
+        self.next_inputs().map(drop)
+    }
+
+    /// Returns whether a frame depends on the frames before it: through passes that read what they drew last, or that keep a
+    /// part of it.
+    pub fn has_state(&self) -> Result<bool, EngineError> {
+        Ok(self.engine()?.checkpoint_bytes() > 0)
+    }
+
     /// Draws the next frame, and takes what a pass reads when it is drawn.
     pub fn draw_inspected(&mut self, pass: &PassId) -> Result<PassInputs, OfflineError> {
         let (inputs, pass) = (self.next_inputs()?, pass.clone());

@@ -9,9 +9,9 @@ pub struct Shard {
     pub count: u64,
 }
 
-/// A shard that cannot be, or that no scheduler names. The text is for the option `--shard`.
+/// A shard that cannot be, or that no scheduler names. The text goes behind the option's name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("--shard {0}")]
+#[error("{0}")]
 pub struct ShardError(String);
 
 /// The environment variables by which a scheduler's array job says which of its tasks this is.
