@@ -79,7 +79,7 @@ pub fn main() -> Next {
 fn run(command: &Command) -> u8 {
     let result = match command {
         Command::Render(args) => {
-            let inputs = match args.run.inputs() {
+            let inputs = match args.inputs() {
                 Ok(inputs) => inputs,
                 Err(usage) => return trouble(usage),
             };

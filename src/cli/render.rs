@@ -12,10 +12,13 @@ use super::{
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::Pixels,
-    film::{Encoding, Film, FilmError, Output, Shape, Stills},
+    film::{Encoding, Film, FilmError, Mean, Output, Shape, Stills, shrunk},
     media::MediaSet,
-    playback::{offline::Offline, script::ScriptedInputs},
-    project::Project,
+    playback::{
+        offline::{Offline, OfflineError},
+        script::ScriptedInputs,
+    },
+    project::{self, PassId, Project},
     video::Tools,
 };
 use serde::Serialize;
@@ -51,7 +54,8 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
             let job = Job { args, targets, index, part };
             let drawn = machine.attempt(&mut report, |machine, report| job.draw(machine, report, inputs));
             let Drawn { written, kept, measures, mentioned } = drawn.unwrap_or_default();
-            let words = if mentioned { words(&report, &written, kept) + &measured_words(&measures) } else { String::new() };
+            let words =
+                if mentioned { words(&report, &written, kept) + &measured_words(&measures) } else { String::new() };
             printer.print_as(&JsonLine { report: &report, measured: &measures, kept }, &report, &words)?;
         }
     }
@@ -120,13 +124,26 @@ impl Job<'_> {
         };
         let spec = &args.project[self.index];
         let (project, mut offline, media) =
-            open_measured(machine, report, spec, &args.run, (&picture.pass, &beside), inputs.clone())?;
+            open_measured(machine, report, spec, &args.drawn(), (&picture.pass, &beside), inputs.clone())?;
         let (declared, unread) = measured::declared(&project);
         report.diagnose(&unread, &project.sources(), Some(&project));
         let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
         let last = wanted.last().map_or(0, |last| last + 1);
         let frames = targets.drawn.unwrap_or_default().max(last);
         let jumps = targets.drawn.is_none() && !offline.has_state()?;
+        if args.shutter.is_some() && offline.has_state()? {
+            let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
+            return Err(anyhow::anyhow!(
+                "--shutter draws frames between the frames, which would change a project with a state{}: leave it out",
+                if passes.is_empty() {
+                    String::new()
+                } else {
+                    format!(" ({} read the last frame)", project::listed(&passes))
+                }
+            )
+            .into());
+        }
+        let mut mean = Mean::default();
         if !jumps && args.shard.is_some() && wanted.first().is_some_and(|first| *first > 0) {
             self.note_state(report, wanted[0]);
         }
@@ -139,7 +156,15 @@ impl Job<'_> {
                 offline.skip()?;
                 continue;
             }
-            millis.push(offline.draw()?.millis);
+            let layer = args.face.unwrap_or(picture.target);
+            let drawn = match args.shutter.filter(|_| is_wanted && targets.writes()) {
+                None => offline.draw()?,
+                Some(shutter) => offline.draw_parts(args.samples, shutter / args.run.fps, |offline| {
+                    mean.add(&offline.read(&picture.pass, layer)?);
+                    Ok::<_, OfflineError>(())
+                })?,
+            };
+            millis.push(drawn.millis);
             report.frames += 1;
             progress.step();
             if !is_wanted {
@@ -149,7 +174,11 @@ impl Job<'_> {
             if missing.binary_search(&frame).is_err() || !targets.writes() {
                 continue;
             }
-            let pixels = offline.read(&picture.pass, args.face.unwrap_or(picture.target))?;
+            let pixels = match args.shutter {
+                None => offline.read(&picture.pass, layer)?,
+                Some(_) => mean.take(),
+            };
+            let pixels = if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) };
             if let Writer::Nothing = writer {
                 let opened = (&project, &media);
                 writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
@@ -162,7 +191,9 @@ impl Job<'_> {
                 other => other?,
             }
         }
-        writer.finish().or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
+        writer
+            .finish()
+            .or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
         // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
         if millis.len() > 1 {
             millis.remove(0);

@@ -63,6 +63,8 @@ impl Sounds {
             ("--frames", args.frames.is_some()),
             ("--format", args.style.format.is_some()),
             ("--shard", args.shard.is_some()),
+            ("--supersample", args.supersample.is_some()),
+            ("--shutter", args.shutter.is_some()),
             ("--codec", args.style.codec.is_some()),
             ("--quality", args.style.quality.is_some()),
             ("--face", args.face.is_some()),

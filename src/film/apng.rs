@@ -1,6 +1,10 @@
 //! Animated PNG (PNG Specification, third edition, section 4.9), without alpha: a film is opaque as on a screen.
 
-use super::{FilmError, queue::{Shape, Sink}, rgb};
+use super::{
+    FilmError,
+    queue::{Shape, Sink},
+    rgb,
+};
 use eddy_engine::Pixels;
 use std::io::Write;
 
@@ -27,7 +31,8 @@ impl<W: Write> Apng<W> {
         // For ever.
         let animated = encoder.set_animated(shape.frames, 0);
         let (seconds, parts) = (shape.rate.denominator as u16, shape.rate.numerator as u16);
-        let header = animated.and_then(|()| encoder.set_frame_delay(seconds, parts)).and_then(|()| encoder.write_header());
+        let header =
+            animated.and_then(|()| encoder.set_frame_delay(seconds, parts)).and_then(|()| encoder.write_header());
         Ok(Apng { writer: Some(header.map_err(|e| failed(e.into()))?), depth, bytes: Vec::new(), failed })
     }
 }

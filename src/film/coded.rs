@@ -94,8 +94,12 @@ impl Coded {
             "libx265" if self.is_lossless() => list(&["-x265-params", "lossless=1:log-level=error"]),
             "libx265" => list(&["-preset", "medium", "-crf", &number, "-x265-params", "log-level=error"]),
             "libvpx-vp9" if self.is_lossless() => list(&["-lossless", "1", "-row-mt", "1", "-cpu-used", "2"]),
-            "libvpx-vp9" => list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-deadline", "good", "-cpu-used", "2"]),
-            "libaom-av1" if self.is_lossless() => list(&["-aom-params", "lossless=1", "-row-mt", "1", "-cpu-used", "6"]),
+            "libvpx-vp9" => {
+                list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-deadline", "good", "-cpu-used", "2"])
+            }
+            "libaom-av1" if self.is_lossless() => {
+                list(&["-aom-params", "lossless=1", "-row-mt", "1", "-cpu-used", "6"])
+            }
             "libaom-av1" => list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-cpu-used", "6"]),
             "libsvtav1" => list(&["-crf", &number, "-preset", "8"]),
             "prores_ks" => {
@@ -161,7 +165,8 @@ impl Coded {
         }
         let (matrix, range, primaries, transfer) = self.tags();
         // As properties of the frames and as options of the encoder: versions of ffmpeg differ in which they take.
-        let frames = format!("setparams=range={range}:color_primaries={primaries}:color_trc={transfer}:colorspace={matrix}");
+        let frames =
+            format!("setparams=range={range}:color_primaries={primaries}:color_trc={transfer}:colorspace={matrix}");
         let option = if matrix == "gbr" { "rgb" } else { matrix };
         add(&["-vf", &frames, "-c:v", encoder]);
         let own = self.encoder_arguments(encoder);

@@ -10,6 +10,7 @@ mod apng;
 mod coded;
 mod error;
 mod gif;
+mod mean;
 mod pipe;
 mod queue;
 mod rate;
@@ -20,6 +21,7 @@ mod values;
 mod yuv;
 
 pub use error::FilmError;
+pub use mean::{Mean, shrunk};
 pub use queue::{Film, Output, Shape, Stills};
 pub use rate::Rate;
 pub use still::Still;

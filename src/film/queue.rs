@@ -1,14 +1,7 @@
 //! Encoding on a thread of its own, behind a queue that holds a bounded number of frames.
 
 use super::{
-    FilmError,
-    apng::Apng,
-    coded::CodedFilm,
-    gif::Gif,
-    pipe::Plain,
-    rate::Rate,
-    still::Still,
-    style::FilmEncoding,
+    FilmError, apng::Apng, coded::CodedFilm, gif::Gif, pipe::Plain, rate::Rate, still::Still, style::FilmEncoding,
 };
 use eddy_audio::wav;
 use eddy_engine::Pixels;
@@ -203,7 +196,9 @@ fn plain<W: Write + Send + 'static>(
         FilmEncoding::Raw(depth) => Box::new(Plain::new(out, shape, Err(*depth), failed)?),
         FilmEncoding::Y4m(format) => Box::new(Plain::new(out, shape, Ok(*format), failed)?),
         FilmEncoding::Gif | FilmEncoding::Coded(_) => {
-            return Err(FilmError::Pipe(std::io::Error::other("this format needs a file, as parts of it are written twice")));
+            return Err(FilmError::Pipe(std::io::Error::other(
+                "this format needs a file, as parts of it are written twice",
+            )));
         }
     })
 }

@@ -11,7 +11,7 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Returns the simplest ratio within a millionth of a rate, or the nearest of numbers up to 65,535 where none is: the
+    /// Returns the simplest ratio within a billionth of a rate, or the nearest of numbers up to 65,535 where none is: the
     /// convergents of its continued fraction (Hardy and Wright, An Introduction to the Theory of Numbers, chapter X). `None`
     /// for rates that are not between 1/65,535 and 65,535.
     pub fn of(fps: f64) -> Option<Rate> {
@@ -28,7 +28,7 @@ impl Rate {
             }
             (before, last) = (last, next);
             let ratio = last.0 as f64 / last.1 as f64;
-            if last.0 > 0 && (ratio / fps - 1.0).abs() < 1e-6 {
+            if last.0 > 0 && (ratio / fps - 1.0).abs() < 1e-9 {
                 break;
             }
             rest = 1.0 / (rest - rest.floor());

@@ -181,7 +181,9 @@ impl Style {
         }
         if quality == Quality::Lossless {
             if self.chroma.is_some() || self.range.is_some() {
-                return Err("a lossless film keeps red, green and blue, which have no chroma format and no range".into());
+                return Err(
+                    "a lossless film keeps red, green and blue, which have no chroma format and no range".into()
+                );
             }
             let depths: &[u32] = if codec == Codec::Ffv1 { &[8, 16] } else { &[8] };
             let pixels = PixelFormat::Rgb(depth(depths, &format!("lossless films of {}", codec.title()))?);
@@ -200,7 +202,12 @@ impl Style {
             return Err("ProRes has the limited range alone".into());
         }
         let depth = depth(depths, &format!("films of {}", codec.title()))?;
-        Ok(Coded { container: self.format, codec, quality, pixels: PixelFormat::Yuv(YuvFormat { chroma, depth, range }) })
+        Ok(Coded {
+            container: self.format,
+            codec,
+            quality,
+            pixels: PixelFormat::Yuv(YuvFormat { chroma, depth, range }),
+        })
     }
 
     /// Returns the codecs that a format holds, the default first.

@@ -30,14 +30,7 @@ struct Scheduler {
 /// In the order in which they are asked. GNU parallel comes first: it also runs within tasks of the others.
 const SCHEDULERS: [Scheduler; 4] = [
     // Job numbers count from 1: `man parallel`, "PARALLEL_SEQ".
-    Scheduler {
-        name: "GNU parallel",
-        index: "PARALLEL_SEQ",
-        counts: &[],
-        first: None,
-        step: None,
-        begins_at: 1,
-    },
+    Scheduler { name: "GNU parallel", index: "PARALLEL_SEQ", counts: &[], first: None, step: None, begins_at: 1 },
     // <https://slurm.schedmd.com/job_array.html>
     Scheduler {
         name: "Slurm",
@@ -115,7 +108,10 @@ impl Shard {
             let (first, step) = (optional(first)?.unwrap_or(begins_at), optional(step)?.unwrap_or(1).max(1));
             let uneven = || {
                 let array = format!("task {id} of an array from {first} in steps of {step}, with {count} tasks");
-                ShardError(format!("auto: {index}: {array}, is no evenly spaced one; use an array from 0 on, as in 0-{}", count.max(1) - 1))
+                ShardError(format!(
+                    "auto: {index}: {array}, is no evenly spaced one; use an array from 0 on, as in 0-{}",
+                    count.max(1) - 1
+                ))
             };
             let place = id.checked_sub(first).filter(|distance| distance.is_multiple_of(step)).ok_or_else(uneven)?;
             return if place / step < count { Self::new(place / step, count) } else { Err(uneven()) };
@@ -127,7 +123,9 @@ impl Shard {
                     [] => String::new(),
                     counts => format!(" ({} is not set)", counts.join(" or ")),
                 };
-                format!("auto: {name} says by {index} which task this is, but not how many there are{missing}: write auto/n")
+                format!(
+                    "auto: {name} says by {index} which task this is, but not how many there are{missing}: write auto/n"
+                )
             }
             None => {
                 let names: Vec<String> = SCHEDULERS.iter().map(|s| format!("{} ({})", s.index, s.name)).collect();

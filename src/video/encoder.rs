@@ -134,7 +134,8 @@ mod tests {
 
     #[test]
     fn encoders_are_read_from_the_list() {
-        let said = "Encoders:\n V..... = Video\n ------\n V....D libx264              libx264 H.264\n A....D aac  AAC\n\n";
+        let said =
+            "Encoders:\n V..... = Video\n ------\n V....D libx264              libx264 H.264\n A....D aac  AAC\n\n";
         assert_eq!(encoders_of(said), ["libx264", "aac"]);
         assert!(encoders_of("ffmpeg: no such option").is_empty());
     }

@@ -172,7 +172,10 @@ pub struct ExportArgs {
 
 #[cfg(test)]
 mod tests {
-    use super::{values::picture, *};
+    use super::{
+        values::{Picture, picture},
+        *,
+    };
     use crate::{
         film::Format,
         playback::frames::{FrameList, Frames},

@@ -2,7 +2,7 @@
 
 use super::{
     run::RunArgs,
-    values::{self, PROJECT, Picture, chroma, codec, face, picture, quality, range, seconds, shard},
+    values::{self, PROJECT, Picture, chroma, codec, face, picture, quality, range, seconds, shard, shutter},
 };
 use crate::{
     cli::sweep::Sweep,
@@ -10,6 +10,7 @@ use crate::{
     playback::{
         frames::{FrameList, Frames},
         reduction::{Assertion, Quantity},
+        script::ScriptedInputs,
         shard::Shard,
     },
 };
@@ -54,6 +55,17 @@ pub struct RenderArgs {
     pub style: StyleArgs,
     #[command(flatten)]
     pub run: RunArgs,
+    /// Draw each picture N times as wide and high, and write the mean of its blocks of NxN pixels. iResolution is that of the
+    /// larger picture
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=8), conflicts_with = "replay")]
+    pub supersample: Option<u32>,
+    /// Motion blur: the part of a frame's time for which the shutter is open, above 0 to 1. For projects without a state
+    #[arg(long, value_name = "PART", value_parser = shutter, conflicts_with = "replay")]
+    pub shutter: Option<f64>,
+    /// Number of pictures whose mean a frame is, with --shutter
+    #[arg(long, value_name = "N", default_value = "8", requires = "shutter")]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=1024))]
+    pub samples: u32,
     /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, which is five evenly spaced
     /// values (logarithmic: 0.001..1:4:log). Files are named STEM_viscosity=0.005.png. May be repeated, for all
     /// combinations
@@ -99,6 +111,25 @@ pub struct StyleArgs {
     /// Write a film without the project's sound
     #[arg(long)]
     pub no_audio: bool,
+}
+
+impl RenderArgs {
+    /// Returns how many times as wide and high pictures are drawn.
+    pub fn factor(&self) -> u32 {
+        self.supersample.unwrap_or(1)
+    }
+
+    /// Returns what frames are drawn with. Err: a script that cannot be read.
+    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+        Ok(self.run.inputs()?.with_mouse_scale(self.factor()))
+    }
+
+    /// Returns the run with the resolution in which it is drawn.
+    pub fn drawn(&self) -> RunArgs {
+        let (width, height) = self.run.size;
+        let size = (width.saturating_mul(self.factor()), height.saturating_mul(self.factor()));
+        RunArgs { size, ..self.run.clone() }
+    }
 }
 
 impl StyleArgs {

@@ -67,6 +67,9 @@ fn step(at: &[u32]) -> Result<u32, String> {
     let step = at.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
     match at.windows(2).all(|pair| pair[1] - pair[0] == step) {
         true => Ok(step),
-        false => Err("a film shows each frame for the same time: write its frames as one range, as in 0-599 or 0-599:2".into()),
+        false => {
+            Err("a film shows each frame for the same time: write its frames as one range, as in 0-599 or 0-599:2"
+                .into())
+        }
     }
 }

@@ -47,7 +47,10 @@ const ROOT: &[(&str, &[&str])] = &[
     ("gui", &["cli"]),
     (
         "main",
-        &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "film", "debugger", "session", "lab"],
+        &[
+            "diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "film", "debugger", "session",
+            "lab",
+        ],
     ),
 ];
 
