@@ -95,7 +95,7 @@ fn run(command: &Command) -> u8 {
                 Ok(targets) => targets,
                 Err(usage) => return trouble(usage),
             };
-            if let Err(error) = targets.prepare() {
+            if let Err(error) = targets.prepare(args.run.canvas()) {
                 return trouble(error_chain(&error));
             }
             render::run(args, &targets, &inputs)

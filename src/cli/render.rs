@@ -82,7 +82,7 @@ fn measured_words(taken: &[Measured]) -> String {
     taken.iter().map(|m| format!("\n  {} = {} in frame {}", m.quantity, m.value, m.frame)).collect()
 }
 
-/// What became of a project.
+/// The outcome of a project.
 #[derive(Default)]
 struct Drawn {
     /// The files that were written.
@@ -276,7 +276,7 @@ impl Job<'_> {
     }
 }
 
-/// Where pictures go.
+/// The writer of a project's pictures.
 enum Writer {
     Nothing,
     Stills(Stills),

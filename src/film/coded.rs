@@ -37,7 +37,7 @@ impl Codec {
             Codec::H264 => [28, 20, 12],
             Codec::H265 => [30, 22, 12],
             Codec::Vp9 => [40, 28, 12],
-            Codec::Av1 => [45, 30, 12],
+            Codec::Av1 => [45, 30, 10],
             Codec::ProRes => [1, 2, 3],
             Codec::Ffv1 => [0, 0, 0],
         }
@@ -50,15 +50,15 @@ impl Coded {
     }
 
     /// Returns the encoders that can do it, the first choice first.
-    fn candidates(self) -> &'static [&'static str] {
+    fn candidates(self, size: (u32, u32)) -> &'static [&'static str] {
         let is_420 = matches!(self.pixels, PixelFormat::Yuv(format) if format.chroma == Chroma::C420);
         match self.codec {
             Codec::H264 if self.is_lossless() => &["libx264rgb"],
             Codec::H264 => &["libx264"],
             Codec::H265 => &["libx265"],
             Codec::Vp9 => &["libvpx-vp9"],
-            // SVT-AV1 is several times as fast, and has 4:2:0 alone.
-            Codec::Av1 if is_420 => &["libsvtav1", "libaom-av1"],
+            // SVT-AV1 is several times as fast, and has 4:2:0 of at least 64x64 pixels alone.
+            Codec::Av1 if is_420 && size.0.min(size.1) >= 64 => &["libsvtav1", "libaom-av1"],
             Codec::Av1 => &["libaom-av1"],
             Codec::ProRes => &["prores_ks"],
             Codec::Ffv1 => &["ffv1"],
@@ -66,9 +66,10 @@ impl Coded {
     }
 
     /// Returns the encoder that is used of those that are there.
-    pub(super) fn encoder(self, there: &[String]) -> Result<&'static str, FilmError> {
-        let found = self.candidates().iter().find(|name| there.iter().any(|there| there == *name));
-        let missing = || FilmError::NoEncoder { codec: self.codec.title(), encoders: self.candidates().join(" or ") };
+    pub(super) fn encoder(self, there: &[String], size: (u32, u32)) -> Result<&'static str, FilmError> {
+        let candidates = self.candidates(size);
+        let found = candidates.iter().find(|name| there.iter().any(|there| there == *name));
+        let missing = || FilmError::NoEncoder { codec: self.codec.title(), encoders: candidates.join(" or ") };
         found.copied().ok_or_else(missing)
     }
 
@@ -221,7 +222,7 @@ impl CodedFilm {
         (tools, stop): (&Tools, &Stop),
     ) -> Result<CodedFilm, FilmError> {
         coded.check_size(shape)?;
-        let encoder = coded.encoder(&tools.encoders()?)?;
+        let encoder = coded.encoder(&tools.encoders()?, (shape.width, shape.height))?;
         let named = |path: &Path| file_name(path).map_err(FilmError::io(path));
         let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
         let mut arguments = coded.arguments(shape, encoder, wav);

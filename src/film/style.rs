@@ -94,15 +94,15 @@ impl FilmEncoding {
     }
 }
 
-/// Says whether what an encoding needs is installed, so that this is known before hours of drawing.
-pub fn check_tools(encoding: &Encoding, tools: &Tools) -> Result<(), FilmError> {
+/// Says whether what an encoding of pictures of a size needs is installed, so that this is known before hours of drawing.
+pub fn check_tools(encoding: &Encoding, size: (u32, u32), tools: &Tools) -> Result<(), FilmError> {
     let Encoding::Film(film) = encoding else { return Ok(()) };
     if !film.needs_ffmpeg() {
         return Ok(());
     }
     let encoders = tools.encoders()?;
     match film {
-        FilmEncoding::Coded(coded) => coded.encoder(&encoders).map(drop),
+        FilmEncoding::Coded(coded) => coded.encoder(&encoders, size).map(drop),
         _ => Ok(()),
     }
 }

@@ -109,7 +109,7 @@ impl Shard {
             let uneven = || {
                 let array = format!("task {id} of an array from {first} in steps of {step}, with {count} tasks");
                 ShardError(format!(
-                    "auto: {index}: {array}, is no evenly spaced one; use an array from 0 on, as in 0-{}",
+                    "auto: {index}: {array}, is not evenly spaced; use an array from 0 on, as in 0-{}",
                     count.max(1) - 1
                 ))
             };

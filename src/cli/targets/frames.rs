@@ -33,13 +33,17 @@ pub fn of(args: &RenderArgs, is_film: bool) -> Result<Asked, String> {
             }
             asked(frames_of(at, *count, is_film), Some(*count), listed.has_range())
         }
-        None if !at.is_empty() => asked(at, None, listed.has_range()),
+        // What a list without a range draws is what it always has drawn.
+        None if !at.is_empty() => {
+            let drawn = at.last().map(|last| last + 1).filter(|_| !listed.has_range());
+            asked(at, drawn, listed.has_range())
+        }
         None => match count {
             Some(count) => asked(frames_of(at, count, is_film), Some(count), false),
             None if is_film => {
                 return Err("say how long the film is: --frames 600, or the frames of it, as in --frames 0-599".into());
             }
-            None => asked(vec![0], None, false),
+            None => asked(vec![0], Some(1), false),
         },
     };
     if args.shard.is_some() && args.at.is_empty() && matches!(args.frames, Some(Frames::Count(_))) {

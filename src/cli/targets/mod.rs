@@ -114,8 +114,8 @@ impl Targets {
     }
 
     /// Makes the folder, so that a place nothing can be written to is known before hours of drawing, and looks for the
-    /// programs that are needed.
-    pub fn prepare(&self) -> anyhow::Result<()> {
+    /// programs that are needed for pictures of a size.
+    pub fn prepare(&self, size: (u32, u32)) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere | Output::Pipe => {}
             Output::File(file) => check_folder(file)?,
@@ -124,7 +124,7 @@ impl Targets {
             }
         }
         if self.place != Output::Nowhere {
-            film::check_tools(&self.encoding, &Tools::default())?;
+            film::check_tools(&self.encoding, size, &Tools::default())?;
         }
         Ok(())
     }

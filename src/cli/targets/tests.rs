@@ -37,9 +37,9 @@ fn one_frame_has_the_stem_and_several_have_numbers() {
 #[test]
 fn frames_follow_what_is_written() {
     let of = |line| targets(line).map(|t| (t.at, t.drawn, t.keeps));
-    assert_eq!(of("a --out o"), Ok((vec![0], None, false)));
+    assert_eq!(of("a --out o"), Ok((vec![0], Some(1), false)));
     assert_eq!(of("a --out o --frames 9"), Ok((vec![8], Some(9), false)));
-    assert_eq!(of("a --out o --at 8,2,2"), Ok((vec![2, 8], None, false)));
+    assert_eq!(of("a --out o --at 8,2,2"), Ok((vec![2, 8], Some(9), false)));
     assert_eq!(of("a --out o --at 8 --at 2-3"), Ok((vec![2, 3, 8], None, true)));
     assert_eq!(of("a --out o --at 2 --frames 9"), Ok((vec![2], Some(9), false)));
     assert_eq!(of("a --out o --frames 2-9:3"), Ok((vec![2, 5, 8], None, true)));

@@ -31,9 +31,15 @@ pub fn probed(film: &Path) -> serde_json::Value {
 
 /// Returns all pictures as RGB of 8 bits, the top row first, converted by the tags of the file.
 pub fn decoded(film: &Path) -> Vec<u8> {
+    decoded_by(film, "")
+}
+
+/// Does the same with options of the filter that converts, each with a colon after it.
+pub fn decoded_by(film: &Path, options: &str) -> Vec<u8> {
     let mut command = Command::new("ffmpeg");
     command.args(["-v", "error", "-i"]).arg(film).args(["-map", "0:v:0", "-fps_mode", "passthrough"]);
-    command.args(["-vf", "scale=flags=bilinear+accurate_rnd+full_chroma_int,format=rgb24", "-f", "rawvideo", "-"]);
+    let filter = format!("scale={options}flags=bilinear+accurate_rnd+full_chroma_int,format=rgb24");
+    command.args(["-vf", &filter, "-f", "rawvideo", "-"]);
     output(&mut command)
 }
 
