@@ -35,6 +35,8 @@ pub enum FilmError {
              shorter than two; use 50, 33.3, 25 or 20, or apng or webm"
     )]
     GifRate(f64),
+    #[error("a film of more than 6 hours cannot have sound: leave the sound out, or write it in parts")]
+    LongSound,
     #[error("cannot start a thread for encoding: {0}")]
     Thread(io::Error),
     #[error("the film was stopped")]

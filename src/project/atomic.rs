@@ -100,8 +100,10 @@ impl Staged {
         self.file.as_file_mut()
     }
 
-    /// The temporary file's name, for a program that writes it.
+    /// The temporary file's name, for a program that writes it. On Windows nobody else can write a locked file.
     pub fn path(&self) -> &Path {
+        #[cfg(windows)]
+        let _ = self.file.as_file().unlock();
         self.file.path()
     }
 

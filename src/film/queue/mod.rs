@@ -205,6 +205,10 @@ fn plain<W: Write + Send + 'static>(
 
 /// Writes a sound to a temporary file beside the film.
 fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
+    // What a WAV file holds.
+    if sound.len() >= (u32::MAX / 4 - 16) as usize {
+        return Err(FilmError::LongSound);
+    }
     let mut staged = Staged::new(film).map_err(FilmError::io(film))?;
     staged.file().write_all(&wav(sound)).map_err(FilmError::io(film))?;
     Ok(staged)
