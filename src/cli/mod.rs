@@ -12,6 +12,7 @@ mod divergence;
 mod failure;
 mod lab;
 mod library;
+mod looped;
 mod machine;
 mod measured;
 mod nonfinite;

@@ -2,6 +2,7 @@
 
 use super::{
     args::RenderArgs,
+    looped::Seam,
     machine::{Machine, Trouble, median, open_measured},
     measured::{self, Measured, Measures},
     progress::Progress,
@@ -132,21 +133,18 @@ impl Job<'_> {
         let frames = targets.drawn.unwrap_or_default().max(last);
         let jumps = targets.drawn.is_none() && !offline.has_state()?;
         if args.shutter.is_some() && offline.has_state()? {
-            let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
-            return Err(anyhow::anyhow!(
-                "--shutter draws frames between the frames, which would change a project with a state{}: leave it out",
-                if passes.is_empty() {
-                    String::new()
-                } else {
-                    format!(" ({} read the last frame)", project::listed(&passes))
-                }
-            )
-            .into());
+            return Err(blurred_state(&project));
         }
         let mut mean = Mean::default();
         if !jumps && args.shard.is_some() && wanted.first().is_some_and(|first| *first > 0) {
             self.note_state(report, wanted[0]);
         }
+        let mut seam = match args.looped {
+            Some(secs) if targets.writes() => {
+                Some(Seam::open(machine, report, args, (secs, targets.rate), &missing, inputs)?)
+            }
+            _ => None,
+        };
         let mut writer = Writer::Nothing;
         let (mut millis, mut written) = (Vec::new(), Vec::new());
         let progress = Progress::new(&report.title(), if jumps { wanted.len() as u32 } else { frames });
@@ -179,6 +177,10 @@ impl Job<'_> {
                 Some(_) => mean.take(),
             };
             let pixels = if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) };
+            let pixels = match &mut seam {
+                Some(seam) => seam.join(pixels, args)?,
+                None => pixels,
+            };
             if let Writer::Nothing = writer {
                 let opened = (&project, &media);
                 writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
@@ -194,6 +196,9 @@ impl Job<'_> {
         writer
             .finish()
             .or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
+        if let Some(seam) = seam {
+            seam.report(report);
+        }
         // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
         if millis.len() > 1 {
             millis.remove(0);
@@ -238,7 +243,8 @@ impl Job<'_> {
         let count = frames.len() as u32;
         let shape = Shape { width, height, rate: targets.rate, frames: count };
         let sound = if film.holds_sound() && !args.style.no_audio {
-            let time = FilmTime { first: frames[0], fps: args.run.fps, count, rate: targets.rate };
+            let fade_secs = args.looped.unwrap_or_default();
+            let time = FilmTime { first: frames[0], fps: args.run.fps, count, rate: targets.rate, fade_secs };
             soundtrack::make(machine, report, (project, media), &args.run, inputs.clone(), &time)?
         } else {
             None
@@ -291,6 +297,19 @@ impl Writer {
             Writer::Film(film) => film.finish(),
         }
     }
+}
+
+/// Says why frames of a project with a state have no motion blur.
+fn blurred_state(project: &Project) -> Trouble {
+    let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
+    let which = match passes.is_empty() {
+        true => String::new(),
+        false => format!(" ({} read the last frame)", project::listed(&passes)),
+    };
+    anyhow::anyhow!(
+        "--shutter draws frames between the frames, which would change a project with a state{which}: leave it out"
+    )
+    .into()
 }
 
 fn failed(error: FilmError) -> Trouble {

@@ -43,9 +43,10 @@ pub fn make(
         return Ok(None);
     }
     let samples = film.samples();
+    let fade = (film.fade_secs * f64::from(SAMPLE_RATE)).round() as u64;
     if has_pass {
         let track = Track::new(SOUND_FRAMES as usize, BLOCK_FRAMES as usize);
-        let end = samples.end.min(u64::from(SOUND_FRAMES));
+        let end = (samples.end + fade).min(u64::from(SOUND_FRAMES));
         if samples.start < end {
             let mut offline = open_sound_of(machine, report, (project, media), run, inputs)?;
             let block = |sample: u64| (sample / u64::from(BLOCK_FRAMES)) as u32;
@@ -55,7 +56,20 @@ pub fn make(
         }
         sources.push(Source::Track(Arc::new(track)));
     }
-    Ok(Some(Scene { sources }.mixed(samples.start, samples.end)))
+    Ok(Some(faded(Scene { sources }.mixed(samples.start, samples.end + fade), fade as usize)))
+}
+
+/// Mixes the last `fade` samples into the first ones.
+fn faded(mut all: Vec<[i16; 2]>, fade: usize) -> Vec<[i16; 2]> {
+    let length = all.len().saturating_sub(fade);
+    for n in 0..fade.min(length) {
+        let part = n as f64 / fade as f64;
+        let (own, next) = (all[n], all[length + n]);
+        let mix = |side: usize| f64::from(next[side]) * (1.0 - part) + f64::from(own[side]) * part;
+        all[n] = [0, 1].map(|side| mix(side).round() as i16);
+    }
+    all.truncate(length);
+    all
 }
 
 /// The time that a film shows.
@@ -67,6 +81,8 @@ pub struct FilmTime {
     /// Frames of the film, and how many of them are shown in a second.
     pub count: u32,
     pub rate: Rate,
+    /// Seconds after the end that are faded into the beginning.
+    pub fade_secs: f64,
 }
 
 impl FilmTime {
@@ -84,10 +100,19 @@ mod tests {
 
     #[test]
     fn a_film_has_the_samples_of_its_frames() {
-        let of = |first, fps, count, rate| FilmTime { first, fps, count, rate: Rate::of(rate).unwrap() }.samples();
+        let of = |first, fps, count, rate| {
+            FilmTime { first, fps, count, rate: Rate::of(rate).unwrap(), fade_secs: 0.0 }.samples()
+        };
         assert_eq!(of(0, 60.0, 600, 60.0), 0..441_000);
         assert_eq!(of(90, 60.0, 1, 60.0), 66_150..66_885);
         assert_eq!(of(60, 60.0, 30, 30.0), 44_100..88_200, "every second frame");
         assert_eq!(of(0, 7.0, 1, 7.0), 0..6_300);
+    }
+
+    #[test]
+    fn the_sound_after_the_end_fades_into_the_beginning() {
+        let all = vec![[0, 8], [0, 8], [50, 8], [100, -8], [100, -8]];
+        assert_eq!(faded(all.clone(), 2), [[100, -8], [50, 0], [50, 8]]);
+        assert_eq!(faded(all.clone(), 0), all);
     }
 }

@@ -42,8 +42,8 @@ impl YuvFormat {
         let mut red = vec![0.0f32; width * height];
         for (y, row) in pixels.texels.chunks_exact(width).rev().enumerate() {
             for (x, texel) in row.iter().enumerate() {
-                // `max` turns NaN into 0.
-                let [r, g, b] = [texel[0], texel[1], texel[2]].map(|v| v.max(0.0).min(1.0));
+                // NaN is 0.
+                let [r, g, b] = [texel[0], texel[1], texel[2]].map(|v| if v > 0.0 { v.min(1.0) } else { 0.0 });
                 let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
                 blue[y * width + x] = (b - luma) / 1.8556;
                 red[y * width + x] = (r - luma) / 1.5748;

@@ -327,3 +327,38 @@ fn supersampled_and_blurred_frames_are_the_means_of_what_they_say() {
     let refused = b.line("render s --size 2x2 --frames 2 --shutter 0.5 --out s.png").expect(2);
     assert!(refused.err.contains("Buffer A") && refused.err.contains("state"), "{}", refused.err);
 }
+
+#[test]
+fn a_loop_fades_its_beginning_with_what_would_follow_its_end() {
+    let Some(b) = Bench::with_gpu() else { return };
+    // Without a state, and with one.
+    b.image("t.glsl", "fragColor = vec4(float(iFrame) / 100.0, 0.2, 0.3, 1.0);");
+    b.image("s/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 0.01;");
+    b.image("s/image.glsl", "fragColor = vec4(texelFetch(iChannel0, ivec2(fragCoord), 0).x - 0.01, 0.2, 0.3, 1.0);");
+    for project in ["t.glsl", "s"] {
+        for (frames, numbers) in [("12", (0..12).collect::<Vec<i32>>()), ("10-33:2", (10..34).step_by(2).collect())] {
+            let rate = if frames == "12" { 4.0 } else { 8.0 };
+            let args = format!(
+                "render {project} --size 4x2 --fps {rate} --frames {frames} --loop 1 --format raw --depth 16 --out x.raw"
+            );
+            let run = b.line(&args).expect(0);
+            assert!(run.err.contains("no visible seam"), "{}", run.err);
+            let bytes = b.bytes("x.raw");
+            let reds: Vec<f64> = bytes
+                .chunks_exact(4 * 2 * 8)
+                .map(|frame| f64::from(u16::from_le_bytes([frame[0], frame[1]])) / 65_535.0)
+                .collect();
+            assert_eq!(reds.len(), 12);
+            let length = numbers[11] - numbers[0] + numbers[1] - numbers[0];
+            for (n, (red, number)) in reds.iter().zip(&numbers).enumerate() {
+                let part = (n as f64 / 4.0).min(1.0);
+                let wanted = (f64::from(number + length) * (1.0 - part) + f64::from(*number) * part) / 100.0;
+                assert!((red - wanted).abs() < 2e-5, "{project} {frames} {n}: {red}, not {wanted}");
+            }
+        }
+    }
+    let jump = b.line("render t.glsl --size 4x2 --frames 60 --loop 0 --out x.apng").expect(0);
+    assert!(jump.err.contains("jumps where it begins again"), "{}", jump.err);
+    let long = b.line("render t.glsl --size 4x2 --frames 60 --loop 2 --out x.apng").expect(2);
+    assert!(long.err.contains("1.00 s long"), "{}", long.err);
+}

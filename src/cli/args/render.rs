@@ -2,7 +2,7 @@
 
 use super::{
     run::RunArgs,
-    values::{self, PROJECT, Picture, chroma, codec, face, picture, quality, range, seconds, shard, shutter},
+    values::{self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter},
 };
 use crate::{
     cli::sweep::Sweep,
@@ -66,6 +66,11 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", default_value = "8", requires = "shutter")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=1024))]
     pub samples: u32,
+    /// A film without a seam: its first SECS seconds are faded with those that would follow its end. 0 only says how far the last
+    /// frame is from the first
+    #[arg(long = "loop", value_name = "SECS", value_parser = fade)]
+    #[arg(conflicts_with_all = ["replay", "shard", "shutter"])]
+    pub looped: Option<f64>,
     /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, which is five evenly spaced
     /// values (logarithmic: 0.001..1:4:log). Files are named STEM_viscosity=0.005.png. May be repeated, for all
     /// combinations

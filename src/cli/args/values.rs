@@ -52,6 +52,11 @@ pub fn chroma(text: &str) -> Result<Chroma, String> {
     Chroma::parse(text).ok_or_else(|| "write 420, 422 or 444".into())
 }
 
+pub fn fade(text: &str) -> Result<f64, String> {
+    let secs = text.parse().ok().filter(|secs: &f64| secs.is_finite() && *secs >= 0.0 && *secs < 1e6);
+    secs.ok_or_else(|| "write seconds from 0 on, as in 1.5".into())
+}
+
 pub fn shutter(text: &str) -> Result<f64, String> {
     let part = text.parse().ok().filter(|part: &f64| *part > 0.0 && *part <= 1.0);
     part.ok_or_else(|| "a shutter is a number above 0 and at most 1, as in 0.5".into())

@@ -81,6 +81,9 @@ impl Targets {
                 ));
             }
         }
+        if args.looped.is_some() && format.is_still() {
+            return Err(format!("--loop is for films, and {} files hold one picture", format.name()));
+        }
         let shard = args.shard.unwrap_or(Shard::WHOLE);
         let is_numbered = asked.is_range || asked.at.len() > 1;
         let files = args.project.len() * sweep.len() * if format.is_still() { asked.at.len() } else { 1 };

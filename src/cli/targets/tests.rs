@@ -90,6 +90,7 @@ fn no_file_is_written_over_another_of_the_same_call_and_nonsense_is_refused() {
         ("a --out x.gif --frames 9", "50, 33.3, 25 or 20"),
         ("a --out x.webm --frames 9 --codec prores", "use vp9 or av1"),
         ("a --out x.png --depth 10", "8 or 16"),
+        ("a --out o --frames 0-9 --loop 1", "--loop is for films"),
         ("a --out - --frames 9 --format mp4", "needs a file"),
         ("a --out - --frames 9 --json", "leave one of them out"),
         ("a b --out - --frames 9", "one project alone"),
