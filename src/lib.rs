@@ -17,6 +17,7 @@ pub use eddy_audio as audio;
 pub use eddy_debugger as debugger;
 pub use eddy_diag as diag;
 pub use eddy_engine as engine;
+pub use eddy_film as film;
 pub use eddy_glsl as glsl;
 pub use eddy_gpu as gpu;
 pub use eddy_graph as graph;

@@ -54,6 +54,22 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Mixes frames `from` to before `to` at full volume, as a player does at the speed of 1: sums that go beyond full scale
+    /// are cut off, and what is not made yet is silent.
+    pub fn mixed(&self, from: u64, to: u64) -> Vec<[i16; 2]> {
+        let frame = |n: u64| {
+            let mut sum = [0.0f32; 2];
+            for source in self.sources.iter().take(MOST_SOURCES) {
+                let frame = i64::try_from(n).ok().and_then(|n| source.frame(n)).unwrap_or_default();
+                sum = [sum[0] + frame[0], sum[1] + frame[1]];
+            }
+            sum.map(|sample| (sample * 32_768.0).round() as i16)
+        };
+        (from..to).map(frame).collect()
+    }
+}
+
 /// Time that runs at a constant speed: `secs` at the moment `at`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {

@@ -147,7 +147,7 @@ impl Machine {
 /// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
 /// says what is wrong.
 pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
-    let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
+    let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| format!("--shard {error}"))?;
     let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
 }
@@ -162,7 +162,8 @@ pub fn open(
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
     is_picture(wanted)?;
-    open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)
+    let (project, offline, _) = open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)?;
+    Ok((project, offline))
 }
 
 /// Does the same as [`open`] for the sound pass of a project.
@@ -174,13 +175,13 @@ pub fn open_sound(
     inputs: ScriptedInputs,
 ) -> Result<Offline, Trouble> {
     let opened = open_with(machine, report, spec, run, (&PassId::Sound, &|_| Vec::new(), None), inputs);
-    opened.map(|(_, offline)| offline)
+    opened.map(|(_, offline, _)| offline)
 }
 
 /// Says which passes of a project are read beside the wanted one.
 pub type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassId>;
 
-/// Does the same as [`open`] where further passes are read.
+/// Does the same as [`open`] where further passes are read. Returns what the channels read, too.
 pub fn open_measured(
     machine: &mut Machine,
     report: &mut Report,
@@ -188,7 +189,7 @@ pub fn open_measured(
     run: &RunArgs,
     (wanted, beside): (&PassId, FindPasses<'_>),
     inputs: ScriptedInputs,
-) -> Result<(Project, Offline), Trouble> {
+) -> Result<(Project, Offline, MediaSet), Trouble> {
     is_picture(wanted)?;
     open_with(machine, report, spec, run, (wanted, beside, None), inputs)
 }
@@ -206,7 +207,7 @@ pub fn open_probed(
     inputs: ScriptedInputs,
 ) -> Result<Offline, Trouble> {
     is_picture(pass)?;
-    open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline)| offline)
+    open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline, _)| offline)
 }
 
 fn open_with(
@@ -216,7 +217,7 @@ fn open_with(
     run: &RunArgs,
     (wanted, beside, probe): (&PassId, FindPasses<'_>, Option<FindProbe<'_>>),
     inputs: ScriptedInputs,
-) -> Result<(Project, Offline), Trouble> {
+) -> Result<(Project, Offline, MediaSet), Trouble> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
@@ -240,20 +241,46 @@ fn open_with(
     // Nobody looks at the picture of a pass of which a value is asked for.
     let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
     let wanted = [wanted].into_iter().chain(beside).collect();
+    let built = build(&mut offline, (&project, &media), report, run, (wanted, probe));
+    report.compile_ms = offline.build_millis();
+    built?;
+    Ok((project, offline, media))
+}
+
+/// Compiles a project, its diagnostics going into the report.
+fn build(
+    offline: &mut Offline,
+    (project, media): (&Project, &MediaSet),
+    report: &mut Report,
+    run: &RunArgs,
+    (wanted, probe): (Vec<PassId>, Option<(PassId, Probe)>),
+) -> Result<(), Trouble> {
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
     let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe, trial };
-    let built = offline.build(&project, &media, &options);
-    report.compile_ms = offline.build_millis();
-    let (diagnostics, sources) = match built {
+    let (diagnostics, sources) = match offline.build(project, media, &options) {
         Err(BuildError::Diagnostics { diagnostics, sources }) => {
-            report.diagnose(&diagnostics, &sources, Some(&project));
+            report.diagnose(&diagnostics, &sources, Some(project));
             return Err(Trouble::Diagnostics(Vec::new(), sources));
         }
         other => other?,
     };
-    report.diagnose(&diagnostics, &sources, Some(&project));
-    Ok((project, offline))
+    report.diagnose(&diagnostics, &sources, Some(project));
+    Ok(())
+}
+
+/// Sets up the sound pass of a project that is open, to be drawn beside its pictures.
+pub fn open_sound_of(
+    machine: &mut Machine,
+    report: &mut Report,
+    project: (&Project, &MediaSet),
+    run: &RunArgs,
+    inputs: ScriptedInputs,
+) -> Result<Offline, Trouble> {
+    let mut offline = Offline::new(&machine.gpu()?, run.size, inputs)?;
+    offline.set_frame_limit(run.frame_timeout);
+    build(&mut offline, project, report, run, (vec![PassId::Sound], None))?;
+    Ok(offline)
 }
 
 /// Turns the camera on that was asked for, if a channel reads one, and waits for its first picture. Returns what to say of

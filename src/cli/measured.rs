@@ -88,11 +88,6 @@ impl<'a> Measures<'a> {
         }
         Ok(())
     }
-
-    /// A line for each number.
-    pub fn words(&self) -> String {
-        self.taken.iter().map(|m| format!("\n  {} = {} in frame {}", m.quantity, m.value, m.frame)).collect()
-    }
 }
 
 fn components(project: &Project, quantity: &Quantity) -> usize {

@@ -12,16 +12,19 @@ mod divergence;
 mod failure;
 mod lab;
 mod library;
+mod looped;
 mod machine;
 mod measured;
 mod nonfinite;
 mod precision;
 mod printed;
 mod probe;
+mod progress;
 mod quiet;
 mod render;
 mod report;
 mod sound;
+mod soundtrack;
 mod source_excerpt;
 mod stability;
 mod sweep;
@@ -77,7 +80,7 @@ pub fn main() -> Next {
 fn run(command: &Command) -> u8 {
     let result = match command {
         Command::Render(args) => {
-            let inputs = match args.run.inputs() {
+            let inputs = match args.inputs() {
                 Ok(inputs) => inputs,
                 Err(usage) => return trouble(usage),
             };
@@ -93,7 +96,7 @@ fn run(command: &Command) -> u8 {
                 Ok(targets) => targets,
                 Err(usage) => return trouble(usage),
             };
-            if let Err(error) = targets.prepare() {
+            if let Err(error) = targets.prepare(args.run.canvas()) {
                 return trouble(error_chain(&error));
             }
             render::run(args, &targets, &inputs)

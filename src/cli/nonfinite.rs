@@ -84,7 +84,9 @@ fn start(
     spec: &str,
     inputs: &ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
-    open_measured(machine, report, spec, &args.run, (&PassId::Image, &nonfinite::drawn), inputs.clone())
+    let (project, offline, _) =
+        open_measured(machine, report, spec, &args.run, (&PassId::Image, &nonfinite::drawn), inputs.clone())?;
+    Ok((project, offline))
 }
 
 /// Draws everything again up to that frame and walks through the pass for that texel.

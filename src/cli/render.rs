@@ -1,13 +1,27 @@
-//! `eddy render`: frames of many projects, drawn one after the other on one device and written as pictures.
+//! `eddy render`: frames of many projects, drawn one after the other on one device and written as pictures or films.
 
 use super::{
     args::RenderArgs,
+    looped::Seam,
     machine::{Machine, Trouble, median, open_measured},
     measured::{self, Measured, Measures},
+    progress::Progress,
     report::{Printer, Report},
+    soundtrack::{self, FilmTime},
     targets::Targets,
 };
-use crate::{playback::script::ScriptedInputs, project::Project};
+use crate::{
+    diag::{Diagnostic, Severity, SourceMap},
+    engine::Pixels,
+    film::{Encoding, Film, FilmError, Mean, Output, Shape, Stills, shrunk},
+    media::MediaSet,
+    playback::{
+        offline::{Offline, OfflineError},
+        script::ScriptedInputs,
+    },
+    project::{self, PassId, Project},
+    video::Tools,
+};
 use serde::Serialize;
 use std::{io, path::PathBuf};
 
@@ -18,65 +32,286 @@ struct JsonLine<'a> {
     report: &'a Report,
     #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
     measured: &'a [Measured],
+    /// Pictures that were there and have been kept.
+    #[serde(skip_serializing_if = "is_zero")]
+    kept: u32,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it so")]
+fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
-    let mut printer = Printer::new(args.json);
+    let mut printer = if targets.is_pipe() { Printer::beside_pipe() } else { Printer::new(args.json) };
     let mut machine = Machine::default();
-    let runs = args.project.iter().enumerate();
-    for ((index, spec), swept) in runs.flat_map(|run| targets.sweep.iter().map(move |swept| (run, swept))) {
-        let mut report = Report::swept(spec, swept);
-        let drawn = machine.attempt(&mut report, |machine, report| draw(machine, report, args, targets, inputs, index));
-        let (words, measured) = drawn.map_or((String::new(), Vec::new()), |(written, measures)| {
-            let millis = report.frame_ms.unwrap_or_default();
-            let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
-            let frames = if report.frames == 1 { "1 frame".into() } else { format!("{} frames", report.frames) };
-            let words = format!("{}: {frames}, {millis:.2} ms each: {}", report.title(), paths.join(" "));
-            (words.trim_end_matches([':', ' ']).to_owned() + &measures.words(), measures.taken)
-        });
-        printer.print_as(&JsonLine { report: &report, measured: &measured }, &report, &words)?;
+    for (index, spec) in args.project.iter().enumerate() {
+        for (number, swept) in targets.sweep.iter().enumerate() {
+            let part = targets.part(index, number);
+            if part.is_empty() && !targets.at.is_empty() {
+                continue;
+            }
+            let mut report = Report::swept(spec, swept);
+            let job = Job { args, targets, index, part };
+            let drawn = machine.attempt(&mut report, |machine, report| job.draw(machine, report, inputs));
+            let Drawn { written, kept, measures, mentioned } = drawn.unwrap_or_default();
+            let words =
+                if mentioned { words(&report, &written, kept) + &measured_words(&measures) } else { String::new() };
+            printer.print_as(&JsonLine { report: &report, measured: &measures, kept }, &report, &words)?;
+        }
     }
     Ok(printer.exit_code())
 }
 
-/// Draws one project. Gives the files it wrote and the numbers it measured.
-fn draw<'a>(
-    machine: &mut Machine,
-    report: &mut Report,
+/// Returns the line of a project that was drawn.
+fn words(report: &Report, written: &[PathBuf], kept: u32) -> String {
+    let frames = |count: u32| if count == 1 { "1 frame".into() } else { format!("{count} frames") };
+    let mut words = format!("{}: {}", report.title(), frames(report.frames));
+    if report.frames > 0 {
+        words.push_str(&format!(", {:.2} ms each", report.frame_ms.unwrap_or_default()));
+    }
+    if kept > 0 {
+        let were = if kept == 1 { "picture was" } else { "pictures were" };
+        words.push_str(&format!(", {kept} {were} there already (--overwrite draws them again)"));
+    }
+    let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
+    if paths.is_empty() { words } else { format!("{words}: {}", paths.join(" ")) }
+}
+
+/// A line for each number.
+fn measured_words(taken: &[Measured]) -> String {
+    taken.iter().map(|m| format!("\n  {} = {} in frame {}", m.quantity, m.value, m.frame)).collect()
+}
+
+/// The outcome of a project.
+#[derive(Default)]
+struct Drawn {
+    /// The files that were written.
+    written: Vec<PathBuf>,
+    kept: u32,
+    measures: Vec<Measured>,
+    /// It gets a line.
+    mentioned: bool,
+}
+
+/// One project to draw.
+struct Job<'a> {
     args: &'a RenderArgs,
-    targets: &Targets,
-    inputs: &ScriptedInputs,
+    targets: &'a Targets,
     index: usize,
-) -> Result<(Vec<PathBuf>, Measures<'a>), Trouble> {
-    let wanted = &args.pass;
-    let beside = |project: &Project| {
-        let (declared, _) = measured::declared(project);
-        let asserted = args.assert.iter().map(|assertion| &assertion.quantity);
-        args.probe.iter().chain(asserted).chain(&declared).map(|quantity| quantity.pass.clone()).collect()
+    /// The frames that are this call's, rising.
+    part: &'a [u32],
+}
+
+impl Job<'_> {
+    fn draw(&self, machine: &mut Machine, report: &mut Report, inputs: &ScriptedInputs) -> Result<Drawn, Trouble> {
+        let Job { args, targets, .. } = self;
+        let is_there = |frame: &&u32| {
+            let path = targets.path(self.index, &report.sweep, **frame);
+            targets.keeps && path.is_some_and(|path| path.is_file())
+        };
+        let kept = self.part.iter().filter(is_there).count() as u32;
+        let missing: Vec<u32> = self.part.iter().filter(|frame| !is_there(frame)).copied().collect();
+        let measures_all = !args.probe.is_empty() || !args.assert.is_empty();
+        if missing.is_empty() && !measures_all {
+            return Ok(Drawn { kept, mentioned: true, ..Drawn::default() });
+        }
+        let wanted: Vec<u32> = if measures_all { self.part.to_vec() } else { missing.clone() };
+        let picture = &args.pass;
+        let beside = |project: &Project| {
+            let (declared, _) = measured::declared(project);
+            let asserted = args.assert.iter().map(|assertion| &assertion.quantity);
+            args.probe.iter().chain(asserted).chain(&declared).map(|quantity| quantity.pass.clone()).collect()
+        };
+        let spec = &args.project[self.index];
+        let (project, mut offline, media) =
+            open_measured(machine, report, spec, &args.drawn(), (&picture.pass, &beside), inputs.clone())?;
+        let (declared, unread) = measured::declared(&project);
+        report.diagnose(&unread, &project.sources(), Some(&project));
+        let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
+        let last = wanted.last().map_or(0, |last| last + 1);
+        let frames = targets.drawn.unwrap_or_default().max(last);
+        let jumps = targets.drawn.is_none() && !offline.has_state()?;
+        if args.shutter.is_some() && offline.has_state()? {
+            return Err(blurred_state(&project));
+        }
+        let mut mean = Mean::default();
+        if !jumps && args.shard.is_some() && wanted.first().is_some_and(|first| *first > 0) {
+            self.note_state(report, wanted[0]);
+        }
+        let mut seam = match args.looped {
+            Some(secs) if targets.writes() => {
+                Some(Seam::open(machine, report, args, (secs, targets.rate), &missing, inputs)?)
+            }
+            _ => None,
+        };
+        let mut writer = Writer::Nothing;
+        let (mut millis, mut written) = (Vec::new(), Vec::new());
+        let progress = Progress::new(&report.title(), if jumps { wanted.len() as u32 } else { frames });
+        for frame in 0..frames {
+            let is_wanted = wanted.binary_search(&frame).is_ok();
+            if jumps && !is_wanted {
+                offline.skip()?;
+                continue;
+            }
+            let layer = args.face.unwrap_or(picture.target);
+            let drawn = match args.shutter.filter(|_| is_wanted && targets.writes()) {
+                None => offline.draw()?,
+                Some(shutter) => offline.draw_parts(args.samples, shutter / args.run.fps, |offline| {
+                    mean.add(&offline.read(&picture.pass, layer)?);
+                    Ok::<_, OfflineError>(())
+                })?,
+            };
+            millis.push(drawn.millis);
+            report.frames += 1;
+            progress.step();
+            if !is_wanted {
+                continue;
+            }
+            measures.take(&project, &mut offline, frame, report)?;
+            if missing.binary_search(&frame).is_err() || !targets.writes() {
+                continue;
+            }
+            let pixels = match args.shutter {
+                None => offline.read(&picture.pass, layer)?,
+                Some(_) => mean.take(),
+            };
+            let pixels = if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) };
+            let pixels = match &mut seam {
+                Some(seam) => seam.join(pixels, args)?,
+                None => pixels,
+            };
+            if let Writer::Nothing = writer {
+                let opened = (&project, &media);
+                writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
+            }
+            match self.write(&mut writer, report, frame, pixels, &mut written) {
+                // Whoever reads standard output has seen enough.
+                Err(Trouble::Other(error)) if matches!(error.downcast_ref(), Some(FilmError::Closed)) => {
+                    return Ok(Drawn::default());
+                }
+                other => other?,
+            }
+        }
+        writer
+            .finish()
+            .or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
+        if let Some(seam) = seam {
+            seam.report(report);
+        }
+        // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
+        if millis.len() > 1 {
+            millis.remove(0);
+        }
+        report.frame_ms = median(millis);
+        Ok(Drawn { written, kept, measures: measures.taken, mentioned: true })
+    }
+
+    /// Says why frames before those of a shard are drawn.
+    fn note_state(&self, report: &mut Report, first: u32) {
+        let what = format!(
+            "the project has a state, so that its frames depend on those before: this shard draws frames 0 to {} first, and \
+             does not write them",
+            first - 1
+        );
+        report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
+    }
+
+    /// Begins to write, now that the first picture is there.
+    fn start(
+        &self,
+        machine: &mut Machine,
+        report: &mut Report,
+        (project, media): (&Project, &MediaSet),
+        (offline, pixels): (&Offline, &Pixels),
+        inputs: &ScriptedInputs,
+        frames: &[u32],
+    ) -> Result<Writer, Trouble> {
+        let Job { args, targets, .. } = self;
+        let (width, height) = (pixels.width, pixels.height);
+        let pipe = || -> Box<dyn io::Write + Send> { Box::new(io::stdout()) };
+        let film = match &targets.encoding {
+            Encoding::Film(film) => film,
+            Encoding::Still(still) => {
+                let layer = args.face.unwrap_or(args.pass.target);
+                let texels = offline.engine()?.format(&args.pass.pass, layer).unwrap_or_default();
+                let pipe = targets.is_pipe().then(pipe);
+                let stills = Stills::start(*still, texels, (width, height), pipe).map_err(failed)?;
+                return Ok(Writer::Stills(stills));
+            }
+        };
+        let count = frames.len() as u32;
+        let shape = Shape { width, height, rate: targets.rate, frames: count };
+        let sound = if film.holds_sound() && !args.style.no_audio {
+            let fade_secs = args.looped.unwrap_or_default();
+            let time = FilmTime { first: frames[0], fps: args.run.fps, count, rate: targets.rate, fade_secs };
+            soundtrack::make(machine, report, (project, media), &args.run, inputs.clone(), &time)?
+        } else {
+            None
+        };
+        let output = match targets.path(self.index, &report.sweep, frames[0]) {
+            Some(path) => {
+                targets.check(&path)?;
+                Output::File(path)
+            }
+            None => Output::Pipe(pipe()),
+        };
+        Ok(Writer::Film(Film::start(film, shape, sound.as_deref(), output, &Tools::default()).map_err(failed)?))
+    }
+
+    fn write(
+        &self,
+        writer: &mut Writer,
+        report: &Report,
+        frame: u32,
+        pixels: Pixels,
+        written: &mut Vec<PathBuf>,
+    ) -> Result<(), Trouble> {
+        let path = self.targets.path(self.index, &report.sweep, frame);
+        match (writer, &path) {
+            (Writer::Nothing, _) => return Ok(()),
+            (Writer::Film(film), _) => film.push(pixels).map_err(failed)?,
+            (Writer::Stills(stills), Some(path)) => {
+                self.targets.check(path)?;
+                stills.push(path.clone(), pixels).map_err(failed)?;
+            }
+            (Writer::Stills(stills), None) => stills.pipe(pixels).map_err(failed)?,
+        }
+        written.extend(path.filter(|path| written.last() != Some(path)));
+        Ok(())
+    }
+}
+
+/// The writer of a project's pictures.
+enum Writer {
+    Nothing,
+    Stills(Stills),
+    Film(Film),
+}
+
+impl Writer {
+    fn finish(self) -> Result<(), FilmError> {
+        match self {
+            Writer::Nothing => Ok(()),
+            Writer::Stills(stills) => stills.finish(),
+            Writer::Film(film) => film.finish(),
+        }
+    }
+}
+
+/// Says why frames of a project with a state have no motion blur.
+fn blurred_state(project: &Project) -> Trouble {
+    let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
+    let which = match passes.is_empty() {
+        true => String::new(),
+        false => format!(" ({} read the last frame)", project::listed(&passes)),
     };
-    let spec = &args.project[index];
-    let (project, mut offline) =
-        open_measured(machine, report, spec, &args.run, (&wanted.pass, &beside), inputs.clone())?;
-    let (declared, unread) = measured::declared(&project);
-    report.diagnose(&unread, &project.sources(), Some(&project));
-    let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
-    let (mut millis, mut written) = (Vec::new(), Vec::new());
-    for frame in 0..targets.frames {
-        millis.push(offline.draw()?.millis);
-        report.frames += 1;
-        if targets.at.binary_search(&frame).is_err() {
-            continue;
-        }
-        measures.take(&project, &mut offline, frame, report)?;
-        if let Some(path) = targets.path(index, &report.sweep, frame) {
-            targets.write(&path, &offline.read(&wanted.pass, args.face.unwrap_or(wanted.target))?)?;
-            written.push(path);
-        }
-    }
-    // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
-    if millis.len() > 1 {
-        millis.remove(0);
-    }
-    report.frame_ms = median(millis);
-    Ok((written, measures))
+    anyhow::anyhow!(
+        "--shutter draws frames between the frames, which would change a project with a state{which}: leave it out"
+    )
+    .into()
+}
+
+fn failed(error: FilmError) -> Trouble {
+    Trouble::Other(error.into())
 }

@@ -126,12 +126,19 @@ impl Report {
 #[derive(Debug)]
 pub struct Printer {
     json: bool,
+    /// Standard output is a file, so that words go to standard error.
+    is_piped: bool,
     worst: Status,
 }
 
 impl Printer {
     pub fn new(json: bool) -> Printer {
-        Printer { json, worst: Status::Ok }
+        Printer { json, is_piped: false, worst: Status::Ok }
+    }
+
+    /// Returns one whose words go to standard error.
+    pub fn beside_pipe() -> Printer {
+        Printer { json: false, is_piped: true, worst: Status::Ok }
     }
 
     /// One project is done. `words` is its line on standard output without `--json`; diagnostics go to standard error.
@@ -149,6 +156,9 @@ impl Printer {
         }
         if !report.carets.is_empty() {
             writeln!(io::stderr().lock(), "{}:\n{}", report.title(), report.carets)?;
+        }
+        if self.is_piped && !words.is_empty() {
+            return writeln!(io::stderr().lock(), "{words}");
         }
         if !words.is_empty() {
             writeln!(out, "{words}")?;

@@ -61,7 +61,12 @@ impl Sounds {
         let pictures = [
             ("--at", !args.at.is_empty()),
             ("--frames", args.frames.is_some()),
-            ("--format", args.format.is_some()),
+            ("--format", args.style.format.is_some()),
+            ("--shard", args.shard.is_some()),
+            ("--supersample", args.supersample.is_some()),
+            ("--shutter", args.shutter.is_some()),
+            ("--codec", args.style.codec.is_some()),
+            ("--quality", args.style.quality.is_some()),
             ("--face", args.face.is_some()),
             ("--sweep", !args.sweep.is_empty()),
             ("--probe", !args.probe.is_empty()),

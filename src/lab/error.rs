@@ -3,6 +3,7 @@
 use eddy_diag::render_all;
 use eddy_engine::{BuildError, EngineError};
 use eddy_gpu::GpuError;
+use eddy_playback::shard::ShardError;
 use eddy_project::ProjectError;
 use std::{io, path::PathBuf};
 
@@ -37,7 +38,7 @@ pub enum LabError {
     #[error("there is no study {name}{}; there are {known}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
     NoStudy { name: String, near: Option<String>, known: String },
     #[error("--shard {0}")]
-    Shard(String),
+    Shard(#[from] ShardError),
     #[error(
         "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not \
          repeat itself"

@@ -2,14 +2,15 @@
 //!
 //! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
 //! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
-//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]), states of runs on disk ([`checkpoint`]), and pictures
-//! that open again ([`scene`]). Needs no session; time is an
-//! argument.
+//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]) and those that open again ([`scene`]),
+//! states of runs on disk ([`checkpoint`]), and which frames of a run are a machine's ([`frames`], [`shard`]). Needs no
+//! session; time is an argument.
 
 pub mod capture;
 pub mod checkpoint;
 pub mod comparing;
 pub mod date;
+pub mod frames;
 pub mod mouse;
 pub mod npy;
 pub mod offline;
@@ -19,4 +20,5 @@ pub mod revision;
 pub mod run;
 pub mod scene;
 pub mod script;
+pub mod shard;
 pub mod trial;

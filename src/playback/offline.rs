@@ -123,6 +123,10 @@ impl Offline {
     /// Draws the next frame and waits until the device has finished it.
     pub fn draw(&mut self) -> Result<DrawnFrame, OfflineError> {
         let inputs = self.next_inputs()?;
+        self.draw_with(inputs)
+    }
+
+    fn draw_with(&mut self, inputs: FrameInputs) -> Result<DrawnFrame, OfflineError> {
         let number = inputs.frame;
         self.within(number, move |engine| {
             let began = Instant::now();
@@ -131,6 +135,40 @@ impl Offline {
             engine.gpu().wait()?;
             Ok(DrawnFrame { number, stats, cpu_millis, millis: millis_since(began) })
         })
+    }
+
+    /// Draws the next frame `parts` times, at times that begin with its own and are spread evenly over `secs`, and hands each
+    /// to `each`. Of a project with a state, each part counts as a frame.
+    pub fn draw_parts<E: From<OfflineError>>(
+        &mut self,
+        parts: u32,
+        secs: f64,
+        mut each: impl FnMut(&mut Offline) -> Result<(), E>,
+    ) -> Result<DrawnFrame, E> {
+        let inputs = self.next_inputs().map_err(OfflineError::from)?;
+        let number = inputs.frame;
+        let (mut stats, mut cpu_millis, mut millis) = (FrameStats::default(), 0.0, 0.0);
+        for part in 0..parts.max(1) {
+            let late = secs * f64::from(part) / f64::from(parts.max(1));
+            let mut inputs = inputs.clone();
+            inputs.time_secs += late;
+            inputs.date[3] += late as f32;
+            let drawn = self.draw_with(inputs)?;
+            (stats, cpu_millis, millis) = (drawn.stats, cpu_millis + drawn.cpu_millis, millis + drawn.millis);
+            each(self)?;
+        }
+        Ok(DrawnFrame { number, stats, cpu_millis, millis })
+    }
+
+    /// Passes over the next frame: its input happens, and nothing is drawn.
+    pub fn skip(&mut self) -> Result<(), EngineError> {
+        self.next_inputs().map(drop)
+    }
+
+    /// Returns whether a frame depends on the frames before it: through passes that read what they drew last, or that keep a
+    /// part of it.
+    pub fn has_state(&self) -> Result<bool, EngineError> {
+        Ok(self.engine()?.checkpoint_bytes() > 0)
     }
 
     /// Draws the next frame, and takes what a pass reads when it is drawn.

@@ -79,6 +79,41 @@ pub fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<(
     take_place(stage(&path, write)?, &path)
 }
 
+/// A file that is being written beside the place that it takes when it is complete. Dropped before that, it is gone and
+/// what was there stays.
+pub struct Staged {
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Staged {
+    /// Makes an empty file beside `path`, in a folder that is made if it is not there. An error does not name the file.
+    pub fn new(path: &Path) -> io::Result<Staged> {
+        let path = real_path(path.to_owned());
+        sweep(folder_of(&path));
+        Ok(Staged { file: begin(&path)?, path })
+    }
+
+    /// The file, to be written here.
+    pub fn file(&mut self) -> &mut fs::File {
+        // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
+        self.file.as_file_mut()
+    }
+
+    /// The temporary file's name, for a program that writes it. On Windows nobody else can write a locked file.
+    pub fn path(&self) -> &Path {
+        #[cfg(windows)]
+        let _ = self.file.as_file().unlock();
+        self.file.path()
+    }
+
+    /// Makes the content last, and takes the place.
+    pub fn commit(self) -> io::Result<()> {
+        let file = complete(self.file, &self.path)?;
+        take_place(file, &self.path)
+    }
+}
+
 /// Returns where a symbolic link leads, so that the link stays one.
 fn real_path(path: PathBuf) -> PathBuf {
     if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path }
@@ -89,6 +124,14 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn stage(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<NamedTempFile> {
+    let mut file = begin(path)?;
+    // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
+    write(file.as_file_mut())?;
+    complete(file, path)
+}
+
+/// An empty temporary file for a path.
+fn begin(path: &Path) -> io::Result<NamedTempFile> {
     let folder = folder_of(path);
     fs::create_dir_all(folder)?;
     let old = fs::metadata(path).ok();
@@ -96,10 +139,12 @@ fn stage(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io
     if old.as_ref().is_some_and(|m| m.permissions().readonly()) {
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
     }
-    let mut file = temporary(folder, old.is_none())?;
-    // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
-    write(file.as_file_mut())?;
-    if let Some(old) = old {
+    temporary(folder, old.is_none())
+}
+
+/// Makes the content last, with the permissions of the file whose place it takes.
+fn complete(file: NamedTempFile, path: &Path) -> io::Result<NamedTempFile> {
+    if let Ok(old) = fs::metadata(path) {
         file.as_file().set_permissions(old.permissions())?;
     }
     file.as_file().sync_all()?;

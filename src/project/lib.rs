@@ -43,7 +43,7 @@ mod source_ids;
 mod writes;
 
 pub use advice::{advice, missing_pass};
-pub use atomic::write_with;
+pub use atomic::{Staged, write_with};
 pub use confine::FileError;
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,

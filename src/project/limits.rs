@@ -74,6 +74,8 @@ pub const VIDEO_SECONDS: u32 = 21_600;
 pub const VIDEO_IMAGES: usize = 20_000;
 /// Seconds for which a decoder may give no frame before it is stopped.
 pub const VIDEO_DECODE_SECONDS: u64 = 10;
+/// Frames of a film that are drawn and wait to be encoded, besides two of them.
+pub const FILM_QUEUE_BYTES: u64 = 256 << 20;
 /// All pictures, sounds and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 

@@ -57,7 +57,7 @@ mod uniforms;
 pub mod view;
 
 pub use analysis::TabAnalysis;
-pub use audio::{ChannelSound, MicrophoneView, OutputView};
+pub use audio::{ChannelSound, MicrophoneView, OutputView, sounds};
 pub use audit::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use costs::{PassCosts, TimedPass};

@@ -207,7 +207,7 @@ impl Shared {
         command.arg("scale=flags=bilinear+full_chroma_int+accurate_rnd,format=rgba,showinfo=checksum=0");
         command.args(if old { ["-vsync", "passthrough"] } else { ["-fps_mode", "passthrough"] });
         command.args(["-f", "rawvideo", "-pix_fmt", "rgba", "pipe:1"]);
-        let Pipes { mut stdout, stderr } = process::spawn(&mut command, &self.stop)?;
+        let Pipes { mut stdout, stderr, .. } = process::spawn(&mut command, &self.stop)?;
         let messages = messages(stderr);
         let said = |last: String| VideoError::Camera(if last.is_empty() { "it has ended".into() } else { last });
         let (width, height) = loop {

@@ -5,7 +5,7 @@ use eddy_project::limits;
 /// A video that cannot be played. Its text is complete but for the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VideoError {
-    #[error("the program {program} is not installed, and Eddy needs it for videos and cameras")]
+    #[error("the program {program} is not installed, and Eddy needs it for videos, films and cameras")]
     NoProgram { program: String },
     #[error("cannot start {program}: {reason}")]
     Start { program: String, reason: String },
@@ -24,6 +24,8 @@ pub enum VideoError {
     TooLong { seconds: f64 },
     #[error("there are more than {} frames, the limit", limits::VIDEO_IMAGES)]
     TooMany,
+    #[error("{program} could not write the film:\n{said}")]
+    Encoder { program: String, said: String },
     #[error("the camera gives no pictures ({0})")]
     Camera(String),
 }
@@ -40,6 +42,7 @@ impl VideoError {
             VideoError::NoPicture => "use a file with a video in it; for sound write kind = \"music\"",
             VideoError::TooLarge { .. } => "scale it down: ffmpeg -i FILE -vf scale=1920:-2 video.webm",
             VideoError::TooLong { .. } | VideoError::TooMany => "cut it: ffmpeg -i FILE -t 60 video.webm",
+            VideoError::Encoder { .. } => "check the disk, and that this ffmpeg can encode: ffmpeg -encoders",
             VideoError::Camera(_) => "check that it is plugged in and that no other program uses it",
         }
     }

@@ -192,7 +192,7 @@ struct Run {
 }
 
 impl Run {
-    fn new(Pipes { stdout, stderr }: Pipes, program: String, probed: &Probed, patience: Duration) -> Self {
+    fn new(Pipes { stdout, stderr, .. }: Pipes, program: String, probed: &Probed, patience: Duration) -> Self {
         let Probed { info, start, tick, .. } = probed;
         let (frame_bytes, step) = (info.frame_bytes(), 1.0 / info.frame_rate);
         let messages = messages(stderr);

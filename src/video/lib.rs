@@ -2,10 +2,11 @@
 //!
 //! A [`Video`] says how large its frames are and how long it plays; [`FrameSource::frame_at`] gives the frame at a position.
 //! What cannot be decoded here is decoded by the programs ffmpeg and ffprobe, which get an opened file and never a name that
-//! a project says. Frames have 4 bytes a texel (RGBA, 8 bits each, alpha not premultiplied), top row first.
+//! a project says. [`Encoder`] is ffmpeg as a program that encodes. Frames have 4 bytes a texel (RGBA, 8 bits each, alpha not premultiplied), top row first.
 
 mod animation;
 mod camera;
+mod encoder;
 mod error;
 mod ffmpeg;
 mod numbered;
@@ -17,9 +18,10 @@ mod tests;
 
 pub use animation::{is_animated, is_animation};
 pub use camera::{Camera, CameraDevice, CameraFrame, CameraSource, PLACEHOLDER, cameras};
+pub use encoder::{Encoder, file_name};
 pub use error::VideoError;
 pub use numbered::{frame_rate_of, next_numbered};
-pub use process::Tools;
+pub use process::{Stop, Tools};
 pub use reader::Pool;
 
 use eddy_project::FileError;

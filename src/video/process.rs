@@ -4,7 +4,7 @@ use super::VideoError;
 use std::{
     io::{self, BufRead, BufReader, Read},
     path::PathBuf,
-    process::{Child, ChildStderr, ChildStdout, Command, Stdio},
+    process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio},
     sync::{Arc, Mutex, PoisonError},
     thread,
     time::{Duration, Instant},
@@ -28,7 +28,7 @@ impl Default for Tools {
 
 /// Stops the child process that it holds: when it is told to, and when it is dropped.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Stop(Arc<Held>);
+pub struct Stop(Arc<Held>);
 
 #[derive(Debug, Default)]
 struct Held(Mutex<Option<Child>>);
@@ -63,10 +63,23 @@ impl Stop {
             end(child);
         }
     }
+
+    /// Waits for the process to end, however long it takes. `None`: there was none.
+    pub fn wait(&self) -> Option<io::Result<ExitStatus>> {
+        loop {
+            let ended = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut()?.try_wait();
+            match ended {
+                Ok(None) => thread::sleep(Duration::from_millis(2)),
+                Ok(Some(status)) => return Some(Ok(status)),
+                Err(error) => return Some(Err(error)),
+            }
+        }
+    }
 }
 
-/// Output of a child process.
+/// Output of a child process, and its input where that is a pipe.
 pub(crate) struct Pipes {
+    pub stdin: Option<ChildStdin>,
     pub stdout: ChildStdout,
     pub stderr: ChildStderr,
 }
@@ -85,10 +98,11 @@ pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoEr
         io::ErrorKind::NotFound => VideoError::NoProgram { program: program.clone() },
         _ => VideoError::Start { program: program.clone(), reason: e.to_string() },
     })?;
+    let stdin = child.stdin.take();
     let pipes = (child.stdout.take(), child.stderr.take());
     stop.put(child);
     match pipes {
-        (Some(stdout), Some(stderr)) => Ok(Pipes { stdout, stderr }),
+        (Some(stdout), Some(stderr)) => Ok(Pipes { stdin, stdout, stderr }),
         _ => Err(VideoError::Start { program, reason: "its output cannot be read".into() }),
     }
 }
@@ -108,7 +122,7 @@ pub(crate) fn lines(stderr: ChildStderr, mut each: impl FnMut(&str)) {
 pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<(Vec<u8>, String), VideoError> {
     let program = command.get_program().to_string_lossy().into_owned();
     let stop = Stop::default();
-    let Pipes { stdout, stderr } = spawn(command, &stop)?;
+    let Pipes { stdout, stderr, .. } = spawn(command, &stop)?;
     let messages = thread::spawn(move || {
         let mut last = String::new();
         lines(stderr, |line| {

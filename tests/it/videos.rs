@@ -2,9 +2,9 @@
 //! that cannot be played. Files are made here; what needs ffmpeg is left out where it is not installed.
 
 use crate::support::{
+    ffmpeg::has_ffmpeg,
     gpu,
     program::{Bench, Npy, run},
-    skipped,
 };
 use image::{
     Delay, Frame, Rgba, RgbaImage,
@@ -15,15 +15,6 @@ use std::{
     process::{Command, Stdio},
     time::{Duration, Instant},
 };
-
-fn has_ffmpeg() -> bool {
-    let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let is_here = runs.is_ok_and(|status| status.success());
-    if !is_here {
-        skipped("ffmpeg is not installed");
-    }
-    is_here
-}
 
 /// A colour that says the number of a frame; the top half has it in blue, too.
 fn color(n: u32, is_top: bool) -> Rgba<u8> {

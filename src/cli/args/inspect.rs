@@ -2,7 +2,7 @@
 
 use super::{
     run::RunArgs,
-    values::{PROJECT, Picture, face, face_of, format, picture, pixel},
+    values::{PROJECT, Picture, face, face_of, picture, picture_format, pixel},
 };
 use crate::{
     cli::text_place::TextPlace,
@@ -43,7 +43,7 @@ pub struct ProbeArgs {
     pub out: Option<PathBuf>,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
     /// [default: what --out ends in, else npy]
-    #[arg(long, value_name = "png|npy", value_parser = format)]
+    #[arg(long, value_name = "png|npy", value_parser = picture_format)]
     pub format: Option<Format>,
     #[command(flatten)]
     pub run: RunArgs,

@@ -27,9 +27,9 @@ pub struct LabArgs {
     /// Number of timed runs per method, at least 7
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(7..=1 << 20))]
     pub repeats: u32,
-    /// Run part i of n of the work, counted from 0/n; auto: read it from the environment of Slurm, AWS Batch or
-    /// Kubernetes
-    #[arg(long, value_name = "I/N|auto", default_value = "0/1")]
+    /// Run part i of n of the work, counted from 0/n; auto: read it from the environment of Slurm or AWS Batch;
+    /// auto/n: of GNU parallel or Kubernetes, which do not say how many tasks there are
+    #[arg(long, value_name = "I/N|auto|auto/N", default_value = "0/1")]
     pub shard: String,
 }
 
@@ -110,8 +110,8 @@ pub struct StabilityArgs {
     /// Run only cases with this text in their name or kind, as in drag, strength=50 or odd sizes
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,
-    /// Run part i of n of the cases, counted from 0/n; auto: read it from the environment of Slurm, AWS Batch or
-    /// Kubernetes
-    #[arg(long, value_name = "I/N|auto", default_value = "0/1")]
+    /// Run part i of n of the cases, counted from 0/n; auto: read it from the environment of Slurm or AWS Batch;
+    /// auto/n: of GNU parallel or Kubernetes, which do not say how many tasks there are
+    #[arg(long, value_name = "I/N|auto|auto/N", default_value = "0/1")]
     pub shard: String,
 }

@@ -2,30 +2,26 @@
 
 mod inspect;
 mod lab;
+mod render;
 mod run;
 mod values;
 
 pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
 pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
+pub use render::RenderArgs;
 pub use run::RunArgs;
-pub use values::{Picture, format_of};
 
 use super::sweep::Sweep;
 use crate::{
     glsl::opt::PassSet,
-    playback::{
-        capture::Format,
-        reduction::{Assertion, Quantity},
-        script::ScriptedInputs,
-        trial::COMMAND,
-    },
+    playback::{script::ScriptedInputs, trial::COMMAND},
     video::CameraSource,
 };
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
 use std::{path::PathBuf, time::Duration};
 pub use values::face_of;
-use values::{PROJECT, face, format, picture, seconds, size, webcam};
+use values::{PROJECT, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -94,57 +90,6 @@ pub enum Command {
     /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see playback/trial.rs
     #[command(hide = true, name = COMMAND)]
     TryCompile,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = PROJECT)]
-pub struct RenderArgs {
-    #[arg(required = true)]
-    pub project: Vec<String>,
-    /// File to write, .png or .npy, or a folder for STEM.png of each project (with several --at frames STEM_0004.png,
-    /// with more digits if needed); with --pass sound .wav or .flac, or a folder for STEM.wav. Optional with --json,
-    /// --probe or --assert: frames are then drawn but not written
-    #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
-    pub out: Option<PathBuf>,
-    /// Number of frames to draw [default: 1, or as many as --at needs; with --replay all recorded frames]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
-    pub frames: Option<u32>,
-    /// The frames to write, counted from 0 [default: the last]
-    #[arg(long, value_name = "F[,F...]", value_delimiter = ',')]
-    #[arg(value_parser = clap::value_parser!(u32).range(..1 << 30))]
-    pub at: Vec<u32>,
-    /// The pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several.
-    /// sound writes the samples of the sound pass
-    #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
-    pub pass: Picture,
-    /// Seconds of sound to write, with --pass sound [default: all 180]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
-    pub secs: Option<Duration>,
-    /// The face of a cubemap to write, with --pass cube_a: +x, -x, +y, -y, +z or -z [default: +x]
-    #[arg(long, value_name = "FACE", value_parser = face, allow_hyphen_values = true)]
-    pub face: Option<usize>,
-    /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
-    /// [default: what --out ends in, else png]
-    #[arg(long, value_name = "png|npy", value_parser = format)]
-    pub format: Option<Format>,
-    #[command(flatten)]
-    pub run: RunArgs,
-    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, which is five evenly spaced
-    /// values (logarithmic: 0.001..1:4:log). Files are named STEM_viscosity=0.005.png. May be repeated, for all
-    /// combinations
-    #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
-    pub sweep: Vec<Sweep>,
-    /// Measure a pass in each frame of --at: sum, min, max, mean, rms or nonfinite of one component or all, as in
-    /// sum(buffer_a.x) or max(image). May be repeated; `//@probe sum(buffer_a.x)` comments in the project do the same
-    #[arg(long, value_name = "QUANTITY", value_parser = Quantity::parse)]
-    pub probe: Vec<Quantity>,
-    /// Fail if this claim does not hold in one of these frames: "sum(buffer_a.x) within 1e-4 of 1", "mean(buffer_b.y)
-    /// within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
-    #[arg(long, value_name = "CLAIM", value_parser = Assertion::parse)]
-    pub assert: Vec<Assertion>,
-    /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
-    #[arg(long)]
-    pub json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -227,8 +172,15 @@ pub struct ExportArgs {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::project::PassId;
+    use super::{
+        values::{Picture, picture},
+        *,
+    };
+    use crate::{
+        film::Format,
+        playback::frames::{FrameList, Frames},
+        project::PassId,
+    };
     use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Cli, String> {
@@ -266,11 +218,9 @@ mod tests {
         assert_eq!(r.run.frame_timeout, Some(Duration::from_millis(500)));
         assert!(parse("eddy fluid --paused").unwrap().window.paused);
         assert_eq!(r.project, ["a", "b"]);
-        assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(9), 30.0));
-        assert_eq!(
-            (r.at.as_slice(), r.pass.pass.key(), r.format),
-            (&[0, 4, 8][..], "buffer_b".into(), Some(Format::Npy))
-        );
+        assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(Frames::Count(9)), 30.0));
+        assert_eq!((r.pass.pass.key(), r.style.format), ("buffer_b".into(), Some(Format::Npy)));
+        assert_eq!(FrameList::joined(&r.at).unwrap().numbers(), [0, 4, 8]);
         assert_eq!(r.pass.target, 0);
         assert_eq!(picture("scene:2"), Ok(Picture { pass: PassId::Buffer("scene".into()), target: 2 }));
         assert!(picture("scene:x").is_err());
@@ -292,8 +242,15 @@ mod tests {
             ("eddy bench a --frame-timeout 0", "above 0"),
             ("eddy a --frame-timeout nan", "above 0"),
             ("eddy render a --out o --fps nan", "above 0"),
-            ("eddy render a --out o --format exr", "use png or npy"),
-            ("eddy render a --out o --format bmp", "png or npy"),
+            ("eddy render a --out o --format bmp", "png, exr, npy"),
+            ("eddy render a --out o --format wav", "--pass sound"),
+            ("eddy render a --out o --codec xvid", "h264, h265"),
+            ("eddy render a --out o --quality best", "lossless"),
+            ("eddy render a --out o --range tv", "limited or full"),
+            ("eddy render a --out o --chroma 411", "420"),
+            ("eddy render a --out o --frames 9-2", "write 2-9"),
+            ("eddy render a --out o --frames -1", "0-59"),
+            ("eddy render a --out o --shard 3/3", "the last is 2"),
             ("eddy render a --out o --date yesterday", "2024-02-29T13:45:00"),
             ("eddy render a --out o --date 2024-13-31T23:59:00", "2024-02-29T13:45:00"),
             ("eddy render a --out o --at 1,,2", "at"),

@@ -1,12 +1,13 @@
 //! Values of options, as a person writes them.
 
 use crate::{
-    playback::{capture::Format, recording::Recording},
+    film::{Chroma, Codec, ColorRange, Format, Quality},
+    playback::{capture, recording::Recording, shard::Shard},
     project::PassId,
     texture::Face,
     video::CameraSource,
 };
-use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
+use std::{env, fs::File, io::BufReader, sync::Arc, time::Duration};
 
 pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
@@ -18,23 +19,51 @@ pub fn pixel(text: &str) -> Result<(u32, u32), String> {
     parts.ok_or_else(|| format!("{text} is not a pixel: write column and row, as in 80,45"))
 }
 
-/// The form a file's extension asks for; `None` for an extension that is no picture's. Err: why it is not written.
-pub fn format_of(extension: &str) -> Option<Result<Format, String>> {
-    let extension = extension.to_ascii_lowercase();
-    Some(match extension.as_str() {
-        "png" => Ok(Format::Png),
-        "npy" => Ok(Format::Npy),
-        "exr" | "gif" | "apng" | "mp4" => Err(format!("cannot write {extension} files; use png or npy")),
-        _ => return None,
-    })
+pub fn format(text: &str) -> Result<Format, String> {
+    let names = || Format::ALL.map(Format::name).join(", ");
+    match text {
+        "wav" | "flac" => Err("a sound's format is what --out ends in, as in --pass sound --out x.flac".into()),
+        _ => Format::of_name(text).ok_or_else(|| format!("unknown format; use one of {}", names())),
+    }
 }
 
-pub fn format(text: &str) -> Result<Format, String> {
-    let unknown = match text {
-        "wav" | "flac" => "a sound's format is what --out ends in, as in --pass sound --out x.flac",
-        _ => "unknown format; use png or npy",
-    };
-    format_of(text).unwrap_or_else(|| Err(unknown.into()))
+/// The format of a picture that the other commands write.
+pub fn picture_format(text: &str) -> Result<capture::Format, String> {
+    match text {
+        "png" => Ok(capture::Format::Png),
+        "npy" => Ok(capture::Format::Npy),
+        _ => Err("use png or npy".into()),
+    }
+}
+
+pub fn codec(text: &str) -> Result<Codec, String> {
+    Codec::of_name(text).ok_or_else(|| format!("unknown codec; use one of {}", Codec::ALL.map(Codec::name).join(", ")))
+}
+
+pub fn quality(text: &str) -> Result<Quality, String> {
+    Quality::parse(text).ok_or_else(|| "write low, medium, high, lossless or a number from 0 on".into())
+}
+
+pub fn range(text: &str) -> Result<ColorRange, String> {
+    ColorRange::parse(text).ok_or_else(|| "write limited or full".into())
+}
+
+pub fn chroma(text: &str) -> Result<Chroma, String> {
+    Chroma::parse(text).ok_or_else(|| "write 420, 422 or 444".into())
+}
+
+pub fn fade(text: &str) -> Result<f64, String> {
+    let secs = text.parse().ok().filter(|secs: &f64| secs.is_finite() && *secs >= 0.0 && *secs < 1e6);
+    secs.ok_or_else(|| "write seconds from 0 on, as in 1.5".into())
+}
+
+pub fn shutter(text: &str) -> Result<f64, String> {
+    let part = text.parse().ok().filter(|part: &f64| *part > 0.0 && *part <= 1.0);
+    part.ok_or_else(|| "a shutter is a number above 0 and at most 1, as in 0.5".into())
+}
+
+pub fn shard(text: &str) -> Result<Shard, String> {
+    Shard::parse(text, |name| env::var(name).ok()).map_err(|error| error.to_string())
 }
 
 /// A pass, and which of its targets.

@@ -215,6 +215,20 @@ impl ScriptedInputs {
         self
     }
 
+    /// Takes the mouse's pixels for those of a picture that is so many times as wide and high.
+    #[must_use]
+    pub fn with_mouse_scale(mut self, factor: u32) -> Self {
+        let factor = factor as f32;
+        for event in &mut self.mouse_events {
+            event.action = match event.action {
+                MouseAction::Down(x, y) => MouseAction::Down(x * factor, y * factor),
+                MouseAction::Move(x, y) => MouseAction::Move(x * factor, y * factor),
+                MouseAction::Up => MouseAction::Up,
+            };
+        }
+        self
+    }
+
     #[must_use]
     pub fn with_keys(mut self, mut events: Vec<At<KeyAction>>) -> Self {
         events.sort_by_key(|e| e.frame);

@@ -32,6 +32,7 @@ const LAYERS: &[&str] = &[
     "engine",
     "background",
     "playback",
+    "film",
     "debugger",
     "session",
     "lab",
@@ -44,7 +45,13 @@ const LAYERS: &[&str] = &[
 const ROOT: &[(&str, &[&str])] = &[
     ("cli", &["gui"]),
     ("gui", &["cli"]),
-    ("main", &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "debugger", "session", "lab"]),
+    (
+        "main",
+        &[
+            "diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "film", "debugger", "session",
+            "lab",
+        ],
+    ),
 ];
 
 /// Rooms of the compiler, and what each may not name: a program goes from one to the next and never back.
@@ -79,6 +86,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "gpu",
             "engine",
             "background",
+            "film",
             "debugger",
             "lab",
             "cli",
@@ -86,11 +94,14 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
-    (&["env"], &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
+    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film"]),
+    (
+        &["env"],
+        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger", "lab"],
+    ),
     (
         &["fs", "File", "OpenOptions"],
-        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"],
+        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger"],
     ),
 ];
 

@@ -7,6 +7,7 @@ pub mod compute;
 pub mod display;
 pub mod env;
 pub mod explained;
+pub mod ffmpeg;
 pub mod first_frame;
 pub mod git;
 pub mod ir;

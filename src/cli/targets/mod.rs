@@ -1,0 +1,266 @@
+//! The files that pictures and films are written to. They are worked out for all frames of all projects before anything is
+//! drawn, so that no file of a call is written over another one of it.
+
+mod frames;
+#[cfg(test)]
+mod tests;
+
+use super::{
+    args::{RenderArgs, face_of},
+    sweep,
+};
+use crate::{
+    engine::Pixels,
+    film::{self, Encoding, Format, Rate},
+    playback::{capture, shard::Shard},
+    project,
+    video::Tools,
+};
+use anyhow::Context;
+use std::{
+    collections::HashMap,
+    fs,
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+/// Digits of a frame's number in a name, more where the last frame needs more.
+const LEAST_DIGITS: usize = 4;
+
+/// The files that one call writes.
+#[derive(Debug, PartialEq)]
+pub struct Targets {
+    pub format: Format,
+    pub encoding: Encoding,
+    /// Frames to write of each project, rising, each once. Of a film they are evenly spaced.
+    pub at: Vec<u32>,
+    /// Frames to draw even if they are not written: from 0 to before this one.
+    pub drawn: Option<u32>,
+    /// Frames per second of a film.
+    pub rate: Rate,
+    /// Files that are there are kept.
+    pub keeps: bool,
+    /// The part of all frames of all projects that this call writes.
+    pub shard: Shard,
+    /// Names have numbers of frames even where there is one.
+    is_numbered: bool,
+    /// The assignments of each drawing of a project.
+    pub sweep: Vec<Vec<String>>,
+    projects: usize,
+    place: Output,
+}
+
+#[derive(Debug, PartialEq, Eq)]
+enum Output {
+    Nowhere,
+    /// Standard output.
+    Pipe,
+    /// One picture or film.
+    File(PathBuf),
+    /// A folder, and the stem of each project in it.
+    Folder(PathBuf, Vec<String>),
+}
+
+impl Targets {
+    /// Err: what was asked for cannot be meant.
+    pub fn of(args: &RenderArgs) -> Result<Targets, String> {
+        face_of(&args.pass.pass, args.face)?;
+        let sweep = sweep::combinations(&args.sweep)?;
+        let (format, place) = place(args)?;
+        let encoding = args.style.of(format).resolve()?;
+        let asked = frames::of(args, !format.is_still())?;
+        let rate = args.run.fps / f64::from(asked.step);
+        let rate = Rate::of(rate).ok_or_else(|| film::FilmError::Rate(rate).to_string());
+        let rate = if format.is_still() { rate.unwrap_or(Rate { numerator: 60, denominator: 1 }) } else { rate? };
+        if let Encoding::Film(encoding) = &encoding {
+            encoding.check_rate(rate).map_err(|error| format!("--fps: {error}"))?;
+            if args.shard.is_some() {
+                return Err(format!(
+                    "--shard: a {} file is written as a whole; write pictures, as with --format png, and join them",
+                    format.name()
+                ));
+            }
+        }
+        if args.looped.is_some() && format.is_still() {
+            return Err(format!("--loop is for films, and {} files hold one picture", format.name()));
+        }
+        let shard = args.shard.unwrap_or(Shard::WHOLE);
+        let is_numbered = asked.is_range || asked.at.len() > 1;
+        let files = args.project.len() * sweep.len() * if format.is_still() { asked.at.len() } else { 1 };
+        match &place {
+            Output::File(out) if files != 1 || args.shard.is_some() => {
+                let (shown, what) = (out.display(), if format.is_still() { "pictures" } else { "films" });
+                return Err(format!("--out {shown} is one file, but {files} {what} would be written: give a folder"));
+            }
+            Output::Pipe if args.project.len() * sweep.len() != 1 => {
+                return Err("--out -: standard output takes one project alone".into());
+            }
+            Output::Pipe if args.json => {
+                return Err("--out -: --json writes to standard output, too; leave one of them out".into());
+            }
+            _ => {}
+        }
+        let keeps = (asked.is_range || args.shard.is_some()) && !args.overwrite && matches!(place, Output::Folder(..));
+        Ok(Targets {
+            format,
+            encoding,
+            at: asked.at,
+            drawn: asked.drawn,
+            rate,
+            keeps: keeps && format.is_still(),
+            shard,
+            is_numbered,
+            sweep,
+            projects: args.project.len(),
+            place,
+        })
+    }
+
+    /// Makes the folder, so that a place nothing can be written to is known before hours of drawing, and looks for the
+    /// programs that are needed for pictures of a size.
+    pub fn prepare(&self, size: (u32, u32)) -> anyhow::Result<()> {
+        match &self.place {
+            Output::Nowhere | Output::Pipe => {}
+            Output::File(file) => check_folder(file)?,
+            Output::Folder(folder, _) => {
+                fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))?;
+            }
+        }
+        if self.place != Output::Nowhere {
+            film::check_tools(&self.encoding, size, &Tools::default())?;
+        }
+        Ok(())
+    }
+
+    /// Returns the frames of a project, in the drawing of number `swept`, that this call writes.
+    pub fn part(&self, project: usize, swept: usize) -> &[u32] {
+        let (projects, frames) = (self.projects as u64, self.at.len() as u64);
+        let part = self.shard.part_of(projects * self.sweep.len() as u64 * frames);
+        let first = (project * self.sweep.len() + swept) as u64 * frames;
+        let within = |n: u64| n.clamp(first, first + frames).saturating_sub(first) as usize;
+        &self.at[within(part.start)..within(part.end)]
+    }
+
+    /// Returns whether anything is written.
+    pub fn writes(&self) -> bool {
+        self.place != Output::Nowhere
+    }
+
+    /// Returns whether pictures go to standard output.
+    pub fn is_pipe(&self) -> bool {
+        self.place == Output::Pipe
+    }
+
+    /// Returns how many digits a frame's number has in a name: as many as the last one needs, so that names in their
+    /// order are frames in theirs. They do not depend on the shard.
+    fn digits(&self) -> usize {
+        self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
+    }
+
+    /// Fails where a file of a folder is a link out of it: nothing is written through such a link.
+    pub fn check(&self, path: &Path) -> anyhow::Result<()> {
+        if let Output::Folder(folder, _) = &self.place { check_within(folder, path) } else { Ok(()) }
+    }
+
+    /// The file for a frame of a project, counted as on the command line, where `swept` is set. A film has all frames in
+    /// one.
+    pub fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
+        match &self.place {
+            Output::Nowhere | Output::Pipe => None,
+            Output::File(file) => Some(file.clone()),
+            Output::Folder(folder, stems) => {
+                let (mut stem, extension) = (stems[project].clone(), self.format.name());
+                swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
+                Some(folder.join(match self.is_numbered && self.format.is_still() {
+                    false => format!("{stem}.{extension}"),
+                    true => format!("{stem}_{frame:0digits$}.{extension}", digits = self.digits()),
+                }))
+            }
+        }
+    }
+}
+
+/// Returns where a call writes to, and in which format.
+fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
+    let asked = args.style.format;
+    let Some(out) = &args.out else { return Ok((asked.unwrap_or(Format::Png), Output::Nowhere)) };
+    if out == Path::new("-") {
+        let format = asked.unwrap_or(Format::Y4m);
+        if !format.is_for_pipes() {
+            return Err(format!("--out -: {} needs a file, as parts of it are written twice; use y4m", format.name()));
+        }
+        return Ok((format, Output::Pipe));
+    }
+    let named = out.extension().and_then(|ending| Format::of_name(&ending.to_string_lossy()));
+    match (named.filter(|_| !out.is_dir()), asked) {
+        (None, _) => {
+            let stems = stems(&args.project, || tells_case_apart(out))?;
+            Ok((asked.unwrap_or(Format::Png), Output::Folder(out.clone(), stems)))
+        }
+        // An animated PNG is often called one.
+        (Some(Format::Png), Some(Format::Apng)) => Ok((Format::Apng, Output::File(out.clone()))),
+        (Some(named), Some(asked)) if asked != named => {
+            Err(format!("--out {} and --format {} do not agree", out.display(), asked.name()))
+        }
+        (Some(named), _) => Ok((named, Output::File(out.clone()))),
+    }
+}
+
+/// Returns the name of each project's file without its ending.
+///
+/// `case_counts`: whether the file system tells `Fluid.png` from `fluid.png`; asked only where it matters.
+pub fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
+    let stems: Vec<String> = projects.iter().map(|p| project::stem(p)).collect();
+    let twice = |key: fn(&str) -> String| {
+        let mut first = HashMap::new();
+        let mut pairs = projects.iter().zip(&stems);
+        pairs.find_map(|(project, stem)| Some((first.insert(key(stem), project)?, project, stem)))
+    };
+    let clash = twice(str::to_owned).or_else(|| twice(|stem| stem.to_lowercase()).filter(|_| !case_counts()));
+    if let Some((other, project, stem)) = clash {
+        return Err(format!(
+            "{other} and {project} would both be written as {stem}: render them in two calls, to two folders"
+        ));
+    }
+    Ok(stems)
+}
+
+/// Returns whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried
+/// out, as one machine can have both kinds of file systems; where nothing can be written, no.
+pub fn tells_case_apart(folder: &Path) -> bool {
+    let there =
+        folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());
+    let file = there.and_then(|there| tempfile::Builder::new().prefix(".eddy-Case-").tempfile_in(there).ok());
+    file.is_some_and(|file| {
+        let name = file.path().file_name().map(|n| n.to_string_lossy().to_lowercase());
+        name.is_some_and(|name| !file.path().with_file_name(name).exists())
+    })
+}
+
+/// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
+pub fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::Result<()> {
+    let written = project::write_with(path, |file| {
+        let mut out = BufWriter::new(file);
+        capture::encode(&mut out, pixels, format)?;
+        out.flush()
+    });
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Fails for a file of a folder that is not there.
+pub fn check_folder(file: &Path) -> anyhow::Result<()> {
+    let folder = folder_of(file);
+    let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
+    fs::read_dir(folder).map(drop).with_context(what)
+}
+
+/// Fails for a file of a folder that is a link out of it.
+pub fn check_within(folder: &Path, path: &Path) -> anyhow::Result<()> {
+    let Some(name) = path.file_name() else { return Ok(()) };
+    let within = project::check_within(folder, &name.to_string_lossy());
+    within.map(drop).with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

@@ -1,0 +1,246 @@
+//! Films that ffmpeg encodes: which encoder, with which numbers and which tags.
+
+use super::{
+    FilmError,
+    queue::{Shape, Sink},
+    style::PixelFormat,
+    values::{Chroma, Codec, ColorRange, Format, Quality},
+};
+use eddy_engine::Pixels;
+use eddy_project::Staged;
+use eddy_video::{Encoder, Stop, Tools, file_name};
+use std::{ffi::OsString, path::Path};
+
+/// A description of a film that ffmpeg encodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coded {
+    pub(super) container: Format,
+    pub(super) codec: Codec,
+    pub(super) quality: Quality,
+    pub(super) pixels: PixelFormat,
+}
+
+impl Codec {
+    /// Returns the smallest and the largest number of a quality.
+    pub fn numbers(self) -> (u32, u32) {
+        match self {
+            Codec::H264 | Codec::H265 => (0, 51),
+            Codec::Vp9 | Codec::Av1 => (0, 63),
+            Codec::ProRes => (1, 32),
+            Codec::Ffv1 => (0, 0),
+        }
+    }
+
+    /// Returns the constant rate factor of the qualities low, medium and high; of ProRes the profiles LT, standard and HQ.
+    fn words(self) -> [u32; 3] {
+        match self {
+            Codec::H264 => [28, 20, 12],
+            Codec::H265 => [30, 22, 12],
+            Codec::Vp9 => [40, 28, 12],
+            Codec::Av1 => [45, 30, 10],
+            Codec::ProRes => [1, 2, 3],
+            Codec::Ffv1 => [0, 0, 0],
+        }
+    }
+}
+
+impl Coded {
+    fn is_lossless(self) -> bool {
+        self.quality == Quality::Lossless
+    }
+
+    /// Returns the encoders that can do it, the first choice first.
+    fn candidates(self, size: (u32, u32)) -> &'static [&'static str] {
+        let is_420 = matches!(self.pixels, PixelFormat::Yuv(format) if format.chroma == Chroma::C420);
+        match self.codec {
+            Codec::H264 if self.is_lossless() => &["libx264rgb"],
+            Codec::H264 => &["libx264"],
+            Codec::H265 => &["libx265"],
+            Codec::Vp9 => &["libvpx-vp9"],
+            // SVT-AV1 is several times as fast, and has 4:2:0 of at least 64x64 pixels alone.
+            Codec::Av1 if is_420 && size.0.min(size.1) >= 64 => &["libsvtav1", "libaom-av1"],
+            Codec::Av1 => &["libaom-av1"],
+            Codec::ProRes => &["prores_ks"],
+            Codec::Ffv1 => &["ffv1"],
+        }
+    }
+
+    /// Returns the encoder that is used of those that are there.
+    pub(super) fn encoder(self, there: &[String], size: (u32, u32)) -> Result<&'static str, FilmError> {
+        let candidates = self.candidates(size);
+        let found = candidates.iter().find(|name| there.iter().any(|there| there == *name));
+        let missing = || FilmError::NoEncoder { codec: self.codec.title(), encoders: candidates.join(" or ") };
+        found.copied().ok_or_else(missing)
+    }
+
+    /// Returns the number that the encoder gets.
+    fn number(self) -> u32 {
+        let [low, medium, high] = self.codec.words();
+        match self.quality {
+            Quality::Low => low,
+            Quality::Medium => medium,
+            Quality::High => high,
+            Quality::Lossless => 0,
+            Quality::Number(number) => number,
+        }
+    }
+
+    fn encoder_arguments(self, encoder: &str) -> Vec<String> {
+        let number = self.number().to_string();
+        let list = |arguments: &[&str]| arguments.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        let is_444 = matches!(self.pixels, PixelFormat::Yuv(format) if format.chroma == Chroma::C444);
+        let mut arguments = match encoder {
+            "libx264" => list(&["-preset", "medium", "-crf", &number]),
+            "libx264rgb" => list(&["-preset", "medium", "-qp", "0"]),
+            "libx265" if self.is_lossless() => list(&["-x265-params", "lossless=1:log-level=error"]),
+            "libx265" => list(&["-preset", "medium", "-crf", &number, "-x265-params", "log-level=error"]),
+            "libvpx-vp9" if self.is_lossless() => list(&["-lossless", "1", "-row-mt", "1", "-cpu-used", "2"]),
+            "libvpx-vp9" => {
+                list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-deadline", "good", "-cpu-used", "2"])
+            }
+            "libaom-av1" if self.is_lossless() => {
+                list(&["-aom-params", "lossless=1", "-row-mt", "1", "-cpu-used", "6"])
+            }
+            "libaom-av1" => list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-cpu-used", "6"]),
+            "libsvtav1" => list(&["-crf", &number, "-preset", "8"]),
+            "prores_ks" => {
+                // 4444 takes more bits than its lower namesakes; its XQ is for the quality high.
+                let profile = match (is_444, self.quality) {
+                    (false, Quality::Number(_)) => "3".to_owned(),
+                    (false, _) => number.clone(),
+                    (true, Quality::High) => "5".to_owned(),
+                    (true, _) => "4".to_owned(),
+                };
+                let mut arguments = list(&["-profile:v", &profile, "-vendor", "apl0"]);
+                if let Quality::Number(_) = self.quality {
+                    arguments.extend(list(&["-qscale:v", &number]));
+                }
+                arguments
+            }
+            _ => list(&["-level", "3", "-g", "1", "-slices", "4", "-slicecrc", "1"]),
+        };
+        // The planes of RGB that the encoders take; the samples are the same.
+        let pixels = match (self.pixels, encoder) {
+            (PixelFormat::Rgb(_), "libx264rgb") => "rgb24".to_owned(),
+            (PixelFormat::Rgb(8), "ffv1") => "bgr0".to_owned(),
+            (PixelFormat::Rgb(8), _) => "gbrp".to_owned(),
+            (PixelFormat::Rgb(_), _) => "gbrp16le".to_owned(),
+            (PixelFormat::Yuv(format), _) => format.name(),
+        };
+        arguments.extend(["-pix_fmt".to_owned(), pixels]);
+        arguments
+    }
+
+    /// Returns the tags of the colours: the matrix, the range, the primaries and the transfer function.
+    fn tags(self) -> (&'static str, &'static str, &'static str, &'static str) {
+        match self.pixels {
+            PixelFormat::Yuv(format) if format.range == ColorRange::Limited => ("bt709", "tv", "bt709", "bt709"),
+            PixelFormat::Yuv(_) => ("bt709", "pc", "bt709", "bt709"),
+            // The values are those of a screen: sRGB.
+            PixelFormat::Rgb(_) => ("gbr", "pc", "bt709", "iec61966-2-1"),
+        }
+    }
+
+    /// Returns what ffmpeg is told, but for the name of the output.
+    fn arguments(self, shape: Shape, encoder: &str, sound: Option<OsString>) -> Vec<OsString> {
+        let mut all: Vec<OsString> = Vec::new();
+        let mut add = |texts: &[&str]| all.extend(texts.iter().map(OsString::from));
+        let size = format!("{}x{}", shape.width, shape.height);
+        add(&["-protocol_whitelist", "file,pipe", "-f", "rawvideo", "-pixel_format", &self.pixels.name()]);
+        add(&["-video_size", &size, "-framerate", &shape.rate.text('/'), "-i", "pipe:0"]);
+        let has_sound = sound.is_some();
+        if let Some(name) = sound {
+            all.extend(["-protocol_whitelist", "file,pipe", "-f", "wav", "-i"].map(OsString::from));
+            all.push(name);
+        }
+        let mut add = |texts: &[&str]| all.extend(texts.iter().map(OsString::from));
+        add(&["-map", "0:v:0"]);
+        if has_sound {
+            add(&["-map", "1:a:0"]);
+            match self.container {
+                Format::Mp4 => add(&["-c:a", "aac", "-b:a", "256k"]),
+                Format::Webm => add(&["-c:a", "libopus", "-b:a", "192k"]),
+                Format::Mov => add(&["-c:a", "pcm_s16le"]),
+                _ => add(&["-c:a", "flac"]),
+            }
+        }
+        let (matrix, range, primaries, transfer) = self.tags();
+        // As properties of the frames and as options of the encoder: versions of ffmpeg differ in which they take.
+        let frames =
+            format!("setparams=range={range}:color_primaries={primaries}:color_trc={transfer}:colorspace={matrix}");
+        let option = if matrix == "gbr" { "rgb" } else { matrix };
+        add(&["-vf", &frames, "-c:v", encoder]);
+        let own = self.encoder_arguments(encoder);
+        add(&own.iter().map(String::as_str).collect::<Vec<_>>());
+        add(&["-color_range", range, "-color_primaries", primaries, "-color_trc", transfer, "-colorspace", option]);
+        match self.container {
+            Format::Mp4 | Format::Mov => {
+                if self.codec == Codec::H265 {
+                    // The name that QuickTime knows.
+                    add(&["-tag:v", "hvc1"]);
+                }
+                add(&["-movflags", "+faststart+write_colr"]);
+            }
+            _ => {}
+        }
+        // Nothing of the time or the version, so that equal films have equal bytes.
+        let muxer = if self.container == Format::Mkv { "matroska" } else { self.container.name() };
+        add(&["-map_metadata", "-1", "-fflags", "+bitexact", "-f", muxer]);
+        all
+    }
+
+    /// Fails for a size that the encoder does not take.
+    fn check_size(self, shape: Shape) -> Result<(), FilmError> {
+        let PixelFormat::Yuv(format) = self.pixels else { return Ok(()) };
+        let (across, down) = format.halves();
+        let is_odd = (across && shape.width % 2 == 1) || (down && shape.height % 2 == 1);
+        let what = || format!("{} with {} chroma", self.codec.title(), format.chroma.title());
+        if is_odd {
+            return Err(FilmError::OddSize { what: what(), width: shape.width, height: shape.height });
+        }
+        Ok(())
+    }
+}
+
+/// A film that is being encoded.
+pub struct CodedFilm {
+    /// Taken when the film is complete.
+    encoder: Option<Encoder>,
+    pixels: PixelFormat,
+    bytes: Vec<u8>,
+    /// Kept until ffmpeg has read it.
+    _sound: Option<Staged>,
+}
+
+impl CodedFilm {
+    /// Starts ffmpeg, which writes `to`. `sound` is a WAV file.
+    pub fn start(
+        coded: Coded,
+        shape: Shape,
+        sound: Option<Staged>,
+        to: &Path,
+        (tools, stop): (&Tools, &Stop),
+    ) -> Result<CodedFilm, FilmError> {
+        coded.check_size(shape)?;
+        let encoder = coded.encoder(&tools.encoders()?, (shape.width, shape.height))?;
+        let named = |path: &Path| file_name(path).map_err(FilmError::io(path));
+        let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
+        let mut arguments = coded.arguments(shape, encoder, wav);
+        arguments.push(named(to)?);
+        let encoder = Encoder::start(tools, &arguments, stop)?;
+        Ok(CodedFilm { encoder: Some(encoder), pixels: coded.pixels, bytes: Vec::new(), _sound: sound })
+    }
+}
+
+impl Sink for CodedFilm {
+    fn frame(&mut self, pixels: &Pixels) -> Result<(), FilmError> {
+        self.bytes.clear();
+        self.pixels.write(pixels, &mut self.bytes);
+        let Some(encoder) = &mut self.encoder else { return Ok(()) };
+        Ok(encoder.write(&self.bytes)?)
+    }
+
+    fn finish(&mut self) -> Result<(), FilmError> {
+        self.encoder.take().map_or(Ok(()), |encoder| Ok(encoder.finish()?))
+    }
+}

@@ -1,0 +1,56 @@
+//! A picture or a film could not be written.
+
+use eddy_video::VideoError;
+use std::{io, path::PathBuf};
+
+/// Nothing that was there has been touched.
+#[derive(Debug, thiserror::Error)]
+pub enum FilmError {
+    #[error("{error}; {}", error.hint())]
+    Ffmpeg {
+        #[from]
+        error: VideoError,
+    },
+    #[error(
+        "this ffmpeg cannot encode {codec}: it has no {encoders}; install a full build of ffmpeg, or choose another codec"
+    )]
+    NoEncoder { codec: &'static str, encoders: String },
+    #[error("cannot write {}: {source}", path.display())]
+    Io { path: PathBuf, source: io::Error },
+    #[error("cannot write to standard output: {0}")]
+    Pipe(io::Error),
+    /// Whoever reads the pipe has seen enough.
+    #[error("the pipe was closed")]
+    Closed,
+    #[error("a frame of {}x{} pixels cannot be added to a film of {}x{}: all frames have one size", of.0, of.1, film.0, film.1)]
+    Size { of: (u32, u32), film: (u32, u32) },
+    #[error("{what} has an even width and height, not {width}x{height}: change the resolution, or use 4:4:4 chroma")]
+    OddSize { what: String, width: u32, height: u32 },
+    #[error("{got} frames were drawn of the {wanted} of the film")]
+    Frames { got: u32, wanted: u32 },
+    #[error("a film cannot have {0} frames per second: use a rate from 1/65535 to 65535")]
+    Rate(f64),
+    #[error(
+        "a GIF cannot have {0} frames per second: its frames last hundredths of a second, and browsers show none that is \
+             shorter than two; use 50, 33.3, 25 or 20, or apng or webm"
+    )]
+    GifRate(f64),
+    #[error("a film of more than 6 hours cannot have sound: leave the sound out, or write it in parts")]
+    LongSound,
+    #[error("cannot start a thread for encoding: {0}")]
+    Thread(io::Error),
+    #[error("the film was stopped")]
+    Stopped,
+}
+
+impl FilmError {
+    pub(super) fn io(path: &std::path::Path) -> impl FnOnce(io::Error) -> FilmError {
+        let path = path.to_owned();
+        move |source| FilmError::Io { path, source }
+    }
+
+    /// An error of writing to a pipe.
+    pub(super) fn pipe(error: io::Error) -> FilmError {
+        if error.kind() == io::ErrorKind::BrokenPipe { FilmError::Closed } else { FilmError::Pipe(error) }
+    }
+}

@@ -1,0 +1,308 @@
+//! Encoding on a thread of its own, behind a queue that holds a bounded number of frames.
+
+use super::{
+    FilmError, apng::Apng, coded::CodedFilm, gif::Gif, pipe::Plain, rate::Rate, still::Still, style::FilmEncoding,
+};
+use eddy_audio::wav;
+use eddy_engine::Pixels;
+use eddy_project::{Staged, limits, write_with};
+use eddy_texture::TexelFormat;
+use eddy_video::{Stop, Tools};
+use std::{
+    io::{BufWriter, Cursor, Write},
+    panic::resume_unwind,
+    path::{Path, PathBuf},
+    sync::mpsc::{Receiver, SyncSender, sync_channel},
+    thread::{Builder, JoinHandle},
+};
+
+/// The most frames that wait, however small they are.
+const MOST: u64 = 16;
+
+/// The facts of a film that are known before its first frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    pub width: u32,
+    pub height: u32,
+    pub rate: Rate,
+    pub frames: u32,
+}
+
+/// The place that a film is written to.
+pub enum Output {
+    File(PathBuf),
+    /// Standard output, or anything else that takes bytes.
+    Pipe(Box<dyn Write + Send>),
+}
+
+/// A writer of one film, on the thread that encodes.
+pub(super) trait Sink: Send {
+    fn frame(&mut self, pixels: &Pixels) -> Result<(), FilmError>;
+
+    /// Completes the file that [`Output::File`] is staged as.
+    fn finish(&mut self) -> Result<(), FilmError>;
+}
+
+enum Job<T> {
+    Next(T),
+    Finish,
+}
+
+/// A thread that does jobs in their order.
+struct Queue<T> {
+    jobs: Option<SyncSender<Job<T>>>,
+    thread: Option<JoinHandle<Result<(), FilmError>>>,
+}
+
+impl<T: Send + 'static> Queue<T> {
+    /// `work` takes jobs until there are no more. It ends with [`FilmError::Stopped`] where no [`Job::Finish`] came.
+    fn start(
+        capacity: usize,
+        work: impl FnOnce(Receiver<Job<T>>) -> Result<(), FilmError> + Send + 'static,
+    ) -> Result<Queue<T>, FilmError> {
+        let (jobs, receiver) = sync_channel(capacity);
+        let thread = Builder::new().name("encoding".into()).spawn(move || work(receiver)).map_err(FilmError::Thread)?;
+        Ok(Queue { jobs: Some(jobs), thread: Some(thread) })
+    }
+
+    /// Waits while the queue is full.
+    fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
+        match &self.jobs {
+            Some(jobs) if jobs.send(job).is_ok() => Ok(()),
+            // It has ended, and says why.
+            _ => self.end().and(Err(FilmError::Stopped)),
+        }
+    }
+
+    fn end(&mut self) -> Result<(), FilmError> {
+        self.jobs = None;
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(result)) => result,
+            Some(Err(panic)) => resume_unwind(panic),
+            None => Err(FilmError::Stopped),
+        }
+    }
+
+    fn finish(&mut self) -> Result<(), FilmError> {
+        self.push(Job::Finish)?;
+        self.end()
+    }
+}
+
+impl<T> Drop for Queue<T> {
+    fn drop(&mut self) {
+        self.jobs = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Frames of this many pixels that may wait.
+fn capacity(width: u32, height: u32) -> usize {
+    let bytes = u64::from(width) * u64::from(height) * 16;
+    (limits::FILM_QUEUE_BYTES / bytes.max(1)).clamp(1, MOST) as usize
+}
+
+/// A film that is being written. Dropped before [`Film::finish`], it is given up and nothing is left of it.
+pub struct Film {
+    queue: Queue<Pixels>,
+    shape: Shape,
+    pushed: u32,
+    stop: Stop,
+}
+
+impl Film {
+    /// Begins a film. `sound` is of its length, at [`eddy_audio::SAMPLE_RATE`]; left out where the encoding holds none.
+    pub fn start(
+        encoding: &FilmEncoding,
+        shape: Shape,
+        sound: Option<&[[i16; 2]]>,
+        output: Output,
+        tools: &Tools,
+    ) -> Result<Film, FilmError> {
+        let stop = Stop::default();
+        let (sink, staged) = sink(encoding, shape, sound, output, (tools, &stop))?;
+        let work = move |jobs: Receiver<Job<Pixels>>| encode(&jobs, sink, staged, shape);
+        let queue = Queue::start(capacity(shape.width, shape.height), work)?;
+        Ok(Film { queue, shape, pushed: 0, stop })
+    }
+
+    /// Adds the next frame, and waits while too many are waiting to be encoded.
+    pub fn push(&mut self, frame: Pixels) -> Result<(), FilmError> {
+        let (of, film) = ((frame.width, frame.height), (self.shape.width, self.shape.height));
+        if of != film {
+            return Err(FilmError::Size { of, film });
+        }
+        self.queue.push(Job::Next(frame))?;
+        self.pushed += 1;
+        Ok(())
+    }
+
+    /// Waits until the file is complete and has taken its place.
+    pub fn finish(mut self) -> Result<(), FilmError> {
+        if self.pushed != self.shape.frames {
+            return Err(FilmError::Frames { got: self.pushed, wanted: self.shape.frames });
+        }
+        self.queue.finish()
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        // Otherwise its thread might wait for the encoder.
+        self.stop.stop();
+    }
+}
+
+/// A file that is staged, with its place.
+type StagedFile = Option<(Staged, PathBuf)>;
+
+fn sink(
+    encoding: &FilmEncoding,
+    shape: Shape,
+    sound: Option<&[[i16; 2]]>,
+    output: Output,
+    with: (&Tools, &Stop),
+) -> Result<(Box<dyn Sink>, StagedFile), FilmError> {
+    let path = match output {
+        Output::Pipe(pipe) => return Ok((plain(encoding, shape, pipe, FilmError::pipe)?, None)),
+        Output::File(path) => path,
+    };
+    let mut staged = Staged::new(&path).map_err(FilmError::io(&path))?;
+    let sink: Box<dyn Sink> = match encoding {
+        FilmEncoding::Coded(coded) => {
+            let sound = sound.map(|sound| stage_sound(&path, sound)).transpose()?;
+            Box::new(CodedFilm::start(*coded, shape, sound, staged.path(), with)?)
+        }
+        FilmEncoding::Gif => Box::new(Gif::start(shape, staged.path(), with)?),
+        _ => {
+            let file = staged.file().try_clone().map_err(FilmError::io(&path))?;
+            plain(encoding, shape, BufWriter::new(file), FilmError::Pipe)?
+        }
+    };
+    Ok((sink, Some((staged, path))))
+}
+
+/// Returns a writer of a film that needs no program.
+fn plain<W: Write + Send + 'static>(
+    encoding: &FilmEncoding,
+    shape: Shape,
+    out: W,
+    failed: fn(std::io::Error) -> FilmError,
+) -> Result<Box<dyn Sink>, FilmError> {
+    Ok(match encoding {
+        FilmEncoding::Apng(depth) => Box::new(Apng::new(out, shape, *depth, failed)?),
+        FilmEncoding::Raw(depth) => Box::new(Plain::new(out, shape, Err(*depth), failed)?),
+        FilmEncoding::Y4m(format) => Box::new(Plain::new(out, shape, Ok(*format), failed)?),
+        FilmEncoding::Gif | FilmEncoding::Coded(_) => {
+            return Err(FilmError::Pipe(std::io::Error::other(
+                "this format needs a file, as parts of it are written twice",
+            )));
+        }
+    })
+}
+
+/// Writes a sound to a temporary file beside the film.
+fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
+    // What a WAV file holds.
+    if sound.len() >= (u32::MAX / 4 - 16) as usize {
+        return Err(FilmError::LongSound);
+    }
+    let mut staged = Staged::new(film).map_err(FilmError::io(film))?;
+    staged.file().write_all(&wav(sound)).map_err(FilmError::io(film))?;
+    Ok(staged)
+}
+
+fn encode(
+    jobs: &Receiver<Job<Pixels>>,
+    mut sink: Box<dyn Sink>,
+    staged: StagedFile,
+    shape: Shape,
+) -> Result<(), FilmError> {
+    let path = staged.as_ref().map(|(_, path)| path.clone());
+    // Errors of files name them.
+    let named = |error: FilmError| match (error, &path) {
+        (FilmError::Pipe(source), Some(path)) => FilmError::Io { path: path.clone(), source },
+        (error, _) => error,
+    };
+    for _ in 0..shape.frames {
+        match jobs.recv() {
+            Ok(Job::Next(pixels)) => sink.frame(&pixels).map_err(named)?,
+            Ok(Job::Finish) | Err(_) => return Err(FilmError::Stopped),
+        }
+    }
+    match jobs.recv() {
+        Ok(Job::Finish) => {}
+        Ok(Job::Next(_)) | Err(_) => return Err(FilmError::Stopped),
+    }
+    sink.finish().map_err(named)?;
+    drop(sink);
+    match staged {
+        Some((staged, path)) => staged.commit().map_err(FilmError::io(&path)),
+        None => Ok(()),
+    }
+}
+
+/// Pictures that are written one by one, each to a place of its own.
+pub struct Stills {
+    queue: Queue<(Place, Pixels)>,
+}
+
+enum Place {
+    File(PathBuf),
+    Pipe,
+}
+
+impl Stills {
+    /// Begins with pictures of `texels`, the first of which is about as large as given here. `pipe` takes those that are not
+    /// written to files.
+    pub fn start(
+        still: Still,
+        texels: TexelFormat,
+        (width, height): (u32, u32),
+        pipe: Option<Box<dyn Write + Send>>,
+    ) -> Result<Stills, FilmError> {
+        let mut pipe = pipe.unwrap_or_else(|| Box::new(std::io::sink()));
+        let work = move |jobs: Receiver<Job<(Place, Pixels)>>| {
+            loop {
+                match jobs.recv() {
+                    Ok(Job::Next((Place::File(path), pixels))) => {
+                        let written = write_with(&path, |file| {
+                            let mut out = BufWriter::new(file);
+                            still.write(&mut out, &pixels, texels)?;
+                            out.flush()
+                        });
+                        written.map_err(FilmError::io(&path))?;
+                    }
+                    Ok(Job::Next((Place::Pipe, pixels))) => {
+                        let mut bytes = Cursor::new(Vec::new());
+                        let written = still.write(&mut bytes, &pixels, texels);
+                        written.and_then(|()| pipe.write_all(&bytes.into_inner())).map_err(FilmError::pipe)?;
+                    }
+                    Ok(Job::Finish) => return pipe.flush().map_err(FilmError::pipe),
+                    Err(_) => return Err(FilmError::Stopped),
+                }
+            }
+        };
+        Ok(Stills { queue: Queue::start(capacity(width, height), work)? })
+    }
+
+    /// Writes a picture whole or not at all: what was there stays until then. An error may be that of an earlier picture.
+    pub fn push(&mut self, path: PathBuf, pixels: Pixels) -> Result<(), FilmError> {
+        self.queue.push(Job::Next((Place::File(path), pixels)))
+    }
+
+    /// Writes a picture to the pipe.
+    pub fn pipe(&mut self, pixels: Pixels) -> Result<(), FilmError> {
+        self.queue.push(Job::Next((Place::Pipe, pixels)))
+    }
+
+    /// Waits until all pictures are written.
+    pub fn finish(mut self) -> Result<(), FilmError> {
+        self.queue.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests;

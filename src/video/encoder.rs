@@ -1,0 +1,149 @@
+//! ffmpeg as a program that encodes: raw frames go in by its standard input, and it writes a file.
+
+use super::{
+    VideoError,
+    process::{self, Pipes, Stop, Tools},
+};
+use std::{
+    collections::VecDeque,
+    ffi::{OsStr, OsString},
+    io::{self, Write},
+    path::{self, Path},
+    process::{ChildStdin, Command, Stdio},
+    thread::{self, JoinHandle},
+};
+
+/// Lines of messages that are kept: the last ones.
+const MESSAGES: usize = 12;
+
+/// ffmpeg at work. Dropped before [`Encoder::finish`], it is ended.
+pub struct Encoder {
+    program: String,
+    stdin: Option<ChildStdin>,
+    messages: Option<JoinHandle<Vec<String>>>,
+    stop: Stop,
+}
+
+/// Returns the name by which ffmpeg opens a file, whatever characters the file's own name has: its absolute path after the
+/// name of the protocol.
+pub fn file_name(path: &Path) -> io::Result<OsString> {
+    let mut name = OsString::from("file:");
+    name.push(path::absolute(path)?);
+    Ok(name)
+}
+
+impl Encoder {
+    /// Starts ffmpeg with these arguments. No shell reads them. Its standard input is a pipe, of which protocols other than
+    /// that and files are refused; it asks nothing and writes messages about errors alone.
+    pub fn start<S: AsRef<OsStr>>(
+        tools: &Tools,
+        arguments: impl IntoIterator<Item = S>,
+        stop: &Stop,
+    ) -> Result<Encoder, VideoError> {
+        let mut command = Command::new(&tools.ffmpeg);
+        command.args(["-hide_banner", "-nostdin", "-nostats", "-loglevel", "error", "-y"]);
+        command.args(arguments).stdin(Stdio::piped());
+        let program = tools.ffmpeg.display().to_string();
+        let Pipes { stdin, stderr, .. } = process::spawn(&mut command, stop)?;
+        let messages = thread::spawn(move || {
+            let mut last = VecDeque::new();
+            process::lines(stderr, |line| {
+                if !line.trim().is_empty() {
+                    last.push_back(process::reason(line));
+                    if last.len() > MESSAGES {
+                        last.pop_front();
+                    }
+                }
+            });
+            last.into()
+        });
+        Ok(Encoder { program, stdin, messages: Some(messages), stop: stop.clone() })
+    }
+
+    /// Hands it bytes, and waits while it takes no more. An error says what ffmpeg said.
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), VideoError> {
+        let written = match &mut self.stdin {
+            Some(stdin) => stdin.write_all(bytes),
+            None => Err(io::ErrorKind::BrokenPipe.into()),
+        };
+        written.map_err(|error| match error.kind() {
+            // It has ended by itself.
+            io::ErrorKind::BrokenPipe => self.failure(),
+            _ => VideoError::Encoder { program: self.program.clone(), said: error.to_string() },
+        })
+    }
+
+    /// Says that there are no more bytes, and waits until the file is complete.
+    pub fn finish(mut self) -> Result<(), VideoError> {
+        self.stdin = None;
+        match self.stop.wait() {
+            Some(Ok(status)) if status.success() => Ok(()),
+            _ => Err(self.failure()),
+        }
+    }
+
+    /// Says why it has ended.
+    fn failure(&mut self) -> VideoError {
+        self.stdin = None;
+        let status = self.stop.wait();
+        let lines = self.messages.take().and_then(|messages| messages.join().ok()).unwrap_or_default();
+        let said = match (lines.is_empty(), status) {
+            (false, _) => lines.join("\n"),
+            (true, Some(Ok(status))) => format!("it ended with {status}"),
+            (true, _) => "it said nothing".into(),
+        };
+        VideoError::Encoder { program: self.program.clone(), said }
+    }
+}
+
+impl Drop for Encoder {
+    fn drop(&mut self) {
+        self.stdin = None;
+        self.stop.stop();
+    }
+}
+
+impl Tools {
+    /// Returns the names of the encoders that this ffmpeg has.
+    pub fn encoders(&self) -> Result<Vec<String>, VideoError> {
+        let mut command = Command::new(&self.ffmpeg);
+        command.args(["-hide_banner", "-encoders"]).stdin(Stdio::null());
+        let (said, _) = process::output(&mut command, 1 << 20, self)?;
+        Ok(encoders_of(&String::from_utf8_lossy(&said)))
+    }
+}
+
+/// Reads the list of `ffmpeg -encoders`: after a line of dashes, six letters of abilities, a name and its title.
+fn encoders_of(said: &str) -> Vec<String> {
+    let lines = said.lines().skip_while(|line| line.trim() != "------").skip(1);
+    lines.filter_map(|line| line.split_whitespace().nth(1)).map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_only_files() {
+        for name in ["-i.mp4", "http:..", "pipe:1", "concat:a|b"] {
+            let name = file_name(Path::new(name)).unwrap().into_string().unwrap();
+            let rest = name.strip_prefix("file:").unwrap();
+            assert!(Path::new(rest).is_absolute(), "{name}");
+        }
+    }
+
+    #[test]
+    fn encoders_are_read_from_the_list() {
+        let said =
+            "Encoders:\n V..... = Video\n ------\n V....D libx264              libx264 H.264\n A....D aac  AAC\n\n";
+        assert_eq!(encoders_of(said), ["libx264", "aac"]);
+        assert!(encoders_of("ffmpeg: no such option").is_empty());
+    }
+
+    #[test]
+    fn a_program_that_is_not_there_is_told_with_the_fix() {
+        let tools = Tools { ffmpeg: "no-such-program-of-that-name".into(), ..Tools::default() };
+        let error = Encoder::start(&tools, [""; 0], &Stop::default()).err().unwrap();
+        assert!(matches!(error, VideoError::NoProgram { .. }) && error.hint().contains("install"), "{error}");
+    }
+}

@@ -1,0 +1,364 @@
+//! Films on the built program: what ffmpeg decodes of them, their colours, tags, sound and files. What needs ffmpeg is left
+//! out where it is not installed.
+
+use crate::support::{
+    ffmpeg::{decoded, decoded_by, decoded_sound, has_ffmpeg, probed},
+    program::{Bench, run},
+};
+use std::fs;
+
+/// Twelve patches of 32x24 pixels, of colours that fill the cube of all.
+const CARD: &str = "vec2 cell = floor(fragCoord / vec2(32.0, 24.0)); float n = cell.x + 4.0 * cell.y; vec3 c = n < 8.0 ? \
+                    vec3(mod(n, 2.0), mod(floor(n / 2.0), 2.0), floor(n / 4.0)) : n < 9.0 ? vec3(0.5) : n < 10.0 ? vec3(0.9, \
+                    0.4, 0.2) : n < 11.0 ? vec3(0.15, 0.35, 0.6) : vec3(0.03, 0.02, 0.05); fragColor = vec4(c, 1.0);";
+/// The size of the card.
+const CARD_SIZE: (usize, usize) = (128, 72);
+/// The size of the film of flashes.
+const SIZE: (usize, usize) = (64, 36);
+
+/// Returns the most that a component of a decoded card is off in the middle of a patch, and anywhere.
+fn farthest(b: &Bench, film: &str, frames: usize) -> (u8, u8) {
+    farthest_by(b, film, frames, "")
+}
+
+fn farthest_by(b: &Bench, film: &str, frames: usize, matrix: &str) -> (u8, u8) {
+    let reference = b.png("card.png").into_raw();
+    let reference: Vec<u8> = reference.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let bytes = decoded_by(&b.path(film), matrix);
+    let frame = CARD_SIZE.0 * CARD_SIZE.1 * 3;
+    assert_eq!(bytes.len(), frame * frames, "{film}");
+    let (mut middle, mut anywhere) = (0, 0);
+    for (at, (got, wanted)) in bytes.iter().zip(reference.iter().cycle()).enumerate() {
+        let (x, y) = (at % frame / 3 % CARD_SIZE.0 % 32, at % frame / 3 / CARD_SIZE.0 % 24);
+        let off = got.abs_diff(*wanted);
+        anywhere = off.max(anywhere);
+        if (8..24).contains(&x) && (8..16).contains(&y) {
+            middle = off.max(middle);
+        }
+    }
+    (middle, anywhere)
+}
+
+fn card(b: &Bench) {
+    b.image("card.glsl", CARD);
+    b.line("render card.glsl --size 128x72 --out card.png").expect(0);
+}
+
+#[test]
+fn colours_of_a_card_are_those_of_the_picture_in_every_codec() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    card(&b);
+    // Of 4:4:4 everywhere; of less, where a patch is flat for the codec's filters, too.
+    let films = [
+        ("h264.mp4", "", 2, 255),
+        ("h264_full.mp4", "--range full", 2, 255),
+        ("h264_444.mp4", "--chroma 444", 2, 12),
+        ("h264_10.mkv", "--codec h264 --chroma 444 --depth 10", 2, 12),
+        ("h265.mp4", "--codec h265", 2, 255),
+        ("h265_444.mov", "--codec h265 --chroma 444 --depth 10", 2, 12),
+        ("vp9.webm", "", 2, 255),
+        ("vp9_444.webm", "--chroma 444 --range full", 2, 2),
+        ("av1.webm", "--codec av1", 2, 255),
+        ("av1_444.mp4", "--codec av1 --chroma 444", 2, 2),
+        ("prores.mov", "", 2, 255),
+        ("prores_444.mov", "--chroma 444", 2, 2),
+    ];
+    for (film, more, middle, anywhere) in films {
+        let quality = if more.contains("--quality") { "" } else { "--quality high" };
+        b.line(&format!("render card.glsl --size 128x72 --frames 3 --out {film} {more} {quality}")).expect(0);
+        let off = farthest(&b, film, 3);
+        assert!(off.0 <= middle && off.1 <= anywhere, "{film}: {off:?}");
+    }
+    for (film, more) in [
+        ("lossless.mkv", ""),
+        ("lossless.mov", "--codec ffv1"),
+        ("lossless_h264.mp4", "--quality lossless"),
+        ("lossless_h265.mkv", "--codec h265 --quality lossless"),
+        ("lossless_vp9.webm", "--quality lossless"),
+        ("lossless_av1.webm", "--codec av1 --quality lossless"),
+        ("card.apng", ""),
+        // Twelve colours fit a palette.
+        ("card.gif", "--fps 20"),
+    ] {
+        b.line(&format!("render card.glsl --size 128x72 --frames 3 --out {film} {more}")).expect(0);
+        assert_eq!(farthest(&b, film, 3), (0, 0), "{film}");
+    }
+    b.line("render card.glsl --size 128x72 --frames 3 --out deep.mkv --depth 16").expect(0);
+    assert_eq!(probed(&b.path("deep.mkv"))["streams"][0]["pix_fmt"], "gbrp16le");
+    assert!(farthest(&b, "deep.mkv", 3).1 <= 1, "of 65,535 steps 255 are made");
+    let names = b.names(".");
+    assert!(!names.iter().any(|name| name.starts_with(".eddy")), "temporary files are gone: {names:?}");
+}
+
+#[test]
+fn a_film_says_its_colours_and_its_rate() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    b.image("card.glsl", CARD);
+    b.line("render card.glsl --size 64x36 --frames 2 --out small.mp4 --codec av1").expect(0);
+    for (film, more, codec, pixels, range, rate) in [
+        ("a.mp4", "", "h264", "yuv420p", "tv", "60/1"),
+        ("b.mp4", "--codec h265 --depth 10 --fps 29.97", "hevc", "yuv420p10le", "tv", "2997/100"),
+        ("c.webm", "--range full --fps 25", "vp9", "yuv420p", "pc", "25/1"),
+        ("d.mp4", "--codec av1", "av1", "yuv420p", "tv", "60/1"),
+        ("e.mov", "--fps 24", "prores", "yuv422p10le", "tv", "24/1"),
+        ("f.mp4", "--range full", "h264", "yuvj420p", "pc", "60/1"),
+    ] {
+        b.line(&format!("render card.glsl --size 128x72 --frames 4 --out {film} {more}")).expect(0);
+        let stream = &probed(&b.path(film))["streams"][0];
+        assert_eq!((&stream["codec_name"], &stream["pix_fmt"]), (&codec.into(), &pixels.into()), "{film}");
+        for tag in ["color_space", "color_transfer", "color_primaries"] {
+            assert_eq!(stream[tag], "bt709", "{film}: {tag}");
+        }
+        assert_eq!((&stream["color_range"], &stream["avg_frame_rate"]), (&range.into(), &rate.into()), "{film}");
+    }
+    // Every third frame, at a third of the rate.
+    b.line("render card.glsl --size 128x72 --frames 0-29:3 --out g.mp4").expect(0);
+    let stream = &probed(&b.path("g.mp4"))["streams"][0];
+    assert_eq!((&stream["avg_frame_rate"], &stream["nb_frames"]), (&"20/1".into(), &"10".into()));
+}
+
+/// A disc that is white, and a click of 1 ms, in the first tenth of each second.
+fn flashing(b: &Bench) {
+    b.image("flash/image.glsl", "fragColor = vec4(vec3(fract(iTime + 0.001) < 0.1 ? 1.0 : 0.0), 1.0);");
+    b.write("flash/sound.glsl", "vec2 mainSound(int samp, float time) { return vec2(samp % 44100 < 44 ? 0.9 : 0.0); }");
+}
+
+/// Returns the frames whose brightness rises, of a film of 64x36 pixels.
+fn flashes(film: &[u8]) -> Vec<usize> {
+    let levels: Vec<u8> = film.chunks_exact(SIZE.0 * SIZE.1 * 3).map(|frame| frame[frame.len() / 2]).collect();
+    (0..levels.len()).filter(|&n| levels[n] > 128 && (n == 0 || levels[n - 1] <= 128)).collect()
+}
+
+/// Returns the samples at which it becomes loud after a tenth of a second of silence.
+fn clicks(sound: &[i16]) -> Vec<usize> {
+    let mut last: Option<usize> = None;
+    let mut found = Vec::new();
+    for (n, sample) in sound.iter().enumerate() {
+        if sample.unsigned_abs() > 6_000 {
+            if last.is_none_or(|last| n - last > 4_410) {
+                found.push(n);
+            }
+            last = Some(n);
+        }
+    }
+    found
+}
+
+#[test]
+fn picture_and_sound_are_in_step_to_the_end() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    flashing(&b);
+    for film in ["a.mp4", "a.webm", "a.mov"] {
+        b.line(&format!("render flash --size 64x36 --frames 600 --out {film}")).expect(0);
+        let facts = probed(&b.path(film));
+        let streams = facts["streams"].as_array().unwrap();
+        let of = |kind: &str| streams.iter().find(|s| s["codec_type"] == kind).unwrap();
+        let (video, audio) = (of("video"), of("audio"));
+        let number = |value: &serde_json::Value| value.as_str().and_then(|text| text.parse::<f64>().ok());
+        for stream in [video, audio] {
+            let start = number(&stream["start_time"]).unwrap();
+            assert!(start.abs() < 1.0 / 60.0, "{film}: {start}");
+        }
+        let seconds = number(&facts["format"]["duration"]).unwrap();
+        assert!((seconds - 10.0).abs() < 1.0 / 60.0 + 0.01, "{film}: {seconds} s");
+        let bytes = decoded(&b.path(film));
+        assert_eq!(bytes.len(), SIZE.0 * SIZE.1 * 3 * 600, "{film}");
+        let flashes = flashes(&bytes);
+        assert_eq!(flashes, (0..10).map(|second| second * 60).collect::<Vec<_>>(), "{film}");
+        let sound = decoded_sound(&b.path(film));
+        let off = sound.len().abs_diff(441_000);
+        assert!(off <= 44_100 / 60, "{film}: {} samples", sound.len());
+        let clicks = clicks(&sound);
+        assert_eq!(clicks.len(), 10, "{film}: {clicks:?}");
+        for (second, click) in clicks.iter().enumerate() {
+            let apart = (*click as f64 / 44_100.0 - second as f64).abs();
+            assert!(apart < 1.0 / 60.0, "{film}: click {second} is {apart} s from its flash");
+        }
+    }
+}
+
+#[test]
+fn a_range_has_the_sound_of_its_time_and_sound_can_be_left_out() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    flashing(&b);
+    b.line("render flash --size 64x36 --frames 90-149 --out a.mov").expect(0);
+    let sound = decoded_sound(&b.path("a.mov"));
+    assert_eq!(sound.len(), 44_100);
+    assert_eq!(clicks(&sound), [22_050], "second 2 is half a second after frame 90");
+    assert_eq!(flashes(&decoded(&b.path("a.mov"))), [30]);
+    b.line("render flash --size 64x36 --frames 60 --out b.mov --no-audio").expect(0);
+    assert_eq!(probed(&b.path("b.mov"))["streams"].as_array().unwrap().len(), 1);
+    // Music of a channel is heard, too.
+    b.write("music/eddy.toml", "[passes.image]\nchannels.0 = { file = \"a.wav\", kind = \"music\" }\n");
+    b.image("music/image.glsl", "fragColor = texture(iChannel0, vec2(0.1, 0.2));");
+    b.line("render flash --pass sound --secs 1.5 --out music/a.wav").expect(0);
+    b.line("render music --size 64x36 --frames 180 --out c.mov").expect(0);
+    assert_eq!(clicks(&decoded_sound(&b.path("c.mov"))), [0, 44_100, 66_150, 110_250], "in a loop of 1.5 s");
+}
+
+#[test]
+fn frames_go_through_a_pipe() {
+    let Some(b) = Bench::with_gpu() else { return };
+    card(&b);
+    let piped = |args: &str| {
+        let output = b.command().args(args.split(' ')).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{args}: {}", String::from_utf8_lossy(&output.stderr));
+        (output.stdout, String::from_utf8(output.stderr).unwrap())
+    };
+    let (bytes, words) = piped("render card.glsl --size 128x72 --frames 3 --out - --format raw");
+    assert_eq!(bytes, b.png("card.png").into_raw().repeat(3));
+    assert!(words.contains("3 frames"), "{words}");
+    let (bytes, _) = piped("render card.glsl --size 128x72 --frames 3 --out - --chroma 444");
+    assert!(bytes.starts_with(b"YUV4MPEG2 W128 H72 F60:1 Ip A1:1 C444 "));
+    b.write("a.y4m", &bytes);
+    let (bytes, _) = piped("render card.glsl --size 128x72 --at 0-1 --out - --format png");
+    assert_eq!(bytes, b.bytes("card.png").repeat(2));
+    if has_ffmpeg() {
+        // The format has no place for the matrix, so it is told here.
+        assert!(farthest_by(&b, "a.y4m", 3, "in_color_matrix=bt709:").1 <= 2);
+    }
+    // A reader that has seen enough is no trouble.
+    #[cfg(target_os = "linux")]
+    {
+        let eddy = env!("CARGO_BIN_EXE_eddy");
+        let line = format!("{eddy} render card.glsl --size 640x360 --frames 200 --out - --format raw | head -c 100");
+        let script = format!("{{ {line}; }} >short; echo ${{PIPESTATUS[0]}}");
+        let mut command = std::process::Command::new("bash");
+        let run = run(command.args(["-c", &script]).current_dir(b.path(".")));
+        assert_eq!((run.out.trim(), run.err.as_str()), ("0", ""));
+        assert_eq!(b.bytes("short").len(), 100);
+    }
+}
+
+#[test]
+fn what_ffmpeg_cannot_do_is_told_before_anything_is_drawn_and_leaves_nothing() {
+    let Some(b) = Bench::with_gpu() else { return };
+    card(&b);
+    let mut command = b.command();
+    command.args("render card.glsl --size 128x72 --frames 3 --out a.mp4".split(' ')).env("PATH", b.path("nothing"));
+    let missing = run(&mut command).expect(2);
+    assert!(missing.err.contains("install") && missing.err.contains("ffmpeg"), "{}", missing.err);
+    b.line("render card.glsl --size 128x72 --frames 3 --out a.apng").expect(0);
+    if !has_ffmpeg() {
+        return;
+    }
+    let odd = b.line("render card.glsl --size 63x36 --frames 3 --out a.mp4").expect(2);
+    assert!(odd.err.contains("even width") && odd.err.contains("63x36"), "{}", odd.err);
+    b.line("render card.glsl --size 63x35 --frames 3 --out odd.mp4 --chroma 444").expect(0);
+    // Wrong code leaves the film that was there.
+    b.write("a.mp4", "mine");
+    b.image("bad.glsl", "fragColor = nothing;");
+    b.line("render bad.glsl --size 64x36 --frames 3 --out a.mp4").expect(1);
+    assert_eq!(b.bytes("a.mp4"), b"mine");
+    let names = b.names(".");
+    assert!(!names.iter().any(|name| name.starts_with(".eddy")), "{names:?}");
+    // Names that look like options and addresses are files.
+    for name in ["-i.mp4", "http:..x.mp4", "a%d.mp4", "it's & a b.mp4"] {
+        let out = format!("--out={name}");
+        b.eddy("render card.glsl --size 128x72 --frames 2".split(' ').chain([out.as_str()])).expect(0);
+        assert!(fs::metadata(b.path(name)).unwrap().len() > 100, "{name}");
+    }
+    // The same call writes the same bytes.
+    for film in ["x.mp4", "x.webm", "x.mkv", "x.mov"] {
+        b.line(&format!("render card.glsl --size 128x72 --frames 5 --out {film}")).expect(0);
+        let first = b.bytes(film);
+        b.line(&format!("render card.glsl --size 128x72 --frames 5 --out {film}")).expect(0);
+        assert!(b.bytes(film) == first, "{film} differs");
+    }
+}
+
+#[test]
+fn an_exr_has_the_floats_of_the_pass() {
+    let Some(b) = Bench::with_gpu() else { return };
+    b.write(
+        "p/eddy.toml",
+        "[passes.buffer_a]\nformat = \"rgba16f\"\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n",
+    );
+    b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord.x / 3.0, -fragCoord.y, 1e-7, 60000.0);");
+    b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) * vec4(1.0 / 3.0, 7.0, 1.0, 1e6);");
+    for pass in ["image", "buffer_a"] {
+        b.line(&format!("render p --size 8x4 --pass {pass} --out a.exr")).expect(0);
+        b.line(&format!("render p --size 8x4 --pass {pass} --out a.npy")).expect(0);
+        let (exr, npy) = (image::open(b.path("a.exr")).unwrap().into_rgba32f(), b.npy("a.npy"));
+        for (x, y, pixel) in exr.enumerate_pixels() {
+            assert_eq!(pixel.0, npy.at(x as usize, 3 - y as usize), "{pass} {x},{y}");
+        }
+    }
+    b.line("render p --size 8x4 --out a.png --depth 16").expect(0);
+    assert_eq!(image::open(b.path("a.png")).unwrap().color(), image::ColorType::Rgba16);
+}
+
+/// The programs of OpenEXR itself read what Eddy writes.
+#[test]
+#[ignore = "needs exrheader and exrmaketiled of the package openexr"]
+fn another_program_reads_an_exr() {
+    let Some(b) = Bench::with_gpu() else { return };
+    card(&b);
+    b.line("render card.glsl --size 128x72 --out a.exr").expect(0);
+    let header = run(std::process::Command::new("exrheader").arg(b.path("a.exr"))).expect(0).out;
+    for says in ["R, 32-bit floating-point", "A, 32-bit floating-point", "zip, multi-scanline", "(127 71)"] {
+        assert!(header.contains(says), "{says} in {header}");
+    }
+    // Read and written again in tiles, by the library itself.
+    let mut tiled = std::process::Command::new("exrmaketiled");
+    run(tiled.args([b.path("a.exr"), b.path("tiled.exr")])).expect(0);
+    let floats = |name: &str| image::open(b.path(name)).unwrap().into_rgba32f();
+    assert_eq!(floats("tiled.exr"), floats("a.exr"));
+}
+
+#[test]
+fn supersampled_and_blurred_frames_are_the_means_of_what_they_say() {
+    let Some(b) = Bench::with_gpu() else { return };
+    b.image("a.glsl", "fragColor = vec4(floor(fragCoord), iResolution.x + iMouse.x, 1.0);");
+    let line = "render a.glsl --size 4x2 --out a.npy --mouse";
+    b.eddy(line.split(' ').chain(["0:down 3,1", "--supersample", "3"])).expect(0);
+    let npy = b.npy("a.npy");
+    assert_eq!((npy.width, npy.height), (4, 2));
+    // Columns 6, 7 and 8, rows 3, 4 and 5 of a picture of 12 x 6.
+    assert_eq!(npy.at(2, 1), [7.0, 4.0, 12.0 + 9.0, 1.0]);
+    b.image("t.glsl", "fragColor = vec4(iTime, float(iFrame), fract(iTime * 60.0 + 0.001) < 0.2 ? 1.0 : 0.0, 1.0);");
+    b.line("render t.glsl --size 2x2 --frames 30-30 --shutter 0.5 --samples 4 --format npy --out t").expect(0);
+    let [time, frame, lit, _] = b.npy("t/t_0030.npy").at(0, 0);
+    // Times .5 s and 1/8, 2/8 and 3/8 of a frame later.
+    assert!((time - (0.5 + 0.1875 / 60.0)).abs() < 1e-6, "{time}");
+    assert_eq!((frame, lit), (30.0, 0.5));
+    b.image("s/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 1.0;");
+    b.image("s/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    let refused = b.line("render s --size 2x2 --frames 2 --shutter 0.5 --out s.png").expect(2);
+    assert!(refused.err.contains("Buffer A") && refused.err.contains("state"), "{}", refused.err);
+}
+
+#[test]
+fn a_loop_fades_its_beginning_with_what_would_follow_its_end() {
+    let Some(b) = Bench::with_gpu() else { return };
+    // Without a state, and with one.
+    b.image("t.glsl", "fragColor = vec4(float(iFrame) / 100.0, 0.2, 0.3, 1.0);");
+    b.image("s/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 0.01;");
+    b.image("s/image.glsl", "fragColor = vec4(texelFetch(iChannel0, ivec2(fragCoord), 0).x - 0.01, 0.2, 0.3, 1.0);");
+    for project in ["t.glsl", "s"] {
+        for (frames, numbers) in [("12", (0..12).collect::<Vec<i32>>()), ("10-33:2", (10..34).step_by(2).collect())] {
+            let rate = if frames == "12" { 4.0 } else { 8.0 };
+            let args = format!(
+                "render {project} --size 4x2 --fps {rate} --frames {frames} --loop 1 --format raw --depth 16 --out x.raw"
+            );
+            let run = b.line(&args).expect(0);
+            assert!(run.err.contains("no visible seam"), "{}", run.err);
+            let bytes = b.bytes("x.raw");
+            let reds: Vec<f64> = bytes
+                .chunks_exact(4 * 2 * 8)
+                .map(|frame| f64::from(u16::from_le_bytes([frame[0], frame[1]])) / 65_535.0)
+                .collect();
+            assert_eq!(reds.len(), 12);
+            let length = numbers[11] - numbers[0] + numbers[1] - numbers[0];
+            for (n, (red, number)) in reds.iter().zip(&numbers).enumerate() {
+                let part = (n as f64 / 4.0).min(1.0);
+                let wanted = (f64::from(number + length) * (1.0 - part) + f64::from(*number) * part) / 100.0;
+                assert!((red - wanted).abs() < 2e-5, "{project} {frames} {n}: {red}, not {wanted}");
+            }
+        }
+    }
+    let jump = b.line("render t.glsl --size 4x2 --frames 60 --loop 0 --out x.apng").expect(0);
+    assert!(jump.err.contains("jumps where it begins again"), "{}", jump.err);
+    let long = b.line("render t.glsl --size 4x2 --frames 60 --loop 2 --out x.apng").expect(2);
+    assert!(long.err.contains("1.00 s long"), "{}", long.err);
+}
