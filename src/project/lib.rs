@@ -6,6 +6,7 @@
 mod advice;
 mod atomic;
 pub mod confine;
+mod controls;
 mod custom_uniform_values;
 mod custom_uniforms;
 pub mod directives;
@@ -44,6 +45,7 @@ mod writes;
 pub use advice::{advice, missing_pass};
 pub use atomic::write_with;
 pub use confine::FileError;
+pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };

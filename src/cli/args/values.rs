@@ -6,7 +6,7 @@ use crate::{
     texture::Face,
     video::CameraSource,
 };
-use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
+use std::{fs::File, io::BufReader, net::SocketAddr, sync::Arc, time::Duration};
 
 pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
@@ -98,6 +98,16 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
 
 pub fn webcam(text: &str) -> Result<CameraSource, String> {
     Ok(CameraSource::of_text(text))
+}
+
+/// Reads `9000`, `192.168.1.2:9000` or `[::1]:9000`.
+pub fn osc(text: &str) -> Result<SocketAddr, String> {
+    let address = match text.parse() {
+        Ok(port) => Ok(SocketAddr::from(([127, 0, 0, 1], port))),
+        Err(_) => text.parse(),
+    };
+    let address = address.map_err(|_| "write a port from 1 to 65535, or ADDR:PORT as in 0.0.0.0:9000".to_owned())?;
+    if address.port() == 0 { Err("the port must be from 1 to 65535".into()) } else { Ok(address) }
 }
 
 pub fn fps(text: &str) -> Result<f64, String> {

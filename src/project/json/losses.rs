@@ -14,6 +14,9 @@ pub fn losses(project: &Project) -> Vec<String> {
         [one] => lost.push(format!("The uniform {one} becomes a constant with its current value.")),
         _ => lost.push(format!("The uniforms {} become constants with their current values.", listed(&uniforms))),
     }
+    if !project.controls.is_empty() {
+        lost.push("The controls of MIDI and OSC devices are left out.".into());
+    }
     let included: Vec<&str> =
         project.includes.iter().filter(|i| i.trouble.is_none()).map(|i| i.source.name.as_str()).collect();
     if !included.is_empty() {

@@ -24,6 +24,7 @@ const LAYERS: &[&str] = &[
     "texture",
     "diag",
     "project",
+    "control",
     "video",
     "media",
     "glsl",
@@ -70,6 +71,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
         &["SystemTime", "Zoned"],
         &[
             "audio",
+            "control",
             "texture",
             "diag",
             "project",
@@ -87,10 +89,13 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
         ],
     ),
     (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
-    (&["env"], &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"]),
+    (
+        &["env"],
+        &["audio", "control", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger", "lab"],
+    ),
     (
         &["fs", "File", "OpenOptions"],
-        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"],
+        &["audio", "control", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "debugger"],
     ),
 ];
 
