@@ -1,9 +1,13 @@
-//! MIDI devices for tests: they come, go and send when the test says so.
+//! MIDI devices and gamepads for tests: they come, go and send when the test says so.
 
-use crate::midi::host::{MidiError, MidiHost, MidiIn, Opened, Take};
+use crate::{
+    midi::host::{MidiError, MidiHost, MidiIn, Opened, Take},
+    pads::{PadEvent, PadHost, PadIn},
+};
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, VecDeque},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
 };
 
 /// The devices by their names, each with who takes what it sends.
@@ -71,5 +75,32 @@ impl MidiIn for FakeMidi {
         *device = Some(take);
         drop(devices);
         Ok(Box::new(Close(self.clone(), name.to_owned())))
+    }
+}
+
+/// Gamepads that are made up.
+#[derive(Clone, Debug, Default)]
+pub struct FakePads(Arc<Mutex<VecDeque<PadEvent>>>);
+
+impl FakePads {
+    /// Something happens, for who listens.
+    pub fn happens(&self, event: PadEvent) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push_back(event);
+    }
+}
+
+impl PadHost for FakePads {
+    fn open(&self) -> Result<Box<dyn PadIn>, String> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl PadIn for FakePads {
+    fn next(&mut self, _: Duration) -> Option<PadEvent> {
+        let event = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
+        if event.is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        event
     }
 }

@@ -1,15 +1,16 @@
-//! Controls that people bring: OSC and MIDI.
+//! Controls that people bring: OSC, MIDI and gamepads.
 //!
 //! Owns the way from bytes to a [`ControlEvent`], and from an event to the value of a uniform ([`moved`]). Bytes are anybody's:
 //! whatever comes, decoding gives events or none, within the limits of [`eddy_project::limits`]. Devices are read on threads of
 //! their own, which fill a [`ControlQueue`] and wake its reader. Nothing is opened before a person has switched it on.
 //!
 //! MIDI devices come through the traits of [`midi::host`]: `midi::machine` (feature `midi`) has those of the machine, and
-//! [`fake`] those of a test.
+//! [`fake`] those of a test. So do gamepads through those of [`pads`] (feature `gamepad`).
 
 pub mod fake;
 pub mod midi;
 pub mod osc;
+pub mod pads;
 mod queue;
 mod values;
 
@@ -26,7 +27,7 @@ pub type Wake = Arc<dyn Fn() + Send + Sync>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlEvent {
     pub source: ControlAddress,
-    /// The position, from 0 to 1, of a MIDI control. Of OSC the number of the argument as it came, never NaN or infinite: true
+    /// The position, from 0 to 1, of a control of MIDI or a gamepad. Of OSC the number of the argument as it came, never NaN or infinite: true
     /// is 1 and false is 0.
     pub value: f64,
 }

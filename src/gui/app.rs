@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     audio::host::AudioHost,
-    control::midi::host::MidiHost,
+    control::{midi::host::MidiHost, pads::PadHost},
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
@@ -231,6 +231,7 @@ impl Running {
             camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
             audio: machine_audio(),
             midi: machine_midi(),
+            gamepads: machine_gamepads(),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
@@ -532,6 +533,16 @@ fn machine_midi() -> Option<Arc<dyn MidiHost>> {
 
 #[cfg(not(feature = "midi"))]
 fn machine_midi() -> Option<Arc<dyn MidiHost>> {
+    None
+}
+
+#[cfg(feature = "gamepad")]
+fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
+    Some(Arc::new(crate::control::pads::machine::Machine))
+}
+
+#[cfg(not(feature = "gamepad"))]
+fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
     None
 }
 

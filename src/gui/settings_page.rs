@@ -4,7 +4,7 @@ use super::{
     accessible,
     actions::Action,
     fonts,
-    settings::{ADDRESS, Change, Control, KEYS, Key, Number, SettingsFile, Theme},
+    settings::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, SettingsFile, Theme},
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
@@ -100,6 +100,7 @@ impl SettingsPage {
         let is_shown = |key: &Key| match key.control {
             Control::Device { .. } => session.output_view().is_some(),
             Control::Midi => controls.has_midi,
+            _ if key.name == GAMEPADS => controls.has_gamepads,
             _ => true,
         };
         let window = ui.ctx().content_rect();
@@ -151,6 +152,7 @@ impl SettingsPage {
                 Some("Anybody on the network can move the uniforms of the open project".into())
             }
             "midi" => controls.midi.missing.clone().filter(|_| controls.choice != MidiChoice::Off),
+            GAMEPADS => controls.gamepads.as_ref()?.trouble.clone(),
             _ => None,
         }
     }

@@ -9,6 +9,7 @@ mod film;
 mod flatten;
 mod gather;
 mod halve;
+mod gamepads;
 pub mod keyboard;
 mod load;
 pub mod mesh;
@@ -19,6 +20,7 @@ mod sound;
 
 pub use error::MediaError;
 pub use gather::{files, fills, gather, meshes, unrecorded};
+pub use gamepads::Gamepads;
 pub use keyboard::Keyboard;
 pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};

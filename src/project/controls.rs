@@ -4,7 +4,10 @@
 //! in [`Project::controls`](super::Project::controls), and in `eddy.toml` under `[controls]`. What the devices send is decoded
 //! by the package `control`.
 
-use super::limits;
+use super::{
+    limits,
+    pads::{PADS, PadPart},
+};
 use std::{collections::BTreeMap, fmt};
 
 /// Names of the components of a vector and of a colour, in order.
@@ -13,7 +16,7 @@ const COMPONENTS: [&str; 2] = ["xyzw", "rgba"];
 const NOT_IN_OSC: &[char] = &[' ', '#', '*', ',', '?', '[', ']', '{', '}'];
 /// The forms of an address, for messages.
 pub(super) const FORMS: &str =
-    "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 note 60\", \"midi 1 bend\" or an OSC address such as \"/1/fader3\"";
+    "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
 
 /// A control of a device, whichever device has it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -26,6 +29,8 @@ pub enum ControlAddress {
     Note { channel: u8, key: u8 },
     /// The pitch bend of a MIDI channel.
     PitchBend { channel: u8 },
+    /// A part of a gamepad. Pads are 0 to 3 here and 1 to 4 where people read them.
+    Pad { pad: u8, part: PadPart },
     /// An argument of the messages of an OSC address, from 0.
     Osc { path: String, argument: usize },
 }
@@ -87,6 +92,12 @@ impl ControlAddress {
             };
             return is_osc_path(path).then(|| Self::Osc { path: (*path).to_owned(), argument: argument - 1 });
         }
+        if let [kind, number, name] = words.as_slice()
+            && kind.eq_ignore_ascii_case("pad")
+        {
+            let pad = below(number, PADS as u8 + 1)?.checked_sub(1)?;
+            return Some(Self::Pad { pad, part: PadPart::parse(&name.to_ascii_lowercase())? });
+        }
         let [midi, channel, kind, rest @ ..] = words.as_slice() else { return None };
         if !midi.eq_ignore_ascii_case("midi") {
             return None;
@@ -109,6 +120,8 @@ impl ControlAddress {
             Self::ControlChange14 { channel, number } => format!("CC {number}+{}{}", number + 32, of(*channel)),
             Self::Note { channel, key } => format!("Note {key}{}", of(*channel)),
             Self::PitchBend { channel } => format!("Pitch bend{}", of(*channel)),
+            Self::Pad { pad: 0, part } => format!("Pad {}", part.name()),
+            Self::Pad { pad, part } => format!("Pad {} {}", pad + 1, part.name()),
             Self::Osc { .. } => self.to_string(),
         }
     }
@@ -122,6 +135,7 @@ impl fmt::Display for ControlAddress {
             Self::ControlChange14 { channel, number } => write!(f, "midi {} cc14 {number}", channel + 1),
             Self::Note { channel, key } => write!(f, "midi {} note {key}", channel + 1),
             Self::PitchBend { channel } => write!(f, "midi {} bend", channel + 1),
+            Self::Pad { pad, part } => write!(f, "pad {} {}", pad + 1, part.name()),
             Self::Osc { path, argument: 0 } => f.write_str(path),
             Self::Osc { path, argument } => write!(f, "{path} {}", argument + 1),
         }
@@ -145,6 +159,8 @@ mod tests {
             ControlAddress::ControlChange14 { channel: 15, number: 31 },
             ControlAddress::Note { channel: 3, key: 0 },
             ControlAddress::PitchBend { channel: 9 },
+            ControlAddress::Pad { pad: 3, part: PadPart::Axis(1) },
+            ControlAddress::Pad { pad: 0, part: PadPart::Button(16) },
             ControlAddress::Osc { path: "/1/fader3".into(), argument: 0 },
             ControlAddress::Osc { path: "/1/xy".into(), argument: 1 },
         ];
@@ -171,7 +187,7 @@ mod tests {
             "/a 0",
             "/a 1 2",
             "/ä",
-            "1/fader",
+            "1/fader", "pad 5 south", "pad 0 south", "pad 1 knob",
         ];
         for text in wrong {
             assert_eq!(ControlAddress::parse(text), None, "{text}");

@@ -64,6 +64,7 @@ impl Session {
             Command::UseMicrophone(on) => self.use_microphone(on),
             Command::SetOsc(address) => self.set_osc(address),
             Command::SetMidi(choice) => self.set_midi(choice),
+            Command::SetGamepads(on) => self.set_gamepads(on),
             Command::ListMidiDevices => self.list_midi_devices(),
             Command::LearnControl(target) => self.learn_control(target),
             Command::ForgetControl(target) => self.forget_control(&target),

@@ -91,6 +91,8 @@ pub enum Command {
     SetOsc(Option<SocketAddr>),
     /// Listens to MIDI devices. Nothing but a person asks for it.
     SetMidi(MidiChoice),
+    /// Reads gamepads. Nothing but a person asks for it.
+    SetGamepads(bool),
     /// Looks which devices there are: see [`Session::controls_view`](super::Session::controls_view).
     ListMidiDevices,
     /// Has the control that moves next move a number of a uniform; `None`: waits no longer.

@@ -154,7 +154,7 @@ impl Session {
             playback: Playback::default(),
             devices: Devices::default(),
             audio: Audio::new(options.audio.clone(), options.audio_on_thread),
-            controls: Controls::new(options.midi.clone(), options.audio_on_thread, wake.clone()),
+            controls: Controls::new(&options, wake.clone()),
             picture: Picture::default(),
             watched: ReadBacks::default(),
             tracing,

@@ -70,6 +70,7 @@ pub enum About {
     Osc,
     /// Devices of MIDI.
     Midi,
+    Gamepads,
     /// A control that was learned.
     Controls,
     /// A project that was to be written for the site.

@@ -117,7 +117,7 @@ mod tests {
         let (settings, mistakes) = read(
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
              code-font = \"/a/b.ttf\"\nvolume = 0.25\nmute = true\naudio-output = \"Speakers\"\naudio-input = \"\"\n\
-             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\n",
+             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -136,6 +136,7 @@ mod tests {
             osc_port: 8000,
             osc_address: "0.0.0.0".parse().unwrap(),
             midi: MidiChoice::Named("Knobs".into()),
+            gamepads: true,
         };
         assert_eq!(settings, wanted);
         let text =
@@ -144,7 +145,7 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, volume, mute, \
-                   audio-output, audio-input, osc, osc-port, osc-address, midi";
+                   audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),

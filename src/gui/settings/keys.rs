@@ -64,6 +64,7 @@ pub struct Settings {
     /// The address of this machine that OSC comes in by.
     pub osc_address: IpAddr,
     pub midi: MidiChoice,
+    pub gamepads: bool,
 }
 
 impl Settings {
@@ -75,6 +76,8 @@ impl Settings {
 
 /// The port that controllers of OSC send to at first.
 const OSC_PORT: u16 = 9000;
+/// The setting that a build without gamepads does not show.
+pub const GAMEPADS: &str = "gamepads";
 const OFF: &str = "off";
 const ALL: &str = "all";
 
@@ -100,6 +103,7 @@ impl Default for Settings {
             osc_port: OSC_PORT,
             osc_address: Ipv4Addr::LOCALHOST.into(),
             midi: MidiChoice::Off,
+            gamepads: false,
         }
     }
 }
@@ -124,6 +128,7 @@ pub enum Change {
     OscPort(u16),
     OscAddress(IpAddr),
     Midi(MidiChoice),
+    Gamepads(bool),
 }
 
 impl Change {
@@ -147,6 +152,7 @@ impl Change {
             Change::Osc(on) => ("osc", (*on).into()),
             Change::OscPort(port) => ("osc-port", i64::from(*port).into()),
             Change::OscAddress(address) => ("osc-address", address.to_string().into()),
+            Change::Gamepads(on) => (GAMEPADS, (*on).into()),
             Change::Midi(choice) => {
                 let name: &str = match choice {
                     MidiChoice::Off => OFF,
@@ -175,6 +181,7 @@ impl Change {
             Change::OscPort(port) => settings.osc_port = *port,
             Change::OscAddress(address) => settings.osc_address = *address,
             Change::Midi(choice) => settings.midi.clone_from(choice),
+            Change::Gamepads(on) => settings.gamepads = *on,
         }
     }
 }
@@ -428,6 +435,15 @@ pub const KEYS: &[Key] = &[
             Some(name) if !name.trim().is_empty() => Ok(Change::Midi(MidiChoice::Named(name.to_owned()))),
             _ => Err("must be \"off\", \"all\" or the name of a device".into()),
         },
+    },
+    Key {
+        name: GAMEPADS,
+        title: "Gamepads",
+        help: "Let gamepads move uniforms, and channels read them",
+        control: Control::Switch { get: |settings| settings.gamepads, change: Change::Gamepads },
+        about: "Read gamepads, in a build with the feature gamepad: true or false",
+        usual: "false",
+        read: |value| switch(value).map(Change::Gamepads),
     },
 ];
 

@@ -323,6 +323,7 @@ impl Shell {
         commands.push(Command::SetAudioInput(settings.audio_input.clone()));
         commands.push(Command::SetOsc(self.keeps_osc.or(settings.osc())));
         commands.push(Command::SetMidi(settings.midi.clone()));
+        commands.push(Command::SetGamepads(settings.gamepads));
         commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));

@@ -39,7 +39,7 @@
 //! channels.0 = { buffer = "A" }
 //! channels.1 = { texture = "noise-rgba-256" }     # one of Eddy's own; also cubemap, volume, video, music
 //! channels.2 = { file = "pic.png", vflip = false }
-//! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam
+//! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam, gamepad
 //! ```
 //!
 //! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and the

@@ -1,10 +1,12 @@
-//! Controls of OSC and MIDI devices: what is switched on, which uniform a control moves, and what is being learned.
+//! Controls of OSC, MIDI and gamepads: what is switched on, which uniform a control moves, and what is being learned.
 //!
 //! Nothing is listened to before a person has switched it on. A uniform that a control moves goes the way of a slider that a hand
 //! turns: its values are in recordings, and one movement is one step of undo.
 
+mod gamepads;
+
 use super::{
-    Session,
+    Session, SessionOptions,
     view::{About, Level},
 };
 use eddy_control::{
@@ -12,8 +14,9 @@ use eddy_control::{
     midi::{MidiChoice, MidiInputs, MidiState, host::MidiHost},
     moved,
     osc::{OscInput, OscState},
+    pads::{PadHost, PadInputs, PadState},
 };
-use eddy_project::{ControlAddress, ControlTarget, CustomUniform};
+use eddy_project::{ControlAddress, ControlTarget, CustomUniform, PadPart};
 use std::{
     collections::BTreeSet,
     net::SocketAddr,
@@ -35,6 +38,10 @@ pub(super) struct Controls {
     osc: Option<OscInput>,
     midi: Option<MidiInputs>,
     choice: MidiChoice,
+    pad_host: Option<Arc<dyn PadHost>>,
+    pads: Option<PadInputs>,
+    /// A person was told that gamepads cannot be read.
+    is_pad_told: bool,
     /// Waits for the control that moves next.
     learning: Option<ControlTarget>,
     /// Learned by the coarse part of a control that may have a fine one.
@@ -56,25 +63,31 @@ pub struct ControlsView {
     pub has_midi: bool,
     pub choice: MidiChoice,
     pub midi: MidiState,
+    pub has_gamepads: bool,
+    /// `None`: they are off.
+    pub gamepads: Option<PadState>,
 }
 
 impl ControlsView {
     /// Returns whether there is anything that could be learned.
     pub fn is_on(&self) -> bool {
-        self.osc.is_some() || self.choice != MidiChoice::Off
+        self.osc.is_some() || self.choice != MidiChoice::Off || self.gamepads.is_some()
     }
 }
 
 impl Controls {
-    pub fn new(host: Option<Arc<dyn MidiHost>>, on_thread: bool, wake: Wake) -> Self {
+    pub fn new(options: &SessionOptions, wake: Wake) -> Self {
         Self {
-            host,
-            on_thread,
+            host: options.midi.clone(),
+            on_thread: options.audio_on_thread,
             queue: ControlQueue::new(wake.clone()),
             wake,
             osc: None,
             midi: None,
             choice: MidiChoice::Off,
+            pad_host: options.gamepads.clone(),
+            pads: None,
+            is_pad_told: false,
             learning: None,
             coarse: None,
             is_osc_told: false,
@@ -112,6 +125,8 @@ impl Session {
             has_midi: controls.host.is_some(),
             choice: controls.choice.clone(),
             midi: controls.midi.as_ref().map(MidiInputs::state).unwrap_or_default(),
+            has_gamepads: controls.pad_host.is_some(),
+            gamepads: controls.pads.as_ref().map(PadInputs::state),
         }
     }
 
@@ -187,6 +202,7 @@ impl Session {
         }
         self.tell_of_osc();
         self.tell_of_midi();
+        self.follow_gamepads();
         let events = self.controls.queue.take();
         if events.is_empty() {
             return;
@@ -300,6 +316,9 @@ fn touched(events: &[ControlEvent], index: usize) -> Option<ControlAddress> {
     let is_touched = |event: &&ControlEvent| match &event.source {
         // A key that is released.
         ControlAddress::Note { .. } => event.value > 0.0,
+        // A stick that is not quite at rest, a trigger that is brushed.
+        ControlAddress::Pad { part: PadPart::Axis(_), .. } => (event.value - 0.5).abs() > 0.25,
+        ControlAddress::Pad { part: PadPart::Button(_), .. } => event.value > 0.5,
         ControlAddress::Osc { path, .. } => {
             let is_finger = path.ends_with(TOUCH) && (event.value == 0.0 || event.value == 1.0);
             direct(&event.source).is_none() && !is_finger

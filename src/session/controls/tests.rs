@@ -2,7 +2,10 @@
 
 use super::*;
 use crate::{Command, SessionOptions};
-use eddy_control::fake::FakeMidi;
+use eddy_control::{
+    fake::{FakeMidi, FakePads},
+    pads::PadEvent,
+};
 use eddy_gpu::testing;
 use eddy_project::Project;
 use std::net::UdpSocket;
@@ -13,22 +16,34 @@ const TEXT: &str = "#iUniform float speed = 1.0 in { 0.0, 4.0 }\n#iUniform vec2 
 struct Room {
     session: Session,
     midi: FakeMidi,
+    pads: FakePads,
     now: Instant,
 }
 
 impl Room {
     fn open() -> Option<Room> {
+        Self::with(TEXT)
+    }
+
+    fn with(text: &str) -> Option<Room> {
         let gpu = testing::gpu()?;
         let midi = FakeMidi::default();
         midi.plug_in("Knobs");
         let host: Arc<dyn MidiHost> = Arc::new(midi.clone());
-        let options = SessionOptions { midi: Some(host), audio_on_thread: false, ..SessionOptions::default() };
+        let pads = FakePads::default();
+        let options = SessionOptions {
+            midi: Some(host),
+            gamepads: Some(Arc::new(pads.clone())),
+            audio_on_thread: false,
+            ..SessionOptions::default()
+        };
         let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
-        let project = Project::of_image("p".into(), TEXT.into());
+        let mut project = Project::of_image("p".into(), text.into());
+        eddy_project::declare_channels(&mut project);
         session.apply(Command::OpenProject { project: Box::new(project), size: None });
         session.apply(Command::Pause);
         session.apply(Command::SetMidi(MidiChoice::All));
-        let mut room = Room { session, midi, now: Instant::now() };
+        let mut room = Room { session, midi, pads, now: Instant::now() };
         room.until("a program", |session| session.drawing.has_program());
         Some(room)
     }
@@ -186,4 +201,44 @@ fn a_recording_has_the_values_that_controls_have_set() {
         frames.iter().filter_map(|frame| frame.values.get("speed")).map(|value| value.components()[0]).collect();
     values.dedup();
     assert_eq!(values, [0.0, 32.0, 64.0, 127.0].map(|n| 4.0 * n / 127.0));
+}
+
+#[test]
+fn a_gamepad_moves_uniforms_and_is_in_the_frames_of_a_recording() {
+    let text = format!("#iChannel0 \"gamepad\"\n{TEXT}");
+    let Some(mut room) = Room::with(&text) else { return };
+    let happens = |room: &Room, event: PadEvent| room.pads.happens(event);
+    let moved = |part: PadPart, value: f32| PadEvent::Moved { pad: 0, part, value };
+    let (stick, south) = (PadPart::Axis(0), PadPart::Button(0));
+    happens(&room, PadEvent::Connected { pad: 0, name: "Pad".into() });
+    (0..5).for_each(|_| room.tick());
+    assert_eq!(room.session.playback.gamepads, eddy_media::Gamepads::default(), "they are off");
+    room.session.apply(Command::SetGamepads(true));
+    room.until("a pad", |session| session.notices().iter().any(|n| n.text == "gamepad 1 connected: Pad"));
+    let speed = ControlTarget::whole("speed");
+    room.session.apply(Command::LearnControl(Some(speed.clone())));
+    happens(&room, moved(stick, 0.1));
+    happens(&room, moved(PadPart::Axis(1), 1.0));
+    room.until("a control", |session| session.control_of(&speed).is_some());
+    assert_eq!(room.bound(&speed).as_deref(), Some("pad 1 left-y"), "a stick at rest is not touched");
+    room.until("the value", |session| session.project().custom_uniform_values.contains_key("speed"));
+    assert_eq!(room.value("speed"), [4.0]);
+
+    // A button draws a frame while time stands still, and is pressed in one frame alone.
+    room.session.apply(Command::Record);
+    let frames = |session: &Session| session.playback.recorder.as_ref().unwrap().recording.frames.len();
+    room.until("a frame", |session| frames(session) == 1);
+    happens(&room, moved(south, 1.0));
+    room.until("a frame", |session| frames(session) == 2);
+    happens(&room, moved(south, 0.0));
+    room.until("a frame", |session| frames(session) == 3);
+    let recorded = &room.session.playback.recorder.as_ref().unwrap().recording.frames;
+    let texels = |frame: usize| {
+        let texels = recorded[frame].inputs.gamepads.texels();
+        [texels[0], texels[1], texels[16], texels[17], texels[34]]
+    };
+    let rest = [0.1, 1.0, 1.0, 0.0, 0.0];
+    assert_eq!([0, 1, 2].map(texels), [rest, [0.1, 1.0, 1.0, 1.0, 1.0], rest]);
+    room.session.apply(Command::SetGamepads(false));
+    assert_eq!(room.session.playback.gamepads, eddy_media::Gamepads::default());
 }
