@@ -15,8 +15,7 @@ const COMPONENTS: [&str; 2] = ["xyzw", "rgba"];
 /// Letters that OSC 1.0 does not allow in an address: they have a meaning in patterns.
 const NOT_IN_OSC: &[char] = &[' ', '#', '*', ',', '?', '[', ']', '{', '}'];
 /// The forms of an address, for messages.
-pub(super) const FORMS: &str =
-    "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
+pub(super) const FORMS: &str = "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
 
 /// A control of a device, whichever device has it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,7 +42,7 @@ pub struct ControlTarget {
     pub component: Option<char>,
 }
 
-/// Which control moves which number.
+/// Controls by the number that each moves.
 pub type ControlBindings = BTreeMap<ControlTarget, ControlAddress>;
 
 impl ControlTarget {
@@ -187,7 +186,10 @@ mod tests {
             "/a 0",
             "/a 1 2",
             "/ä",
-            "1/fader", "pad 5 south", "pad 0 south", "pad 1 knob",
+            "1/fader",
+            "pad 5 south",
+            "pad 0 south",
+            "pad 1 knob",
         ];
         for text in wrong {
             assert_eq!(ControlAddress::parse(text), None, "{text}");

@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program, ValueLook},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
-    project::{Filter, PassId, Project, Source, TexelFormat, Wrap},
+    project::{Channel, Filter, Input, InputKind, PadPart, PassId, Project, Source, TexelFormat, Wrap},
 };
 
 const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -150,12 +150,10 @@ fn gamepads_are_a_texture_of_17_by_12() {
     let channel = Channel::new(Input::Device(InputKind::Gamepad));
     let project = project(vec![
         pass(buffer("A"), a, [Some(channel), None, None, None]),
-        image("void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }", [
-            nearest("A"),
-            None,
-            None,
-            None,
-        ]),
+        image(
+            "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }",
+            [nearest("A"), None, None, None],
+        ),
     ]);
     let mut engine = engine(&gpu, &project, (2, 1));
     engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).unwrap();

@@ -19,7 +19,7 @@ use std::{
 /// The time between two looks at which devices there are.
 const LOOK: Duration = Duration::from_secs(2);
 
-/// Which devices are listened to.
+/// The devices that are listened to.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum MidiChoice {
     #[default]

@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(without_numbers("A 1:2b"), "A 1:2b");
     }
 
-    /// Whether or not the machine has MIDI: no panic, and no device that is not there.
+    /// There is no panic and no such device, on a machine with MIDI and on one without.
     #[test]
     fn a_device_that_is_not_there_is_an_error() {
         let mut machine = Machine;

@@ -5,6 +5,8 @@
 
 mod decode;
 mod socket;
+#[cfg(test)]
+mod tests;
 
 pub use decode::{OscError, decode};
 pub use socket::{OscInput, OscState};

@@ -28,7 +28,7 @@ pub struct PadState {
 #[derive(Default)]
 struct Shared {
     state: PadState,
-    /// What has happened and is not taken yet.
+    /// Events that are not taken yet.
     waiting: VecDeque<PadEvent>,
 }
 

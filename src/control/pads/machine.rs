@@ -104,7 +104,7 @@ fn part_of_button(button: Button) -> Option<PadPart> {
 mod tests {
     use super::*;
 
-    /// Whether or not the machine has gamepads: no panic, and no event without one.
+    /// There is no panic, on a machine with gamepads and on one without.
     #[test]
     fn a_machine_without_gamepads_is_silent() {
         if let Ok(mut pads) = Machine.open() {

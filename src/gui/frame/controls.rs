@@ -77,7 +77,7 @@ fn a_right_click_learns_what_is_touched_next_and_forgets_it() {
     midi.send("Knobs", &[0xb0, 21, 127]);
     until(&mut stage, "a value", |stage| value(stage, "red") == [1.0]);
     stage.run_steps(3);
-    assert!(is_there(&stage, "uniform:control:red") && texts(&stage).iter().any(|text| text == "CC 21"));
+    assert!(is_there(&stage, "uniform:control:red") && texts(&stage).iter().any(|text| text == "red, CC 21"));
     midi.send("Knobs", &[0xb0, 21, 0]);
     until(&mut stage, "a value", |stage| value(stage, "red") == [0.0]);
 
@@ -92,6 +92,7 @@ fn a_right_click_learns_what_is_touched_next_and_forgets_it() {
     until(&mut stage, "a value", |stage| value(stage, "on") == [1.0]);
 
     right_click(&mut stage, "uniform:red");
+    assert_eq!(value(&stage, "red"), [0.0], "a right click moves nothing");
     super::harness::click(&mut stage, "uniform-menu:forget:red");
     assert!(!is_there(&stage, "uniform:control:red"));
     midi.send("Knobs", &[0xb0, 21, 64]);

@@ -447,7 +447,7 @@ pub const KEYS: &[Key] = &[
     },
 ];
 
-/// What an address must be.
+/// Says what an address must be.
 pub const ADDRESS: &str =
     "must be an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them";
 

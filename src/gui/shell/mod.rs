@@ -71,7 +71,7 @@ pub struct Shell {
     in_effect: Option<Settings>,
     /// The command line has the last word on it.
     keeps_frame_limit: bool,
-    /// Where the command line has OSC listened to.
+    /// The address at which the command line has OSC listened to.
     keeps_osc: Option<SocketAddr>,
     palette: Palette,
     focus: Focus,

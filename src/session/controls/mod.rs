@@ -29,7 +29,7 @@ const FINE_PART: Duration = Duration::from_millis(200);
 /// TouchOSC sends 1 to an address that ends so when a finger touches a control, and 0 when it leaves.
 const TOUCH: &str = "/z";
 
-/// What is listened to.
+/// The devices that are listened to, and what is being learned.
 pub(super) struct Controls {
     host: Option<Arc<dyn MidiHost>>,
     on_thread: bool,
@@ -53,7 +53,7 @@ pub(super) struct Controls {
     told: Vec<String>,
 }
 
-/// What is listened to, as a front end shows it.
+/// Says what is listened to, for a front end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlsView {
     /// `None`: it is off.
@@ -96,7 +96,7 @@ impl Controls {
         }
     }
 
-    /// What was to be learned was of the project before.
+    /// Nothing is learned any more: it was of the project before.
     pub fn begin_next_project(&mut self) {
         (self.learning, self.coarse) = (None, None);
     }

@@ -145,8 +145,7 @@ impl History {
         }
         self.again.drop_behind(self.drawn);
         self.keep(engine, self.interval());
-        let has_texture =
-            |inputs: &FrameInputs| inputs.microphone.is_some() || inputs.gamepads != Gamepads::default();
+        let has_texture = |inputs: &FrameInputs| inputs.microphone.is_some() || inputs.gamepads != Gamepads::default();
         let hears = self.frames.back().is_some_and(|frame| has_texture(&frame.inputs));
         self.forget(if hears { KEPT_HEARD } else { KEPT });
         Ok(())
