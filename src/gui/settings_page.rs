@@ -272,7 +272,11 @@ impl SettingsPage {
         let less = step(ui, "−", "Decrease", now - number.step);
         let mut value = self.dragged.filter(|(name, _)| *name == key.name).map_or(now, |(_, value)| value);
         let field = DragValue::new(&mut value).range(number.least..=number.most).speed(number.step * 0.2);
-        let field = field.max_decimals(2).suffix(number.unit).update_while_editing(false);
+        // A number without a unit is a whole one.
+        let field = field
+            .max_decimals(if number.unit.is_empty() { 0 } else { 2 })
+            .suffix(number.unit)
+            .update_while_editing(false);
         let response = ui.add_sized(vec2(76.0, 24.0), field);
         accessible::name(&response, Role::SpinButton, key.title);
         let more = step(ui, "+", "Increase", now + number.step);

@@ -116,3 +116,19 @@ pub fn fps(text: &str) -> Result<f64, String> {
         _ => Err("frames per second must be a number above 0".into()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn osc_is_heard_at_the_loopback_address_unless_another_one_is_given() {
+        let read = |text: &str| osc(text).map(|address| address.to_string()).map_err(|_| ());
+        assert_eq!(read("9000"), Ok("127.0.0.1:9000".into()));
+        assert_eq!(read("0.0.0.0:8000"), Ok("0.0.0.0:8000".into()));
+        assert_eq!(read("[::1]:8000"), Ok("[::1]:8000".into()));
+        for wrong in ["", "0", "65536", "127.0.0.1", "localhost:9000", "0.0.0.0:0", "-1"] {
+            assert_eq!(read(wrong), Err(()), "{wrong}");
+        }
+    }
+}
