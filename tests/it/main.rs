@@ -25,6 +25,7 @@ mod exports;
 mod fills;
 mod fixes;
 mod frame_bands;
+mod gamepads;
 mod geometry;
 mod geometry_files;
 mod glsl_bounds;
