@@ -24,16 +24,16 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, set, paused, frame_timeout: frame_limit, compile_timeout, webcam, json, lose_device } =
-        window;
+    let Window { project, size, set, paused, frame_timeout, compile_timeout, webcam, osc, json, lose_device } = window;
     Ok(eddy::gui::run(eddy::gui::Options {
         project,
         size,
         set,
         paused,
-        frame_limit,
+        frame_limit: frame_timeout,
         compile_timeout,
         webcam,
+        osc,
         json,
         lose_device,
     })?)

@@ -7,7 +7,7 @@ use super::{
 };
 use eddy_audio::{Analyser, BINS, SAMPLE_RATE, Sound, Spectrum, synthetic};
 use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
-use eddy_media::{Keyboard, MediaKey, MediaSet, Texels};
+use eddy_media::{Gamepads, Keyboard, MediaKey, MediaSet, Texels};
 use eddy_project::{Channel, Input, InputKind};
 use eddy_texture::{TexelFormat, TextureShape};
 use std::sync::Arc;
@@ -47,6 +47,7 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
     match channel.input.kind() {
         InputKind::Buffer | InputKind::CubemapPass => None,
         InputKind::Keyboard => Some(Box::new(Keyboard::default())),
+        InputKind::Gamepad => Some(Box::new(Gamepads::default())),
         InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
             Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
@@ -73,6 +74,22 @@ impl ExternalTexture for Keyboard {
 
     fn bytes(&self) -> &[u8] {
         Self::bytes(self)
+    }
+}
+
+impl ExternalTexture for Gamepads {
+    fn shape(&self) -> TextureShape {
+        Self::SHAPE
+    }
+
+    fn advance(&mut self, inputs: &FrameInputs) -> bool {
+        let is_other = *self != inputs.gamepads;
+        self.clone_from(&inputs.gamepads);
+        is_other
+    }
+
+    fn bytes(&self) -> &[u8] {
+        bytemuck::cast_slice(self.texels())
     }
 }
 

@@ -1,7 +1,7 @@
-//! Everything of one frame that is not the project's: time, mouse, keys, date.
+//! Everything of one frame that is not the project's: time, mouse, keys, gamepads, date.
 
 use eddy_audio::Spectrum;
-use eddy_media::Keyboard;
+use eddy_media::{Gamepads, Keyboard};
 use std::sync::Arc;
 
 /// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to
@@ -23,6 +23,7 @@ pub struct FrameInputs {
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
     pub date: [f32; 4],
     pub keyboard: Keyboard,
+    pub gamepads: Gamepads,
     /// The texture that the analyser made of the microphone; `None` where there is none, or nobody has switched it on.
     pub microphone: Option<Arc<Spectrum>>,
 }
@@ -39,6 +40,7 @@ impl FrameInputs {
             drag: [0.0; 2],
             date: [0.0; 4],
             keyboard: Keyboard::default(),
+            gamepads: Gamepads::default(),
             microphone: None,
         }
     }

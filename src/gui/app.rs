@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     audio::host::AudioHost,
+    control::{midi::host::MidiHost, pads::PadHost},
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
@@ -229,6 +230,8 @@ impl Running {
             trials: TrialSettings::of_this_program(options.compile_timeout),
             camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
             audio: machine_audio(),
+            midi: machine_midi(),
+            gamepads: machine_gamepads(),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
@@ -236,7 +239,7 @@ impl Running {
         let mut shell = Shell::new(surface.gpu().clone(), wake.clone(), options.project.is_none());
         let mut settings = SettingsFile::new();
         mistakes.extend(settings.refresh());
-        shell.restore(settings, &remembered, options.frame_limit.is_some());
+        shell.restore(settings, &remembered, options.frame_limit.is_some(), options.osc);
         shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
         for text in mistakes {
             session.apply(Command::Notify { level: Level::Error, text, path: None });
@@ -520,6 +523,26 @@ fn machine_audio() -> Option<Arc<dyn AudioHost>> {
 
 #[cfg(not(feature = "audio"))]
 fn machine_audio() -> Option<Arc<dyn AudioHost>> {
+    None
+}
+
+#[cfg(feature = "midi")]
+fn machine_midi() -> Option<Arc<dyn MidiHost>> {
+    Some(Arc::new(crate::control::midi::machine::Machine))
+}
+
+#[cfg(not(feature = "midi"))]
+fn machine_midi() -> Option<Arc<dyn MidiHost>> {
+    None
+}
+
+#[cfg(feature = "gamepad")]
+fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
+    Some(Arc::new(crate::control::pads::machine::Machine))
+}
+
+#[cfg(not(feature = "gamepad"))]
+fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
     None
 }
 

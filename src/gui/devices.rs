@@ -1,7 +1,11 @@
-//! Devices that see or hear: the button that turns one on, and the light that shows that it is on.
+//! Devices that see, hear or listen to the network: the button that turns one on, and the light that shows that it is on.
 
-use super::{accessible, theme, ui_output::UiOutput};
+use super::{
+    accessible, theme,
+    ui_output::{ShellCommand, UiOutput},
+};
 use crate::{
+    control::osc::OscState,
     project::InputKind,
     session::{CameraState, Command, Session},
 };
@@ -56,4 +60,17 @@ pub fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
             }
         }
     });
+}
+
+/// Shows that OSC comes in from the network, and not from this computer alone; a click turns it off.
+pub fn network_light(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+    let view = session.controls_view();
+    let Some(OscState::Listening(at)) = view.osc.filter(|_| view.is_osc_public) else { return };
+    let text = RichText::new("● OSC open").color(theme::of(ui).error).size(12.0);
+    let button = ui.add(Button::new(text).min_size(vec2(WIDTH.min(ui.available_width()), 24.0)));
+    accessible::name(&button, egui::Role::Button, "Turn OSC off");
+    let tip = format!("OSC is heard from the network at {at}; click to turn it off");
+    if out.clicked("light:osc", &button.on_hover_text(tip)) {
+        out.shell_commands.push(ShellCommand::StopOsc);
+    }
 }

@@ -54,6 +54,29 @@ pub fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
     popup.show(contents);
 }
 
+/// Shows the menu of a row: a right click anywhere in it opens it at the pointer, Shift+F10 and the menu key below the row while
+/// one of its widgets has the keyboard.
+pub fn context_of_row(row: &Response, contents: impl FnOnce(&mut Ui)) {
+    let ctx = &row.ctx;
+    let is_key = ctx.input(|i| i.focused && i.events.iter().any(is_menu_key));
+    let focused = || ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id));
+    let is_asked = is_key && focused().is_some_and(|widget| row.rect.contains_rect(widget.rect.shrink(4.0)));
+    let id = Id::unique((row.id, "menu by keys"));
+    if is_asked || row.container_secondary_clicked() {
+        ctx.data_mut(|d| d.insert_temp(id, is_asked));
+    }
+    let mut popup = Popup::menu(row).at_pointer_fixed();
+    if ctx.data(|d| d.get_temp(id)).unwrap_or(false) {
+        popup = popup.anchor(PopupAnchor::ParentRect(row.rect));
+    }
+    let change = if is_asked || row.container_secondary_clicked() {
+        Some(SetOpenCommand::Bool(true))
+    } else {
+        row.container_clicked().then_some(SetOpenCommand::Bool(false))
+    };
+    popup.open_memory(change).show(contents);
+}
+
 fn is_menu_key(event: &Event) -> bool {
     let Event::Key { key, pressed: true, modifiers, .. } = event else { return false };
     *key == Key::Menu || (*key == Key::F10 && modifiers.shift)

@@ -73,7 +73,7 @@ mod viewport;
 pub use app::run;
 
 use crate::{gpu::GpuError, session::SessionError, video::CameraSource};
-use std::{path::PathBuf, time::Duration};
+use std::{net::SocketAddr, path::PathBuf, time::Duration};
 
 /// The project to open, and how.
 #[derive(Clone, Debug, Default)]
@@ -94,6 +94,8 @@ pub struct Options {
     pub json: bool,
     /// The camera that is used where the person turns one on and chooses none.
     pub webcam: Option<CameraSource>,
+    /// OSC is listened to at this address, whatever the settings say.
+    pub osc: Option<SocketAddr>,
     /// The window's device is lost when this file appears: for tests.
     pub lose_device: Option<PathBuf>,
 }

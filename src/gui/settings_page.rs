@@ -4,16 +4,22 @@ use super::{
     accessible,
     actions::Action,
     fonts,
-    settings::{Change, Control, KEYS, Key, Number, SettingsFile, Theme},
+    settings::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, SettingsFile, Theme},
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
-use crate::session::{Command, Session};
+use crate::{
+    control::{midi::MidiChoice, osc::OscState},
+    session::{Command, ControlsView, Session},
+};
 use egui::{
     Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
     vec2,
 };
-use std::time::{Duration, Instant};
+use std::{
+    net::IpAddr,
+    time::{Duration, Instant},
+};
 
 /// As wide as a title and its widget need.
 const WIDTH: f32 = 620.0;
@@ -33,6 +39,16 @@ pub struct SettingsPage {
     typed: Option<String>,
     /// Says why what was typed last is not used.
     font_trouble: Option<String>,
+    /// The address while it is typed, and whether it is none.
+    address: Option<String>,
+    is_no_address: bool,
+}
+
+/// Settings that the command line has the last word on.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Overridden {
+    pub frame_limit: bool,
+    pub osc: bool,
 }
 
 impl SettingsPage {
@@ -64,20 +80,29 @@ impl SettingsPage {
         }
     }
 
-    /// Shows it; false when it is closed. `keeps_frame_limit`: the command line gave one.
+    /// Shows it; false when it is closed.
     pub fn show(
         &mut self,
         ui: &Ui,
         session: &Session,
         file: &SettingsFile,
-        keeps_frame_limit: bool,
+        overridden: Overridden,
         out: &mut UiOutput,
     ) -> bool {
+        let controls = session.controls_view();
+        if self.is_new && controls.has_midi {
+            out.ask(Command::ListMidiDevices);
+        }
         if self.is_new && session.output_view().is_some() {
             out.ask(Command::ListAudioDevices);
         }
         // A machine without sound has no devices to choose from.
-        let is_shown = |key: &Key| session.output_view().is_some() || !matches!(key.control, Control::Device { .. });
+        let is_shown = |key: &Key| match key.control {
+            Control::Device { .. } => session.output_view().is_some(),
+            Control::Midi => controls.has_midi,
+            _ if key.name == GAMEPADS => controls.has_gamepads,
+            _ => true,
+        };
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let modal = Modal::new(Id::unique("settings")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
@@ -98,9 +123,10 @@ impl SettingsPage {
                 ui.set_max_width(ui.available_width() - 12.0);
                 trouble(ui, file, out);
                 for key in KEYS.iter().filter(|key| is_shown(key)) {
-                    let note = (key.name == "frame-timeout" && keeps_frame_limit)
-                        .then_some("This window was started with --frame-timeout, which overrides it");
-                    ui.add_enabled_ui(file.trouble().is_none(), |ui| self.row(ui, session, key, file, note, out));
+                    let note = self.note(key, &controls, overridden);
+                    ui.add_enabled_ui(file.trouble().is_none(), |ui| {
+                        self.row(ui, session, key, file, note.as_deref(), out);
+                    });
                 }
             });
             out.place("settings:page", shown.inner_rect);
@@ -109,6 +135,26 @@ impl SettingsPage {
         });
         self.is_new = false;
         is_open && !modal.should_close()
+    }
+
+    /// Returns what is to be said of a setting besides what it does.
+    fn note(&self, key: &Key, controls: &ControlsView, overridden: Overridden) -> Option<String> {
+        let started = |option: &str| format!("This window was started with {option}, which overrides it");
+        match key.name {
+            "frame-timeout" if overridden.frame_limit => Some(started("--frame-timeout")),
+            "osc" | "osc-port" | "osc-address" if overridden.osc => Some(started("--osc")),
+            "osc" => match controls.osc.as_ref()? {
+                OscState::Missing(why) => Some(format!("OSC cannot listen: {why}")),
+                OscState::Starting | OscState::Listening(_) => None,
+            },
+            "osc-address" if self.is_no_address => Some(format!("The address {ADDRESS}")),
+            "osc-address" if controls.is_osc_public => {
+                Some("Anybody on the network can move the uniforms of the open project".into())
+            }
+            "midi" => controls.midi.missing.clone().filter(|_| controls.choice != MidiChoice::Off),
+            GAMEPADS => controls.gamepads.as_ref()?.trouble.clone(),
+            _ => None,
+        }
     }
 
     /// A setting: its title and what it does, and its widget at the right.
@@ -189,12 +235,15 @@ impl SettingsPage {
                     device(ui, key, get(settings), known.as_deref().unwrap_or_default(), *change, out);
                 }
                 Control::Font => self.font(ui, key, settings.code_font.as_deref().unwrap_or_default(), out),
+                Control::Address => self.address(ui, key, settings.osc_address, out),
+                Control::Midi => midi(ui, key, &settings.midi, &session.controls_view(), out),
             }
             if !key.is_usual(settings) {
                 let reset = ui.add(Button::new("Reset").frame(false)).on_hover_text(format!("Default: {}", key.usual));
                 accessible::name(&reset, Role::Button, format!("Reset {}", key.title.to_lowercase()));
                 if out.clicked(&format!("setting:{}:reset", key.name), &reset) {
                     (self.typed, self.font_trouble) = (None, None);
+                    (self.address, self.is_no_address) = (None, false);
                     out.shell_commands.push(ShellCommand::Set(key.usual_change()));
                 }
             }
@@ -223,7 +272,11 @@ impl SettingsPage {
         let less = step(ui, "−", "Decrease", now - number.step);
         let mut value = self.dragged.filter(|(name, _)| *name == key.name).map_or(now, |(_, value)| value);
         let field = DragValue::new(&mut value).range(number.least..=number.most).speed(number.step * 0.2);
-        let field = field.max_decimals(2).suffix(number.unit).update_while_editing(false);
+        // A number without a unit is a whole one.
+        let field = field
+            .max_decimals(if number.unit.is_empty() { 0 } else { 2 })
+            .suffix(number.unit)
+            .update_while_editing(false);
         let response = ui.add_sized(vec2(76.0, 24.0), field);
         accessible::name(&response, Role::SpinButton, key.title);
         let more = step(ui, "+", "Increase", now + number.step);
@@ -241,6 +294,26 @@ impl SettingsPage {
         out.place(format!("setting:{}:less", key.name), less);
         out.place(format!("setting:{}", key.name), response.rect);
         out.place(format!("setting:{}:more", key.name), more);
+    }
+
+    fn address(&mut self, ui: &mut Ui, key: &Key, now: IpAddr, out: &mut UiOutput) {
+        let mut text = self.address.clone().unwrap_or_else(|| now.to_string());
+        let field = TextEdit::singleline(&mut text).desired_width(150.0).background_color(theme::of(ui).button);
+        let field = ui.add(field.margin(Margin::symmetric(6, 3)));
+        accessible::name(&field, Role::TextInput, key.title);
+        out.place(format!("setting:{}", key.name), field.rect);
+        if field.changed() {
+            (self.address, self.is_no_address) = (Some(text), false);
+        }
+        // Escape closes the page, and leaves the address as it was.
+        let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
+        let Some(typed) = (if field.lost_focus() { self.address.take() } else { None }) else { return };
+        match typed.trim().parse() {
+            _ if is_given_up => {}
+            Ok(address) if address != now => out.shell_commands.push(ShellCommand::Set(Change::OscAddress(address))),
+            Ok(_) => {}
+            Err(_) => (self.address, self.is_no_address) = (Some(typed), true),
+        }
     }
 
     fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut UiOutput) {
@@ -296,6 +369,31 @@ fn device(
             }
         },
     );
+    accessible::name(&shown.response, Role::ComboBox, key.title);
+    out.place(format!("setting:{}", key.name), shown.response.rect);
+}
+
+/// The devices of MIDI: none, all, or one of those that there are. One that is chosen and not there stays chosen.
+fn midi(ui: &mut Ui, key: &Key, now: &MidiChoice, controls: &ControlsView, out: &mut UiOutput) {
+    let title = |choice: &MidiChoice| match choice {
+        MidiChoice::Off => "Off".to_owned(),
+        MidiChoice::All => "All devices".to_owned(),
+        MidiChoice::Named(name) => name.clone(),
+    };
+    let combo = ComboBox::from_id_salt(key.name).width(200.0).selected_text(title(now)).truncate();
+    let shown = combo.show_ui(ui, |ui| {
+        let mut choices = vec![MidiChoice::Off, MidiChoice::All];
+        choices.extend(controls.midi.names.iter().flatten().cloned().map(MidiChoice::Named));
+        if !choices.contains(now) {
+            choices.push(now.clone());
+        }
+        for (n, choice) in choices.into_iter().enumerate() {
+            let entry = ui.selectable_label(choice == *now, title(&choice));
+            if out.clicked(&format!("setting:{}:{n}", key.name), &entry) {
+                out.shell_commands.push(ShellCommand::Set(Change::Midi(choice)));
+            }
+        }
+    });
     accessible::name(&shown.response, Role::ComboBox, key.title);
     out.place(format!("setting:{}", key.name), shown.response.rect);
 }

@@ -55,6 +55,8 @@ pub enum ShellCommand {
     /// The project that takes the place of the open one stays paused.
     ShowRecovered,
     Set(Change),
+    /// OSC is not listened to any more, whoever had it listened to.
+    StopOsc,
     ClosePanel(Panel),
     /// Makes the edits of a quick fix.
     Fix(TabFix),

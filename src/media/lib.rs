@@ -7,6 +7,7 @@ pub mod builtin;
 mod error;
 mod film;
 mod flatten;
+mod gamepads;
 mod gather;
 mod halve;
 pub mod keyboard;
@@ -18,6 +19,7 @@ mod site;
 mod sound;
 
 pub use error::MediaError;
+pub use gamepads::Gamepads;
 pub use gather::{files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;

@@ -29,6 +29,7 @@ impl Project {
             renamed.retain(|(from, to)| declared.get(from).is_none() && declared.get(to).is_some());
         }
         for (from, to) in &renamed {
+            self.rename_controls(from, to);
             if !self.custom_uniform_values.contains_key(to)
                 && let Some(value) = self.custom_uniform_values.remove(from)
             {
@@ -36,6 +37,20 @@ impl Project {
             }
         }
         renamed
+    }
+
+    /// Hands the controls of a uniform on to its new name, where that has none of its own.
+    fn rename_controls(&mut self, from: &str, to: &str) {
+        if self.controls.keys().any(|target| target.uniform == to) {
+            return;
+        }
+        let renamed = std::mem::take(&mut self.controls).into_iter().map(|(mut target, address)| {
+            if target.uniform == from {
+                target.uniform = to.to_owned();
+            }
+            (target, address)
+        });
+        self.controls = renamed.collect();
     }
 
     /// Sets one custom uniform from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`,

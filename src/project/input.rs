@@ -28,6 +28,7 @@ pub enum InputKind {
     Music,
     Microphone,
     Webcam,
+    Gamepad,
 }
 
 /// The variant of [`Input`] that a kind belongs to.
@@ -93,7 +94,7 @@ const PASS: InputRow = InputRow { source: InputSource::Pass, has_vflip: false, f
 const DEVICE: InputRow = InputRow { source: InputSource::Device, files: 0, ..PICTURE };
 
 /// Every kind, in the order in which messages list them and in which [`InputKind`] has them.
-static ROWS: [InputRow; 10] = [
+static ROWS: [InputRow; 11] = [
     InputRow {
         kind: InputKind::Buffer,
         title: "Buffer",
@@ -182,6 +183,19 @@ static ROWS: [InputRow; 10] = [
         json_type: "webcam",
         json_id: Some(("4sf3zn", "/presets/webcam.png")),
         directive: Some("webcam"),
+        ..DEVICE
+    },
+    // The site has none.
+    InputRow {
+        kind: InputKind::Gamepad,
+        title: "Gamepad",
+        glyph: "G",
+        key: "gamepad",
+        json_type: "gamepad",
+        directive: Some("gamepad"),
+        sampler: Sampler::KEYBOARD,
+        has_fixed_sampler: true,
+        has_vflip: false,
         ..DEVICE
     },
 ];

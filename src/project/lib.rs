@@ -6,6 +6,7 @@
 mod advice;
 mod atomic;
 pub mod confine;
+mod controls;
 mod custom_uniform_values;
 mod custom_uniforms;
 pub mod directives;
@@ -30,6 +31,7 @@ mod locate;
 mod manifest;
 mod model;
 mod names;
+mod pads;
 mod pass_edits;
 mod pass_id;
 mod pass_kind;
@@ -45,6 +47,7 @@ mod writes;
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, write_with};
 pub use confine::FileError;
+pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
@@ -71,6 +74,7 @@ pub use locate::{load, stem};
 pub use manifest::write as write_manifest;
 pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};
+pub use pads::{PAD_AXES, PAD_BUTTONS, PADS, PadPart};
 pub use pass_edits::{PassEdit, PassEditError, PassEdited};
 pub use pass_id::PassId;
 pub use pass_kind::{PassKind, PassRow};

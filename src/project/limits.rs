@@ -114,6 +114,22 @@ pub const FILES: usize = 50_000;
 pub const DRAWS: u64 = 20_000;
 /// Values in `[uniforms]`.
 pub const UNIFORMS: usize = 1_000;
+/// Entries in `[controls]`.
+pub const CONTROLS: usize = 1_000;
+/// Letters of the OSC address of a control.
+pub const OSC_PATH: usize = 255;
+/// A datagram of OSC: the most that UDP carries over IPv4. Longer ones are cut by the system and dropped.
+pub const OSC_PACKET: Limit = Limit { bytes: 65_507, of: "an OSC packet" };
+/// Messages of an OSC packet, those of bundles in it among them.
+pub const OSC_MESSAGES: usize = 1_024;
+/// Bundles in one another.
+pub const OSC_DEPTH: usize = 8;
+/// Arguments of an OSC message.
+pub const OSC_ARGUMENTS: usize = 64;
+/// Movements of controls that wait for the next frame.
+pub const CONTROL_EVENTS: usize = 4_096;
+/// MIDI devices that are open at once.
+pub const MIDI_PORTS: usize = 32;
 /// Letters of a buffer's or a group's name.
 pub const NAME: usize = 64;
 

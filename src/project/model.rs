@@ -1,6 +1,6 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{CustomUniformValues, Group, Included, Input, PassId, PassSettings, Source};
+use super::{ControlBindings, CustomUniformValues, Group, Included, Input, PassId, PassSettings, Source};
 use eddy_texture::{Dimension, Face, TexelFormat};
 use std::{collections::BTreeSet, path::PathBuf};
 
@@ -21,6 +21,8 @@ pub struct Project {
     /// Values of the author's own uniforms by name: of [`Project::custom_uniforms`] those that differ from the default,
     /// and those of uniforms that a text declares in GLSL's own way.
     pub custom_uniform_values: CustomUniformValues,
+    /// Controls of MIDI and OSC devices that move uniforms.
+    pub controls: ControlBindings,
     /// Files that the texts have in them, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,
     pub origin: Origin,
@@ -219,6 +221,7 @@ impl Project {
             passes,
             sampler_rules: SamplerRules::PerChannel,
             custom_uniform_values: Default::default(),
+            controls: Default::default(),
             groups: Vec::new(),
             includes: Vec::new(),
             origin,

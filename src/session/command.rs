@@ -7,9 +7,10 @@ use super::{
     probe::{ProbeLook, ProbePlace},
     view::Level,
 };
+use eddy_control::midi::MidiChoice;
 use eddy_playback::{comparing::Baseline, scene::Scene};
-use eddy_project::{Channel, CustomUniformValue, InputKind, Origin, PassEdit, PassId, Project, Tab};
-use std::{path::PathBuf, sync::Arc, time::Duration};
+use eddy_project::{Channel, ControlTarget, CustomUniformValue, InputKind, Origin, PassEdit, PassId, Project, Tab};
+use std::{net::SocketAddr, path::PathBuf, sync::Arc, time::Duration};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
 /// reloading, drawing) happens in later ticks.
@@ -88,6 +89,18 @@ pub enum Command {
     /// Records by the microphone for channels that read it, until this is taken back or Eddy ends. Nothing but a person
     /// asks for it.
     UseMicrophone(bool),
+    /// Listens to OSC at an address; `None`: no longer. Nothing but a person asks for it.
+    SetOsc(Option<SocketAddr>),
+    /// Listens to MIDI devices. Nothing but a person asks for it.
+    SetMidi(MidiChoice),
+    /// Reads gamepads. Nothing but a person asks for it.
+    SetGamepads(bool),
+    /// Looks which devices there are: see [`Session::controls_view`](super::Session::controls_view).
+    ListMidiDevices,
+    /// Has the control that moves next move a number of a uniform; `None`: waits no longer.
+    LearnControl(Option<ControlTarget>),
+    /// No control moves it any more.
+    ForgetControl(ControlTarget),
     /// Draws nothing more of the open project before [`Command::Play`], [`Command::Step`] or [`Command::GoOn`]: right
     /// after [`Command::Open`], nothing at all.
     Hold,

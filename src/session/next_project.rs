@@ -35,6 +35,7 @@ impl Session {
         self.playback.begin_next_project();
         self.devices.begin_next_project();
         self.audio.begin_next_project();
+        self.controls.begin_next_project();
         self.picture.begin_next_project();
         self.watched.begin_next_project();
         self.last_pictures.ticket = Ticket::default();

@@ -2,6 +2,7 @@
 
 use super::drawing;
 use eddy_audio::host::AudioHost;
+use eddy_control::{midi::host::MidiHost, pads::PadHost};
 use eddy_engine::EngineError;
 use eddy_playback::trial::TrialSettings;
 use eddy_video::CameraSource;
@@ -41,7 +42,11 @@ pub struct SessionOptions {
     pub cache_dir: Option<PathBuf>,
     /// The sound of the machine; without, nothing is heard and nothing recorded.
     pub audio: Option<Arc<dyn AudioHost>>,
-    /// Open devices of sound on threads of their own, so that no tick waits for one. Off, ticks open them.
+    /// The MIDI of the machine; without, no control of a MIDI device moves anything.
+    pub midi: Option<Arc<dyn MidiHost>>,
+    /// The gamepads of the machine; without, channels that read them read zeros.
+    pub gamepads: Option<Arc<dyn PadHost>>,
+    /// Open devices of sound and MIDI on threads of their own, so that no tick waits for one. Off, ticks open them.
     pub audio_on_thread: bool,
 }
 
@@ -61,6 +66,8 @@ impl Default for SessionOptions {
             state_dir: None,
             cache_dir: None,
             audio: None,
+            midi: None,
+            gamepads: None,
             audio_on_thread: true,
         }
     }

@@ -1,7 +1,10 @@
 //! Steps back from edits of passes, channels and uniforms, and forth again.
 
-use eddy_project::{CustomUniformValues, PassEdit, PassId, Project};
-use std::time::{Duration, Instant};
+use eddy_project::{CustomUniformValues, PassEdit, PassId, Project, listed};
+use std::{
+    collections::BTreeSet,
+    time::{Duration, Instant},
+};
 
 /// Steps that are kept; each is a project whose texts are shared with the next.
 const STEPS: usize = 200;
@@ -22,8 +25,19 @@ pub(super) struct PassHistory {
 pub(super) enum Side {
     /// The project on the other side of the step.
     Passes(Box<Project>),
-    /// The values of uniforms there, and the uniform that was turned; `None`: several.
-    Uniforms(CustomUniformValues, Option<String>),
+    /// The values of uniforms there, and what turned them.
+    Uniforms(CustomUniformValues, Turned),
+}
+
+/// The way in which uniforms were turned.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Turned {
+    /// One by hand.
+    One(String),
+    /// All of them at once.
+    All,
+    /// These by controls of devices.
+    ByControls(BTreeSet<String>),
 }
 
 #[derive(Clone, Debug)]
@@ -71,14 +85,30 @@ impl PassHistory {
         let at = Instant::now();
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
-            && matches!(&last.side, Side::Uniforms(_, Some(turned)) if Some(turned.as_str()) == name)
+            && matches!(&last.side, Side::Uniforms(_, Turned::One(turned)) if Some(turned.as_str()) == name)
             && at.saturating_duration_since(last.at) < PAUSE
         {
             last.at = at;
             return;
         }
         let title = name.map_or_else(|| "reset all uniforms".to_owned(), turning);
-        self.add(title, Side::Uniforms(before, name.map(str::to_owned)), None, None, at);
+        let turned = name.map_or(Turned::All, |name| Turned::One(name.to_owned()));
+        self.add(title, Side::Uniforms(before, turned), None, None, at);
+    }
+
+    /// Notes that controls of devices turned uniforms. What moves without a pause makes one step, however many controls.
+    pub fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>) {
+        let at = Instant::now();
+        self.redo.clear();
+        if let Some(last) = self.undo.last_mut()
+            && let Side::Uniforms(_, Turned::ByControls(turned)) = &mut last.side
+            && at.saturating_duration_since(last.at) < PAUSE
+        {
+            turned.extend(names);
+            (last.title, last.at) = (turning_all(turned), at);
+            return;
+        }
+        self.add(turning_all(&names), Side::Uniforms(before, Turned::ByControls(names)), None, None, at);
     }
 
     /// A uniform has another name from now on, on both sides of every step.
@@ -87,9 +117,18 @@ impl PassHistory {
             let values = match &mut step.side {
                 Side::Passes(project) => &mut project.custom_uniform_values,
                 Side::Uniforms(values, turned) => {
-                    if turned.as_deref() == Some(from) {
-                        *turned = Some(to.to_owned());
-                        step.title = turning(to);
+                    match turned {
+                        Turned::One(name) if name == from => {
+                            to.clone_into(name);
+                            step.title = turning(to);
+                        }
+                        Turned::ByControls(names) => {
+                            if names.remove(from) {
+                                names.insert(to.to_owned());
+                                step.title = turning_all(names);
+                            }
+                        }
+                        Turned::One(_) | Turned::All => {}
                     }
                     values
                 }
@@ -119,6 +158,13 @@ impl PassHistory {
 /// The title of a step that turned a uniform.
 fn turning(name: &str) -> String {
     format!("change {name}")
+}
+
+fn turning_all(names: &BTreeSet<String>) -> String {
+    match names.len() {
+        0..=3 => turning(&listed(&names.iter().collect::<Vec<_>>())),
+        count => format!("change {count} uniforms"),
+    }
 }
 
 impl Step {

@@ -183,6 +183,7 @@ fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassId,
         name: here.name.clone(),
         info: here.info.clone(),
         custom_uniform_values: here.custom_uniform_values.clone(),
+        controls: here.controls.clone(),
         includes: here.includes.clone(),
         origin: here.origin.clone(),
         ..there

@@ -10,6 +10,7 @@ use super::{
     command::{PendingAction, Question, Request},
     compare::Comparing,
     compile::CompileControl,
+    controls::Controls,
     devices::Devices,
     disk::DiskSync,
     documents::Documents,
@@ -54,6 +55,7 @@ pub struct Session {
     pub(super) playback: Playback,
     pub(super) devices: Devices,
     pub(super) audio: Audio,
+    pub(super) controls: Controls,
     pub(super) picture: Picture,
     pub(super) watched: ReadBacks,
     pub(super) tracing: Tracing,
@@ -136,7 +138,6 @@ impl Session {
         let comparing = Comparing::new(wake.clone()).map_err(SessionError::Thread)?;
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
-            wake,
             analyst,
             drawing,
             halting: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
@@ -153,6 +154,7 @@ impl Session {
             playback: Playback::default(),
             devices: Devices::default(),
             audio: Audio::new(options.audio.clone(), options.audio_on_thread),
+            controls: Controls::new(&options, wake.clone()),
             picture: Picture::default(),
             watched: ReadBacks::default(),
             tracing,
@@ -168,6 +170,7 @@ impl Session {
             renamed: Vec::new(),
             changed: true,
             now: Instant::now(),
+            wake,
             options,
         };
         match UnsavedWork::new(session.options.recovery.clone(), &session.wake) {

@@ -7,8 +7,18 @@ use std::collections::BTreeSet;
 /// Returns whether two projects are the same but for their texts and their places on disk.
 pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     // Taken apart whole, here and below: a member that is added finds its place here or does not compile.
-    let Project { name, info, common, passes, sampler_rules, groups, custom_uniform_values, includes: _, origin: _ } =
-        a;
+    let Project {
+        name,
+        info,
+        common,
+        passes,
+        sampler_rules,
+        groups,
+        custom_uniform_values,
+        controls,
+        includes: _,
+        origin: _,
+    } = a;
     *name == b.name
         && *info == b.info
         && common.is_some() == b.common.is_some()
@@ -16,6 +26,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
         && *sampler_rules == b.sampler_rules
         && *groups == b.groups
         && *custom_uniform_values == b.custom_uniform_values
+        && *controls == b.controls
 }
 
 /// Returns what differs but the texts, in words that follow "Unsaved changes: ".
@@ -38,6 +49,7 @@ pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
         say(pass.channels != before.channels, &format!("channels of {}", pass.id.title()));
         say(!is_same_setting(&pass.settings, &before.settings), &format!("settings of {}", pass.id.title()));
     }
+    say(now.controls != saved.controls, "controls of uniforms");
     let (values, before) = (&now.custom_uniform_values, &saved.custom_uniform_values);
     let names: BTreeSet<&String> = values.keys().chain(before.keys()).collect();
     let turned: Vec<String> =

@@ -66,6 +66,13 @@ pub enum About {
     Sound,
     /// A device that records it.
     Microphone,
+    /// OSC that cannot be listened to.
+    Osc,
+    /// Devices of MIDI.
+    Midi,
+    Gamepads,
+    /// A control that was learned.
+    Controls,
     /// A project that was to be written for the site.
     Export,
     /// A camera.

@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program, ValueLook},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
-    project::{Filter, PassId, Project, Source, TexelFormat, Wrap},
+    project::{Channel, Filter, Input, InputKind, PadPart, PassId, Project, Source, TexelFormat, Wrap},
 };
 
 const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -136,6 +136,37 @@ fn uniforms_arrive_where_they_belong() {
     assert_eq!(texel(&pixels, 2, 0), inputs.date);
     assert_eq!(texel(&pixels, 3, 0), [1.0 / 60.0, 60.0, 44100.0, 30.0]);
     assert_eq!(texel(&pixels, 4, 0), [5.0, 1.0, 1.0, 0.0]);
+}
+
+/// The three rows of the second pad, its last column and the size; zeros where nothing moves.
+#[test]
+fn gamepads_are_a_texture_of_17_by_12() {
+    let Some(gpu) = gpu() else { return };
+    let a = "void mainImage(out vec4 o, in vec2 p) {
+        if (int(p.x) == 0) o = vec4(texelFetch(iChannel0, ivec2(1, 3), 0).r, texelFetch(iChannel0, ivec2(7, 4), 0).r,
+                                    texelFetch(iChannel0, ivec2(7, 5), 0).r, texelFetch(iChannel0, ivec2(16, 3), 0).r);
+        else o = vec4(iChannelResolution[0].xy, texture(iChannel0, (vec2(1, 3) + 0.9) / vec2(17, 12)).r, 0.0);
+    }";
+    let channel = Channel::new(Input::Device(InputKind::Gamepad));
+    let project = project(vec![
+        pass(buffer("A"), a, [Some(channel), None, None, None]),
+        image(
+            "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }",
+            [nearest("A"), None, None, None],
+        ),
+    ]);
+    let mut engine = engine(&gpu, &project, (2, 1));
+    engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).unwrap();
+    let pixels = engine.read(&buffer("A")).unwrap();
+    assert_eq!([texel(&pixels, 0, 0), texel(&pixels, 1, 0)], [[0.0; 4], [17.0, 12.0, 0.0, 0.0]]);
+    let mut inputs = FrameInputs::at_fixed_step(1, 60.0);
+    inputs.gamepads.connect(1, true);
+    inputs.gamepads.move_to(1, PadPart::Axis(1), -0.75);
+    inputs.gamepads.move_to(1, PadPart::Button(7), 0.625);
+    engine.draw(&inputs).unwrap();
+    let pixels = engine.read(&buffer("A")).unwrap();
+    assert_eq!(texel(&pixels, 0, 0), [-0.75, 0.625, 1.0, 1.0]);
+    assert_eq!(texel(&pixels, 1, 0), [17.0, 12.0, -0.75, 0.0], "read without a filter");
 }
 
 #[test]

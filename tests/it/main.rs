@@ -26,6 +26,7 @@ mod fills;
 mod films;
 mod fixes;
 mod frame_bands;
+mod gamepads;
 mod geometry;
 mod geometry_files;
 mod glsl_bounds;

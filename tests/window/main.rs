@@ -9,6 +9,7 @@ mod window;
 mod window_audit;
 mod window_buffers;
 mod window_compare;
+mod window_controls;
 mod window_costs;
 mod window_devices;
 mod window_editor;

@@ -19,9 +19,9 @@ use crate::{
 };
 use clap::{Args, Parser, Subcommand};
 use run::WithoutPass;
-use std::{path::PathBuf, time::Duration};
+use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
-use values::{PROJECT, seconds, size, webcam};
+use values::{PROJECT, osc, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -57,6 +57,9 @@ pub struct Window {
     /// ffmpeg as in lavfi:testsrc [default: the first camera]
     #[arg(long, value_name = "CAMERA", value_parser = webcam)]
     pub webcam: Option<CameraSource>,
+    /// Listen to OSC at this UDP port for this run, at 127.0.0.1 unless an address of this computer is given
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = osc)]
+    pub osc: Option<SocketAddr>,
     /// Print events of the window to standard output, one JSON object per line
     #[arg(long)]
     pub json: bool,

@@ -7,7 +7,7 @@ use crate::{
     texture::Face,
     video::CameraSource,
 };
-use std::{env, fs::File, io::BufReader, sync::Arc, time::Duration};
+use std::{env, fs::File, io::BufReader, net::SocketAddr, sync::Arc, time::Duration};
 
 pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
@@ -129,9 +129,35 @@ pub fn webcam(text: &str) -> Result<CameraSource, String> {
     Ok(CameraSource::of_text(text))
 }
 
+/// Reads `9000`, `192.168.1.2:9000` or `[::1]:9000`.
+pub fn osc(text: &str) -> Result<SocketAddr, String> {
+    let address = match text.parse() {
+        Ok(port) => Ok(SocketAddr::from(([127, 0, 0, 1], port))),
+        Err(_) => text.parse(),
+    };
+    let address = address.map_err(|_| "write a port from 1 to 65535, or ADDR:PORT as in 0.0.0.0:9000".to_owned())?;
+    if address.port() == 0 { Err("the port must be from 1 to 65535".into()) } else { Ok(address) }
+}
+
 pub fn fps(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(fps) if fps.is_finite() && fps > 0.0 => Ok(fps),
         _ => Err("frames per second must be a number above 0".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn osc_is_heard_at_the_loopback_address_unless_another_one_is_given() {
+        let read = |text: &str| osc(text).map(|address| address.to_string()).map_err(|_| ());
+        assert_eq!(read("9000"), Ok("127.0.0.1:9000".into()));
+        assert_eq!(read("0.0.0.0:8000"), Ok("0.0.0.0:8000".into()));
+        assert_eq!(read("[::1]:8000"), Ok("[::1]:8000".into()));
+        for wrong in ["", "0", "65536", "127.0.0.1", "localhost:9000", "0.0.0.0:0", "-1"] {
+            assert_eq!(read(wrong), Err(()), "{wrong}");
+        }
     }
 }

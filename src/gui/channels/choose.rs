@@ -6,7 +6,9 @@ use super::{
 };
 use crate::{
     gui::{
-        accessible, devices, theme,
+        accessible,
+        actions::Action,
+        devices, theme,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
@@ -73,6 +75,9 @@ pub fn choose(
     if now.is_some_and(|input| input.kind() == InputKind::Microphone) {
         microphone(ui, session, out);
     }
+    if now.is_some_and(|input| input.kind() == InputKind::Gamepad) {
+        gamepads(ui, session, out);
+    }
     ui.separator();
     ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
@@ -107,6 +112,23 @@ fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         if out.clicked("choose:use-microphone", &ui.button(text)) {
             out.ask(Command::UseMicrophone(!view.is_on));
+        }
+        ui.colored_label(theme::of(ui).weak, note);
+    });
+}
+
+/// Says what there is to read of gamepads, which the settings switch on.
+fn gamepads(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+    let view = session.controls_view();
+    let note = match view.gamepads {
+        _ if !view.has_gamepads => "This build of Eddy reads no gamepads: the channel is zero.".to_owned(),
+        None => "Gamepads are off: the channel is zero.".to_owned(),
+        Some(pads) if pads.connected.is_empty() => "No gamepad is connected.".to_owned(),
+        Some(pads) => pads.connected.into_values().collect::<Vec<_>>().join(", "),
+    };
+    ui.horizontal_wrapped(|ui| {
+        if view.has_gamepads && out.clicked("choose:gamepad-settings", &ui.button("Settings…")) {
+            out.act(Action::Settings);
         }
         ui.colored_label(theme::of(ui).weak, note);
     });

@@ -167,7 +167,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             std::fs::write(&file, text).unwrap();
             let mut settings = SettingsFile::at(Some(file.clone()));
             settings.refresh();
-            stage.state_mut().shell.restore(settings, &Remembered::default(), true);
+            stage.state_mut().shell.restore(settings, &Remembered::default(), true, None);
             stage.run_steps(2);
             press(&mut stage, CTRL, Key::Comma);
             // The theme is the settings' own until now.

@@ -50,6 +50,8 @@ pub fn run(
 #[cfg(test)]
 mod contrast;
 #[cfg(test)]
+mod controls;
+#[cfg(test)]
 mod edits;
 #[cfg(test)]
 mod fields;

@@ -109,14 +109,16 @@ pub fn template() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::settings::Theme;
+    use crate::{control::midi::MidiChoice, gui::settings::Theme};
     use std::time::Duration;
 
     #[test]
     fn settings_are_read_and_every_mistake_is_told_at_its_line() {
         let (settings, mistakes) = read(
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
-             code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\naudio-output = \"Speakers\"\naudio-input = \"\"\n",
+             code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
+             audio-output = \"Speakers\"\naudio-input = \"\"\n\
+             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -132,6 +134,11 @@ mod tests {
             mute: true,
             audio_output: Some("Speakers".into()),
             audio_input: None,
+            osc: true,
+            osc_port: 8000,
+            osc_address: "0.0.0.0".parse().unwrap(),
+            midi: MidiChoice::Named("Knobs".into()),
+            gamepads: true,
         };
         assert_eq!(settings, wanted);
         let text =
@@ -139,8 +146,8 @@ mod tests {
         let (settings, mistakes) = read(text);
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
-        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, volume, mute, \
-                   audio-output, audio-input";
+        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
+                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),

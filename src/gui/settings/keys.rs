@@ -1,6 +1,10 @@
 //! The settings there are: what each is called, what it may be, and what it is at first.
 
-use std::time::Duration;
+use crate::control::midi::MidiChoice;
+use std::{
+    net::{IpAddr, Ipv4Addr, SocketAddr},
+    time::Duration,
+};
 use toml_edit::Value;
 
 /// The window's colours.
@@ -56,7 +60,28 @@ pub struct Settings {
     /// The devices that play and record, by name; none: the system's default ones.
     pub audio_output: Option<String>,
     pub audio_input: Option<String>,
+    /// OSC is listened to.
+    pub osc: bool,
+    pub osc_port: u16,
+    /// The address of this machine that OSC comes in by.
+    pub osc_address: IpAddr,
+    pub midi: MidiChoice,
+    pub gamepads: bool,
 }
+
+impl Settings {
+    /// Returns where OSC is listened to, if it is.
+    pub fn osc(&self) -> Option<SocketAddr> {
+        self.osc.then(|| SocketAddr::new(self.osc_address, self.osc_port))
+    }
+}
+
+/// The port that controllers of OSC send to at first.
+const OSC_PORT: u16 = 9000;
+/// The setting that a build without gamepads does not show.
+pub const GAMEPADS: &str = "gamepads";
+const OFF: &str = "off";
+const ALL: &str = "all";
 
 pub const ZOOMS: std::ops::RangeInclusive<f32> = 0.5..=4.0;
 pub const CODE_SIZES: std::ops::RangeInclusive<f32> = 8.0..=32.0;
@@ -77,6 +102,11 @@ impl Default for Settings {
             mute: false,
             audio_output: None,
             audio_input: None,
+            osc: false,
+            osc_port: OSC_PORT,
+            osc_address: Ipv4Addr::LOCALHOST.into(),
+            midi: MidiChoice::Off,
+            gamepads: false,
         }
     }
 }
@@ -98,6 +128,11 @@ pub enum Change {
     /// The name of a device; none: the system's default one.
     AudioOutput(Option<String>),
     AudioInput(Option<String>),
+    Osc(bool),
+    OscPort(u16),
+    OscAddress(IpAddr),
+    Midi(MidiChoice),
+    Gamepads(bool),
 }
 
 impl Change {
@@ -119,6 +154,18 @@ impl Change {
             Change::Mute(on) => ("mute", (*on).into()),
             Change::AudioOutput(device) => ("audio-output", device.as_deref().unwrap_or_default().into()),
             Change::AudioInput(device) => ("audio-input", device.as_deref().unwrap_or_default().into()),
+            Change::Osc(on) => ("osc", (*on).into()),
+            Change::OscPort(port) => ("osc-port", i64::from(*port).into()),
+            Change::OscAddress(address) => ("osc-address", address.to_string().into()),
+            Change::Gamepads(on) => (GAMEPADS, (*on).into()),
+            Change::Midi(choice) => {
+                let name: &str = match choice {
+                    MidiChoice::Off => OFF,
+                    MidiChoice::All => ALL,
+                    MidiChoice::Named(name) => name,
+                };
+                ("midi", name.into())
+            }
         }
     }
 
@@ -136,6 +183,11 @@ impl Change {
             Change::Mute(on) => settings.mute = *on,
             Change::AudioOutput(device) => settings.audio_output.clone_from(device),
             Change::AudioInput(device) => settings.audio_input.clone_from(device),
+            Change::Osc(on) => settings.osc = *on,
+            Change::OscPort(port) => settings.osc_port = *port,
+            Change::OscAddress(address) => settings.osc_address = *address,
+            Change::Midi(choice) => settings.midi.clone_from(choice),
+            Change::Gamepads(on) => settings.gamepads = *on,
         }
     }
 }
@@ -157,6 +209,10 @@ pub enum Control {
         get: fn(&Settings) -> Option<&str>,
         change: fn(Option<String>) -> Change,
     },
+    /// An address of this machine.
+    Address,
+    /// The devices of MIDI.
+    Midi,
 }
 
 pub struct Number {
@@ -341,7 +397,74 @@ pub const KEYS: &[Key] = &[
         usual: "\"\"",
         read: |value| device(value).map(Change::AudioInput),
     },
+    Key {
+        name: "osc",
+        title: "OSC",
+        help: "Let controllers that send OSC over UDP move uniforms",
+        control: Control::Switch { get: |settings| settings.osc, change: Change::Osc },
+        about: "Listen to OSC (Open Sound Control) over UDP: true or false",
+        usual: "false",
+        read: |value| switch(value).map(Change::Osc),
+    },
+    Key {
+        name: "osc-port",
+        title: "OSC port",
+        help: "The UDP port that the controller sends to",
+        control: Control::Number(Number {
+            get: |settings| f64::from(settings.osc_port),
+            change: |port| Change::OscPort(port.round().clamp(1.0, 65_535.0) as u16),
+            least: 1.0,
+            most: 65_535.0,
+            step: 1.0,
+            unit: "",
+        }),
+        about: "UDP port for OSC, from 1 to 65535",
+        usual: "9000",
+        read: |value| {
+            let port = value.as_integer().and_then(|port| u16::try_from(port).ok()).filter(|port| *port > 0);
+            port.map(Change::OscPort).ok_or_else(|| "must be a whole number from 1 to 65535".into())
+        },
+    },
+    Key {
+        name: "osc-address",
+        title: "OSC address",
+        help: "127.0.0.1 hears programs on this computer only; 0.0.0.0 hears the whole network",
+        control: Control::Address,
+        about: "Address at which OSC is heard: \"127.0.0.1\" for this computer only, \"0.0.0.0\" for the whole network",
+        usual: "\"127.0.0.1\"",
+        read: |value| {
+            let address = value.as_str().and_then(|text| text.trim().parse().ok());
+            address.map(Change::OscAddress).ok_or_else(|| ADDRESS.into())
+        },
+    },
+    Key {
+        name: "midi",
+        title: "MIDI",
+        help: "Let MIDI controllers move uniforms",
+        control: Control::Midi,
+        about: "MIDI devices that are heard: \"off\", \"all\", or the name of one",
+        usual: "\"off\"",
+        read: |value| match value.as_str() {
+            Some(OFF) => Ok(Change::Midi(MidiChoice::Off)),
+            Some(ALL) => Ok(Change::Midi(MidiChoice::All)),
+            Some(name) if !name.trim().is_empty() => Ok(Change::Midi(MidiChoice::Named(name.to_owned()))),
+            _ => Err("must be \"off\", \"all\" or the name of a device".into()),
+        },
+    },
+    Key {
+        name: GAMEPADS,
+        title: "Gamepads",
+        help: "Let gamepads move uniforms, and channels read them",
+        control: Control::Switch { get: |settings| settings.gamepads, change: Change::Gamepads },
+        about: "Read gamepads, in a build with the feature gamepad: true or false",
+        usual: "false",
+        read: |value| switch(value).map(Change::Gamepads),
+    },
 ];
+
+/// Says what an address must be.
+pub const ADDRESS: &str =
+    "must be an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them";
 
 fn device(value: &Value) -> Result<Option<String>, String> {
     let name = value.as_str().ok_or("must be the name of a device, or \"\" for the default of the system")?;
@@ -366,6 +489,8 @@ impl Key {
             Control::Number(number) => (number.change)((number.get)(settings)),
             Control::Font => Change::CodeFont(settings.code_font.clone()),
             Control::Device { get, change, .. } => change(get(settings).map(str::to_owned)),
+            Control::Address => Change::OscAddress(settings.osc_address),
+            Control::Midi => Change::Midi(settings.midi.clone()),
         }
     }
 }
@@ -400,6 +525,11 @@ mod tests {
                 Control::Number(number) => [number.least, number.most].map(number.change).to_vec(),
                 Control::Font => vec![Change::CodeFont(Some("/a b/\"c\".ttf".into())), Change::CodeFont(None)],
                 Control::Device { change, .. } => vec![change(Some("Loud \"speakers\" 5.1".into())), change(None)],
+                Control::Address => ["0.0.0.0", "::1"].map(|text| Change::OscAddress(text.parse().unwrap())).to_vec(),
+                Control::Midi => vec![MidiChoice::All, MidiChoice::Named("a \"b\" 20".into())]
+                    .into_iter()
+                    .map(Change::Midi)
+                    .collect(),
             };
             for change in changes {
                 let (name, value) = change.written();

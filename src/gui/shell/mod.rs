@@ -22,7 +22,7 @@ use super::{
     palette::Palette,
     questions,
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
-    settings_page::SettingsPage,
+    settings_page::{Overridden, SettingsPage},
     thumbnails::Thumbnails,
     toasts,
     ui_output::{Pick, ShellCommand, UiOutput},
@@ -37,6 +37,7 @@ use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
 use of_project::OfProject;
 use std::{
+    net::SocketAddr,
     path::{Path, PathBuf},
     sync::Arc,
     time::Instant,
@@ -70,6 +71,8 @@ pub struct Shell {
     in_effect: Option<Settings>,
     /// The command line has the last word on it.
     keeps_frame_limit: bool,
+    /// The address at which the command line has OSC listened to.
+    keeps_osc: Option<SocketAddr>,
     palette: Palette,
     focus: Focus,
     /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
@@ -121,6 +124,7 @@ impl Shell {
             settings: SettingsFile::new(),
             in_effect: None,
             keeps_frame_limit: false,
+            keeps_osc: None,
             palette: Palette::default(),
             focus: Focus::default(),
             wants_clipboard: false,
@@ -137,10 +141,17 @@ impl Shell {
         }
     }
 
-    /// Takes up what was kept from the last start. `keeps_frame_limit`: the command line gave one.
-    pub fn restore(&mut self, settings: SettingsFile, remembered: &Remembered, keeps_frame_limit: bool) {
+    /// Takes up what was kept from the last start. `keeps_frame_limit`: the command line gave one; `osc`: it has OSC listened
+    /// to at an address.
+    pub fn restore(
+        &mut self,
+        settings: SettingsFile,
+        remembered: &Remembered,
+        keeps_frame_limit: bool,
+        osc: Option<SocketAddr>,
+    ) {
         self.settings = settings;
-        self.keeps_frame_limit = keeps_frame_limit;
+        (self.keeps_frame_limit, self.keeps_osc) = (keeps_frame_limit, osc);
         self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
     }
 
@@ -248,9 +259,9 @@ impl Shell {
         if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
             self.help = None;
         }
-        let Self { settings, keeps_frame_limit, page_of_settings, .. } = self;
-        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, *keeps_frame_limit, &mut out))
-        {
+        let overridden = Overridden { frame_limit: self.keeps_frame_limit, osc: self.keeps_osc.is_some() };
+        let Self { settings, page_of_settings, .. } = self;
+        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, overridden, &mut out)) {
             self.page_of_settings = None;
         }
         let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
@@ -311,6 +322,9 @@ impl Shell {
         commands.push(Command::SetAudioOutput(settings.audio_output.clone()));
         commands.push(Command::SetAudioInput(settings.audio_input.clone()));
         commands.push(Command::SetProjectInPictures(settings.project_in_images));
+        commands.push(Command::SetOsc(self.keeps_osc.or(settings.osc())));
+        commands.push(Command::SetMidi(settings.midi.clone()));
+        commands.push(Command::SetGamepads(settings.gamepads));
         commands.push(Command::SetCompileOnSave(settings.compile_on_save));
         if !self.keeps_frame_limit {
             commands.push(Command::SetFrameLimit(settings.frame_timeout));
@@ -430,6 +444,11 @@ impl Shell {
             }
             ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
             ShellCommand::Set(change) => self.change(change, out),
+            ShellCommand::StopOsc => {
+                self.keeps_osc = None;
+                out.ask(Command::SetOsc(None));
+                self.change(Change::Osc(false), out);
+            }
             ShellCommand::Breakpoint(tab, line) => {
                 if let Err(why) = self.kept.debugger.toggle(session, &tab, line) {
                     out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });

@@ -4,6 +4,7 @@
 
 mod cells;
 mod color;
+mod control;
 mod hex;
 mod parts;
 mod picker;

@@ -1,8 +1,8 @@
 //! The row as it is laid out.
 
 use super::{
-    cells, color,
-    parts::{HEIGHT, child},
+    cells, color, control,
+    parts::{HEIGHT, child, cut_right},
     scalar,
 };
 use crate::{
@@ -22,11 +22,17 @@ const GAP: f32 = 8.0;
 
 pub fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out: &mut UiOutput) {
     let now = session.custom_uniform_value(custom_uniform);
-    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT - 3.0), Sense::hover());
+    let (row, whole) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT - 3.0), Sense::hover());
     let name_width = (row.width() * 0.28).clamp(56.0, 150.0);
     let (name, rest) = row.split_left_right_at_x(row.left() + name_width);
     let (control, reset) = rest.split_left_right_at_x(rest.right() - RESET);
-    let control = control.with_min_x(control.left() + GAP);
+    let mut control = control.with_min_x(control.left() + GAP);
+    // In a narrow panel the menu alone says it.
+    if let Some(text) = control::text(session, custom_uniform).filter(|_| control.width() > 2.5 * control::WIDTH) {
+        let (place, rest) = cut_right(control, control::WIDTH);
+        control::label(ui, session, custom_uniform, &text, place, out);
+        control = rest;
+    }
 
     let mut wants_default = title(ui, custom_uniform, name);
     let mut all = now.components();
@@ -60,6 +66,7 @@ pub fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out:
         // Behind what the clicks themselves have set.
         out.ask(Command::SetCustomUniform { name: custom_uniform.name.clone(), value: None });
     }
+    control::menu(&whole, session, custom_uniform, out);
 }
 
 /// The name; true for a double click on it.

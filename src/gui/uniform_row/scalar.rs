@@ -5,7 +5,7 @@ use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
     project::{CustomUniform, CustomUniformType},
 };
-use egui::{Align2, FontId, Role, Sense, Slider, Ui, vec2};
+use egui::{Align2, FontId, PointerButton, Role, Sense, Slider, Ui, vec2};
 
 /// The room of a number at the right end.
 const NUMBER: f32 = 66.0;
@@ -20,6 +20,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
     let mut is_reset = false;
     let mut rect = ui.max_rect();
     if let Some(range) = custom_uniform.range.filter(|_| rail.width() >= LEAST_RAIL) {
+        let before = all[0];
         let mut slider = Slider::new(&mut all[0], range.min[0]..=range.max[0]).show_value(false).trailing_fill(true);
         if let Some(step) = custom_uniform.step.map(|s| s[0]).or(is_whole.then_some(1.0)) {
             slider = slider.step_by(step);
@@ -27,6 +28,11 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
         ui.spacing_mut().slider_width = rail.width();
         ui.visuals_mut().selection.bg_fill = theme::of(ui).accent_fill;
         let response = ui.name_inputs(&custom_uniform.name, |ui| ui.put(rail, slider));
+        // Any button moves a slider; the right one opens the menu of the row.
+        let menu = PointerButton::Secondary;
+        if ui.input(|i| i.pointer.button_down(menu) || i.pointer.button_released(menu)) {
+            all[0] = before;
+        }
         // Beside dragging, which is the slider's.
         is_reset = ui.interact(rail, response.id.with("default"), Sense::CLICK).double_clicked();
         rect = rail;

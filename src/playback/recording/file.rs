@@ -6,6 +6,7 @@
 //! {"time":0.016,"delta":0.016,"mouse":[320,180,320,180],"held":[32],"pressed":[32],"toggled":[32]}
 //! ```
 //!
+//! `pads` has the texels of the gamepads' texture that are not 0, each as its number, the columns of row 0 first, and its value.
 //! `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none.
 //! A member that is left out is as in the line before; `frame` counts up by itself, `reset` is left out where it is
 //! false. Members that a later version of Eddy adds are passed over.
@@ -13,7 +14,7 @@
 use super::{RecordedFrame, Recording, base64};
 use eddy_audio::Spectrum;
 use eddy_engine::FrameInputs;
-use eddy_media::Keyboard;
+use eddy_media::{Gamepads, Keyboard};
 use eddy_project::{
     CustomUniformValue, CustomUniformValues,
     limits::{self, Limit, in_bytes},
@@ -29,6 +30,8 @@ pub const EXTENSION: &str = eddy_project::RECORDING;
 const VERSION: u32 = 1;
 /// Bytes of a frame's keys, which frames of the same keys share.
 const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
+/// Bytes of a frame's gamepads, likewise.
+const PADS: u64 = 4 * Gamepads::TEXELS as u64;
 
 #[derive(Serialize, Deserialize)]
 struct Head {
@@ -65,6 +68,8 @@ struct Line {
     pressed: Option<Vec<u8>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     toggled: Option<Vec<u8>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pads: Option<Vec<(usize, f64)>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mic: Option<String>,
     /// All that are not at their defaults.
@@ -155,11 +160,12 @@ impl Recording {
             }
             let read: Line = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
             let has_keys = [&read.held, &read.pressed, &read.toggled].iter().any(|keys| keys.is_some());
-            let has_spectrum = read.mic.is_some();
+            let (has_spectrum, has_pads) = (read.mic.is_some(), read.pads.is_some());
             let frame = read.onto(frames.last()).map_err(wrong)?;
             // A line says what is new, and a frame holds everything: few bytes of a file can be very many here.
             let spectrum = if has_spectrum { size_of::<Spectrum>() as u64 } else { 0 };
-            held += bytes_of(&frame) + spectrum + if has_keys { KEYS } else { 0 };
+            held += bytes_of(&frame) + spectrum;
+            held += if has_keys { KEYS } else { 0 } + if has_pads { PADS } else { 0 };
             if held > most {
                 return Err(ReadError::TooMany { line: index + 2, most });
             }
@@ -189,6 +195,10 @@ impl Line {
             let before = earlier.map_or_else(Vec::new, |earlier| row(&earlier.keyboard, n));
             new(Some(before), row(&inputs.keyboard, n))
         };
+        let pads = |inputs: &FrameInputs| -> Vec<(usize, f64)> {
+            let texels = inputs.gamepads.texels().iter().enumerate();
+            texels.filter(|(_, value)| **value != 0.0).map(|(index, value)| (index, f64::from(*value))).collect()
+        };
         let expected = earlier.map_or(0, |earlier| earlier.frame.saturating_add(1));
         let values = |frame: &RecordedFrame| frame.values.clone();
         Self {
@@ -204,6 +214,7 @@ impl Line {
             held: keys(0),
             pressed: keys(1),
             toggled: keys(2),
+            pads: new(Some(earlier.map_or_else(Vec::new, pads)), pads(inputs)),
             mic: new(Some(earlier.and_then(|i| i.microphone.as_ref())), inputs.microphone.as_ref())
                 .map(|spectrum| spectrum.map_or_else(String::new, |spectrum| base64::encode(&**spectrum))),
             set: new(before.map(values).or_else(|| Some(CustomUniformValues::new())), values(now))
@@ -232,6 +243,10 @@ impl Line {
             if let Some(codes) = codes {
                 inputs.keyboard.set_row(row, &codes);
             }
+        }
+        if let Some(texels) = self.pads {
+            inputs.gamepads = Gamepads::default();
+            texels.into_iter().for_each(|(index, value)| inputs.gamepads.set(index, single(value)));
         }
         if let Some(text) = self.mic {
             inputs.microphone = spectrum(&text)?;

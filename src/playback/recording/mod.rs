@@ -1,6 +1,6 @@
 //! Inputs of every frame of a run, so that it can be drawn again bit for bit: by `--replay`, and after an edit.
 //!
-//! Owns what a frame is given (time, date, mouse, keys, what the microphone's texture holds, canvas, values of the author's own uniforms) and the file that
+//! Owns what a frame is given (time, date, mouse, keys, gamepads, what the microphone's texture holds, canvas, values of the author's own uniforms) and the file that
 //! keeps it. Holds no picture and no text of the project: another text draws other pictures of the same inputs.
 
 mod base64;

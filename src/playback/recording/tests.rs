@@ -120,6 +120,29 @@ fn few_bytes_that_become_very_many_frames_are_refused() {
     assert!(said.contains("it is larger than 20 MiB"), "{said}");
 }
 
+/// Texels that are zero are in no line, and what is no texel is passed over.
+#[test]
+fn gamepads_come_back() {
+    let moved = |n: i32| {
+        let mut pads = eddy_media::Gamepads::default();
+        pads.connect(1, n > 0);
+        pads.move_to(1, eddy_project::PadPart::Axis(2), -0.3 * n as f32);
+        pads.move_to(1, eddy_project::PadPart::Button(4), if n == 2 { 1.0 } else { 0.0 });
+        pads
+    };
+    let all = [0, 1, 1, 2, 3, 0].map(moved);
+    let frames = all.iter().enumerate().map(|(n, pads)| frame(n as i32, |f| f.inputs.gamepads.clone_from(pads)));
+    let recording = Recording { project: String::new(), frames: frames.collect() };
+    let (text, read) = there_and_back(&recording);
+    assert_eq!(read, recording);
+    assert_eq!(text.matches("\"pads\"").count(), 4, "where they change: {text}");
+    let odd = "{\"eddy_recording\":1}\n{\"time\":0,\"delta\":0.01,\"rate\":60,\"size\":[4,4],\"mouse\":[0,0,0,0],\
+               \"date\":[0,0,0,0],\"pads\":[[0,0.5],[99999,1],[1,7.5],[2,1e300]]}";
+    let read = Recording::read(odd.as_bytes()).unwrap();
+    let texels = read.frames[0].inputs.gamepads.texels();
+    assert_eq!((texels[0], texels.iter().filter(|value| **value != 0.0).count()), (0.5, 1));
+}
+
 /// Its texture is kept with each frame that it changes in, and gone where it is switched off.
 #[test]
 fn the_microphone_comes_back() {

@@ -125,7 +125,8 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
     diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"microphone\", \"file://pic.png\", \
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"microphone\", \"gamepad\", \
+        \"file://pic.png\", \
         \"file://song.mp3\" or \"builtin://noise-rgba-256\"",
     ));
     None

@@ -1,6 +1,6 @@
 //! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
 
-use crate::{Input, Media, Pass, PassId, Project, advice, listed};
+use crate::{Input, InputKind, Media, Pass, PassId, Project, advice, listed};
 
 /// The buffers that the site has.
 const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -13,6 +13,9 @@ pub fn losses(project: &Project) -> Vec<String> {
         [] => {}
         [one] => lost.push(format!("The uniform {one} becomes a constant with its current value.")),
         _ => lost.push(format!("The uniforms {} become constants with their current values.", listed(&uniforms))),
+    }
+    if !project.controls.is_empty() {
+        lost.push("The controls of MIDI and OSC devices are left out.".into());
     }
     let included: Vec<&str> =
         project.includes.iter().filter(|i| i.trouble.is_none()).map(|i| i.source.name.as_str()).collect();
@@ -68,8 +71,11 @@ fn is_or_are(names: &[&str]) -> &'static str {
     if names.len() == 1 { "is" } else { "are" }
 }
 
-/// Says what becomes of a picture that the site does not have.
+/// Says what becomes of an input that the site does not have.
 fn picture(input: &Input) -> Option<String> {
+    if input.kind() == InputKind::Gamepad {
+        return Some("gamepads, which Shadertoy does not have; the channel is empty there.".into());
+    }
     match input.media()? {
         Media::Builtin(name) => Some(format!("{name}, a texture of Eddy's; the channel is empty on Shadertoy.")),
         Media::File(path) | Media::Picked(path) => {

@@ -235,6 +235,7 @@ fn an_export_reads_back_as_the_same_project() {
         ],
         sampler_rules: SamplerRules::Site,
         custom_uniform_values: Default::default(),
+        controls: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

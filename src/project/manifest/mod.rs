@@ -14,6 +14,10 @@
 //! viscosity = 0.4
 //! tint = [1.0, 0.5, 0.0]
 //!
+//! [controls]                      # controls of MIDI and OSC devices that move uniforms
+//! viscosity = "midi 1 cc 21"      # also cc14, note, bend; or an OSC address such as "/1/fader3"
+//! tint.r = "/1/xy 2"              # the second argument of its messages
+//!
 //! [common]
 //! file = "common.glsl"            # without this table, common.glsl is read where there is one; common = false: none
 //!
@@ -35,7 +39,7 @@
 //! channels.0 = { buffer = "A" }
 //! channels.1 = { texture = "noise-rgba-256" }     # one of Eddy's own; also cubemap, volume, video, music
 //! channels.2 = { file = "pic.png", vflip = false }
-//! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam
+//! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam, gamepad
 //! ```
 //!
 //! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and the
@@ -68,6 +72,7 @@
 //! the site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no
 //! use for.
 
+mod controls;
 mod edit;
 mod fills;
 mod geometry;

@@ -16,7 +16,7 @@ use eddy_diag::{Diagnostic, SourceId, SourceMap};
 use std::path::PathBuf;
 use toml_edit::{Document, Item, TableLike};
 
-const TOP: [&str; 12] = [
+const TOP: [&str; 13] = [
     "eddy",
     "name",
     "description",
@@ -25,6 +25,7 @@ const TOP: [&str; 12] = [
     "id",
     "sampler_rules",
     "uniforms",
+    "controls",
     "common",
     "passes",
     "groups",
@@ -110,6 +111,7 @@ impl Reader<'_> {
         let passes = self.passes(root);
         let groups = self.groups(root, &passes);
         let custom_uniform_values = self.uniforms(root);
+        let controls = self.controls(root);
         let mut project = Project {
             name,
             info,
@@ -118,11 +120,13 @@ impl Reader<'_> {
             sampler_rules,
             groups,
             custom_uniform_values,
+            controls,
             includes: Vec::new(),
             origin,
         };
         includes::read(&mut project, Some(self.files));
         self.check_uniforms(root, &project);
+        self.check_controls(root, &project);
         Some(project)
     }
 

@@ -1,7 +1,7 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
 use super::{
-    VERSION,
+    VERSION, controls,
     edit::{child, key_of, set},
     fills, geometry, read, settings, uniforms,
 };
@@ -32,6 +32,7 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
     set(root, "id", text(&project.info.id));
     set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
     uniforms(root, project);
+    controls::write_controls(root, project);
     common(root, project, has_common_file);
     passes(root, project);
     settings::write_groups(root, project);

@@ -104,6 +104,9 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     if !project.custom_uniform_values.is_empty() {
         return cannot("values of sliders that are not their defaults");
     }
+    if !project.controls.is_empty() {
+        return cannot("controls of sliders");
+    }
     let has_moved = project.origin.base_dir() != target.parent();
     if has_moved && !project.includes.is_empty() {
         return cannot("the files that its code includes");

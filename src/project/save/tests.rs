@@ -115,6 +115,7 @@ fn any_project(seed: u64) -> Project {
         passes,
         sampler_rules: if r.below(2) == 0 { SamplerRules::Site } else { SamplerRules::PerChannel },
         custom_uniform_values: Default::default(),
+        controls: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

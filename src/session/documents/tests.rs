@@ -2,7 +2,8 @@
 
 use super::*;
 use eddy_project::{
-    Channel, CustomUniformValue, Included, Input, InputKind, PassBody, PassId, Sampler, SamplerRules, Source,
+    Channel, ControlAddress, ControlTarget, CustomUniformValue, Included, Input, InputKind, PassBody, PassId, Sampler,
+    SamplerRules, Source,
 };
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
@@ -68,6 +69,10 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         }),
         ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
         ("groups", |p, _| p.groups.push(eddy_project::Group { name: "g".into(), passes: vec![], steps: 2 })),
+        ("a control", |p, _| {
+            let target = ControlTarget::whole("x");
+            p.controls.insert(target, ControlAddress::PitchBend { channel: 0 });
+        }),
         ("a value", |p, _| drop(p.custom_uniform_values.insert("x".into(), CustomUniformValue::Int(1)))),
         ("size", |p, _| p.passes[0].settings.size = eddy_project::PassSize::Scale(0.25)),
         ("format", |p, _| p.passes[0].settings.format = eddy_project::TexelFormat::R8),

@@ -34,6 +34,7 @@ impl Session {
         self.fit_canvas();
         self.keep_unsaved();
         self.hear();
+        self.follow_controls();
         self.follow_measures();
         self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.

@@ -16,7 +16,7 @@ pub use seek::{Goal, Reach, Seeking, TimeRange};
 use clock::{Clock, FrameTime};
 use eddy_audio::Line;
 use eddy_engine::FrameInputs;
-use eddy_media::Keyboard;
+use eddy_media::{Gamepads, Keyboard};
 use eddy_playback::{date, mouse::Mouse};
 use std::{
     mem::{replace, take},
@@ -29,6 +29,7 @@ pub struct Playback {
     pub clock: Clock,
     pub mouse: Mouse,
     pub keyboard: Keyboard,
+    pub gamepads: Gamepads,
     pub seeking: Seeking,
     /// The inputs of what is drawn are recorded.
     pub recorder: Option<Recorder>,
@@ -48,7 +49,9 @@ pub struct Playback {
 impl Playback {
     pub fn begin_next_project(&mut self) {
         let seeking = Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() };
-        *self = Self { seeking, is_covered: self.is_covered, ..Self::default() };
+        // Pads stay plugged in.
+        let gamepads = take(&mut self.gamepads);
+        *self = Self { seeking, is_covered: self.is_covered, gamepads, ..Self::default() };
     }
 
     /// Time runs, and somebody sees the picture.
@@ -198,10 +201,12 @@ impl Playback {
             drag: self.mouse.dragged(),
             date: date::i_date(date::now()),
             keyboard: self.keyboard.clone(),
+            gamepads: self.gamepads.clone(),
             // Who hears it says so.
             microphone: None,
         };
         self.keyboard.frame_painted();
+        self.gamepads.frame_painted();
         inputs
     }
 

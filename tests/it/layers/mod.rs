@@ -24,6 +24,7 @@ const LAYERS: &[&str] = &[
     "texture",
     "diag",
     "project",
+    "control",
     "video",
     "media",
     "glsl",
@@ -77,6 +78,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
         &["SystemTime", "Zoned"],
         &[
             "audio",
+            "control",
             "texture",
             "diag",
             "project",
@@ -97,11 +99,24 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film"]),
     (
         &["env"],
-        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger", "lab"],
+        &[
+            "audio",
+            "control",
+            "texture",
+            "diag",
+            "glsl",
+            "graph",
+            "gpu",
+            "engine",
+            "background",
+            "film",
+            "debugger",
+            "lab",
+        ],
     ),
     (
         &["fs", "File", "OpenOptions"],
-        &["audio", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger"],
+        &["audio", "control", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger"],
     ),
 ];
 

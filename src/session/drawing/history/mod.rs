@@ -8,6 +8,7 @@ mod thinning;
 use crate::playback::{Goal, Reach};
 use again::Again;
 use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
+use eddy_media::Gamepads;
 use eddy_playback::run::{Frame, Replay, ReplayFrom, Run};
 use eddy_project::CustomUniformValues;
 use std::{
@@ -30,7 +31,7 @@ const SHORT: u64 = 8;
 const LOOKED_THROUGH: u64 = 16;
 /// Frames whose inputs are kept: 73 minutes at 60 a second, 40 MiB.
 const KEPT: usize = 1 << 18;
-/// The same while frames have the microphone's texture, 1 KiB each: 18 minutes, 70 MiB.
+/// The same while frames have the microphone's texture, 1 KiB each, or gamepads, .8 KiB: 18 minutes, 70 MiB.
 const KEPT_HEARD: usize = 1 << 16;
 
 /// The way to a goal, or a part of it.
@@ -144,7 +145,8 @@ impl History {
         }
         self.again.drop_behind(self.drawn);
         self.keep(engine, self.interval());
-        let hears = self.frames.back().is_some_and(|frame| frame.inputs.microphone.is_some());
+        let has_texture = |inputs: &FrameInputs| inputs.microphone.is_some() || inputs.gamepads != Gamepads::default();
+        let hears = self.frames.back().is_some_and(|frame| has_texture(&frame.inputs));
         self.forget(if hears { KEPT_HEARD } else { KEPT });
         Ok(())
     }

@@ -1,0 +1,106 @@
+//! MIDI devices and gamepads for tests: they come, go and send when the test says so.
+
+use crate::{
+    midi::host::{MidiError, MidiHost, MidiIn, Opened, Take},
+    pads::{PadEvent, PadHost, PadIn},
+};
+use std::{
+    collections::{BTreeMap, VecDeque},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
+
+/// The devices by their names, each with who takes what it sends.
+type Devices = BTreeMap<String, Option<Take>>;
+
+/// The MIDI of a machine that is made up.
+#[derive(Clone, Default)]
+pub struct FakeMidi(Arc<Mutex<Devices>>);
+
+impl std::fmt::Debug for FakeMidi {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.lock().keys()).finish()
+    }
+}
+
+impl FakeMidi {
+    fn lock(&self) -> MutexGuard<'_, Devices> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub fn plug_in(&self, name: &str) {
+        self.lock().entry(name.to_owned()).or_default();
+    }
+
+    pub fn unplug(&self, name: &str) {
+        self.lock().remove(name);
+    }
+
+    pub fn is_open(&self, name: &str) -> bool {
+        self.lock().get(name).is_some_and(Option::is_some)
+    }
+
+    /// A device sends something to who has opened it.
+    pub fn send(&self, name: &str, bytes: &[u8]) {
+        if let Some(Some(take)) = self.lock().get_mut(name) {
+            take(bytes);
+        }
+    }
+}
+
+impl MidiHost for FakeMidi {
+    fn input(&self) -> Box<dyn MidiIn> {
+        Box::new(self.clone())
+    }
+}
+
+struct Close(FakeMidi, String);
+
+impl Drop for Close {
+    fn drop(&mut self) {
+        if let Some(device) = self.0.lock().get_mut(&self.1) {
+            *device = None;
+        }
+    }
+}
+
+impl MidiIn for FakeMidi {
+    fn names(&mut self) -> Result<Vec<String>, MidiError> {
+        Ok(self.lock().keys().cloned().collect())
+    }
+
+    fn open(&mut self, name: &str, take: Take) -> Result<Opened, MidiError> {
+        let mut devices = self.lock();
+        let device = devices.get_mut(name).ok_or_else(|| MidiError::Unknown(name.to_owned()))?;
+        *device = Some(take);
+        drop(devices);
+        Ok(Box::new(Close(self.clone(), name.to_owned())))
+    }
+}
+
+/// Gamepads that are made up.
+#[derive(Clone, Debug, Default)]
+pub struct FakePads(Arc<Mutex<VecDeque<PadEvent>>>);
+
+impl FakePads {
+    /// Something happens, for who listens.
+    pub fn happens(&self, event: PadEvent) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push_back(event);
+    }
+}
+
+impl PadHost for FakePads {
+    fn open(&self) -> Result<Box<dyn PadIn>, String> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl PadIn for FakePads {
+    fn next(&mut self, _: Duration) -> Option<PadEvent> {
+        let event = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
+        if event.is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        event
+    }
+}

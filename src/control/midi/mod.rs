@@ -1,0 +1,10 @@
+//! MIDI: messages decoded to events, and the devices that send them.
+
+mod decode;
+pub mod host;
+mod inputs;
+#[cfg(feature = "midi")]
+pub mod machine;
+
+pub use decode::MidiDecoder;
+pub use inputs::{MidiChoice, MidiInputs, MidiState};

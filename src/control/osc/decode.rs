@@ -1,0 +1,99 @@
+//! The bytes of a packet to events.
+
+use crate::ControlEvent;
+use eddy_project::{ControlAddress, is_osc_path, limits};
+use rosc::{OscPacket, OscType};
+
+/// The first bytes of a bundle, before its time tag of 8 bytes.
+const BUNDLE: &[u8] = b"#bundle\0";
+const TIME_TAG: usize = 8;
+
+/// A packet that cannot be read. What came before the damage counts for nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OscError {
+    #[error("the packet is damaged")]
+    Damaged,
+    #[error("the packet is larger than {}", limits::OSC_PACKET)]
+    Large,
+    #[error("the packet has more than {} messages", limits::OSC_MESSAGES)]
+    ManyMessages,
+    #[error("bundles are nested more than {} deep", limits::OSC_DEPTH)]
+    Deep,
+}
+
+/// Returns an event for each number in a packet, in their order. Time tags count for nothing: everything is now.
+pub fn decode(packet: &[u8]) -> Result<Vec<ControlEvent>, OscError> {
+    if packet.len() as u64 > limits::OSC_PACKET.bytes {
+        return Err(OscError::Large);
+    }
+    let mut events = Vec::new();
+    let mut messages = 0;
+    // Parts that are left, the next one last, each with the bundles around it.
+    let mut left = vec![(packet, 0)];
+    while let Some((part, depth)) = left.pop() {
+        let Some(contents) = part.strip_prefix(BUNDLE) else {
+            messages += 1;
+            if messages > limits::OSC_MESSAGES {
+                return Err(OscError::ManyMessages);
+            }
+            message(part, &mut events)?;
+            continue;
+        };
+        if depth == limits::OSC_DEPTH {
+            return Err(OscError::Deep);
+        }
+        let mut rest = contents.get(TIME_TAG..).ok_or(OscError::Damaged)?;
+        let first = left.len();
+        while !rest.is_empty() {
+            let (size, behind) = rest.split_first_chunk::<4>().ok_or(OscError::Damaged)?;
+            let size = u32::from_be_bytes(*size) as usize;
+            let (element, behind) = behind.split_at_checked(size).ok_or(OscError::Damaged)?;
+            left.push((element, depth + 1));
+            rest = behind;
+            if left.len() > limits::OSC_MESSAGES {
+                return Err(OscError::ManyMessages);
+            }
+        }
+        left[first..].reverse();
+    }
+    Ok(events)
+}
+
+/// Adds the numbers of a message. One whose address no control can have is skipped, as are patterns.
+fn message(bytes: &[u8], events: &mut Vec<ControlEvent>) -> Result<(), OscError> {
+    let address = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
+    if address.first() != Some(&b'/') {
+        return Err(OscError::Damaged);
+    }
+    // The type tags begin at the next multiple of four bytes after the address and its zero.
+    let tags = bytes.get((address.len() / 4 + 1) * 4..).unwrap_or_default();
+    let tags = tags.split(|byte| *byte == 0).next().unwrap_or_default();
+    if tags.len() > limits::OSC_ARGUMENTS + 1 {
+        return Err(OscError::Damaged);
+    }
+    let Ok((_, OscPacket::Message(message))) = rosc::decoder::decode_udp(bytes) else { return Err(OscError::Damaged) };
+    if !is_osc_path(&message.addr) {
+        return Ok(());
+    }
+    let numbers = message.args.iter().enumerate().filter_map(|(argument, value)| Some((argument, number(value)?)));
+    events.extend(numbers.map(|(argument, value)| ControlEvent {
+        source: ControlAddress::Osc { path: message.addr.clone(), argument },
+        value,
+    }));
+    Ok(())
+}
+
+/// Returns the number that an argument is, if it is one.
+fn number(value: &OscType) -> Option<f64> {
+    let number = match value {
+        OscType::Int(n) => f64::from(*n),
+        OscType::Long(n) => *n as f64,
+        OscType::Float(x) => f64::from(*x),
+        OscType::Double(x) => *x,
+        OscType::Bool(on) => f64::from(u8::from(*on)),
+        // "Infinitum", which OSC 1.1 calls an impulse: a button is pressed.
+        OscType::Inf => 1.0,
+        _ => return None,
+    };
+    number.is_finite().then_some(number)
+}

@@ -1,0 +1,12 @@
+//! Open Sound Control over UDP: packets decoded to events, and the socket that they come through.
+//!
+//! The form is that of OSC 1.0 (<https://opensoundcontrol.stanford.edu/spec-1_0.html>) with the types of OSC 1.1. The crate
+//! `rosc` decodes messages. It follows bundles and arrays as deep as a packet has them, so those are taken apart here first.
+
+mod decode;
+mod socket;
+#[cfg(test)]
+mod tests;
+
+pub use decode::{OscError, decode};
+pub use socket::{OscInput, OscState};

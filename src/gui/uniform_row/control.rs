@@ -1,0 +1,102 @@
+//! The control of a MIDI or OSC device that moves a uniform: its label in the row, and the menu that learns and forgets it.
+
+use super::parts::{child, components};
+use crate::{
+    gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
+    project::{ControlTarget, CustomUniform},
+    session::{Command, Session},
+};
+use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
+
+/// The room of the label.
+pub(super) const WIDTH: f32 = 84.0;
+
+/// Returns what a control can move of a uniform: each component, with its name, or the whole one.
+fn targets(uniform: &CustomUniform) -> Vec<(ControlTarget, &'static str)> {
+    let names = components(uniform.ty).iter();
+    let target = |name: &&'static str| {
+        let whole = || ControlTarget::whole(&uniform.name);
+        (ControlTarget::of_component(&uniform.name, name).unwrap_or_else(whole), *name)
+    };
+    names.map(target).collect()
+}
+
+/// Returns what the label says. `None`: no control moves the uniform, and none is being learned.
+pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String> {
+    let said = targets(uniform).into_iter().filter_map(|(target, name)| {
+        let control = match session.control_of(&target) {
+            _ if session.is_learning(&target) => "touch a control…".to_owned(),
+            control => control?.label(),
+        };
+        Some(if name.is_empty() { control } else { format!("{name} {control}") })
+    });
+    let said: Vec<String> = said.collect();
+    (!said.is_empty()).then(|| said.join(", "))
+}
+
+/// Shows the label. A click on it stops learning, and so does Escape.
+pub(super) fn label(
+    ui: &mut Ui,
+    session: &Session,
+    uniform: &CustomUniform,
+    text: &str,
+    place: Rect,
+    out: &mut UiOutput,
+) {
+    let p = theme::of(ui);
+    let is_learning = targets(uniform).iter().any(|(target, _)| session.is_learning(target));
+    let color = if is_learning { p.warning } else { p.weak };
+    let shown = RichText::new(text).size(11.0).color(color);
+    let label = Label::new(shown).truncate().sense(if is_learning { Sense::CLICK } else { Sense::hover() });
+    let response = child(ui, place).add(label);
+    accessible::name(&response, Role::Label, format!("{}, {text}", uniform.name));
+    out.place(format!("uniform:control:{}", uniform.name), place);
+    let is_given_up = is_learning && ui.input(|i| i.key_pressed(Key::Escape));
+    let tip = if is_learning { "Move a knob, a fader or a key; Escape stops" } else { text };
+    if response.on_hover_text(tip).clicked() || is_given_up {
+        out.ask(Command::LearnControl(None));
+    }
+}
+
+/// Shows the row's menu where it is open.
+pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, out: &mut UiOutput) {
+    menus::context_of_row(row, |ui| {
+        let is_on = session.controls_view().is_on();
+        for (target, name) in targets(uniform) {
+            let of = if name.is_empty() { String::new() } else { format!(" of {name}") };
+            let key = target.to_string();
+            if session.is_learning(&target) {
+                let stop = ui.button(format!("Stop learning the control{of}"));
+                if out.clicked(&format!("uniform-menu:stop:{key}"), &stop) {
+                    out.ask(Command::LearnControl(None));
+                    ui.close();
+                }
+            } else {
+                let title = match name {
+                    "" => "Learn MIDI or OSC control".to_owned(),
+                    _ => format!("Learn MIDI or OSC control{of}"),
+                };
+                let learn = ui.add_enabled(is_on, Button::new(title));
+                if out.clicked(&format!("uniform-menu:learn:{key}"), &learn) {
+                    out.ask(Command::LearnControl(Some(target.clone())));
+                    ui.close();
+                }
+            }
+            if let Some(control) = session.control_of(&target) {
+                let forget = ui.button(format!("Forget control{of} ({})", control.label()));
+                if out.clicked(&format!("uniform-menu:forget:{key}"), &forget) {
+                    out.ask(Command::ForgetControl(target));
+                    ui.close();
+                }
+            }
+        }
+        if !is_on {
+            ui.separator();
+            let settings = ui.button("Switch on OSC or MIDI in Settings…");
+            if out.clicked("uniform-menu:settings", &settings) {
+                out.act(Action::Settings);
+                ui.close();
+            }
+        }
+    });
+}

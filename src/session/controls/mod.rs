@@ -1,0 +1,349 @@
+//! Controls of OSC, MIDI and gamepads: what is switched on, which uniform a control moves, and what is being learned.
+//!
+//! Nothing is listened to before a person has switched it on. A uniform that a control moves goes the way of a slider that a hand
+//! turns: its values are in recordings, and one movement is one step of undo.
+
+mod gamepads;
+
+use super::{
+    Session, SessionOptions,
+    view::{About, Level},
+};
+use eddy_control::{
+    ControlEvent, ControlQueue, Wake, direct,
+    midi::{MidiChoice, MidiInputs, MidiState, host::MidiHost},
+    moved,
+    osc::{OscInput, OscState},
+    pads::{PadHost, PadInputs, PadState},
+};
+use eddy_project::{ControlAddress, ControlTarget, CustomUniform, PadPart};
+use std::{
+    collections::BTreeSet,
+    net::SocketAddr,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+/// The fine part of a 14-bit control comes within this after the coarse part, by which it was learned.
+const FINE_PART: Duration = Duration::from_millis(200);
+/// TouchOSC sends 1 to an address that ends so when a finger touches a control, and 0 when it leaves.
+const TOUCH: &str = "/z";
+
+/// The devices that are listened to, and what is being learned.
+pub(super) struct Controls {
+    host: Option<Arc<dyn MidiHost>>,
+    on_thread: bool,
+    wake: Wake,
+    queue: ControlQueue,
+    osc: Option<OscInput>,
+    midi: Option<MidiInputs>,
+    choice: MidiChoice,
+    pad_host: Option<Arc<dyn PadHost>>,
+    pads: Option<PadInputs>,
+    /// A person was told that gamepads cannot be read.
+    is_pad_told: bool,
+    /// Waits for the control that moves next.
+    learning: Option<ControlTarget>,
+    /// Learned by the coarse part of a control that may have a fine one.
+    coarse: Option<(ControlTarget, u8, u8, Instant)>,
+    /// A person was told that it cannot listen.
+    is_osc_told: bool,
+    is_midi_told: bool,
+    /// The devices that a person was told of.
+    told: Vec<String>,
+}
+
+/// Says what is listened to, for a front end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlsView {
+    /// `None`: it is off.
+    pub osc: Option<OscState>,
+    /// OSC comes in by other addresses than the machine's own.
+    pub is_osc_public: bool,
+    pub has_midi: bool,
+    pub choice: MidiChoice,
+    pub midi: MidiState,
+    pub has_gamepads: bool,
+    /// `None`: they are off.
+    pub gamepads: Option<PadState>,
+}
+
+impl ControlsView {
+    /// Returns whether there is anything that could be learned.
+    pub fn is_on(&self) -> bool {
+        self.osc.is_some() || self.choice != MidiChoice::Off || self.gamepads.is_some()
+    }
+}
+
+impl Controls {
+    pub fn new(options: &SessionOptions, wake: Wake) -> Self {
+        Self {
+            host: options.midi.clone(),
+            on_thread: options.audio_on_thread,
+            queue: ControlQueue::new(wake.clone()),
+            wake,
+            osc: None,
+            midi: None,
+            choice: MidiChoice::Off,
+            pad_host: options.gamepads.clone(),
+            pads: None,
+            is_pad_told: false,
+            learning: None,
+            coarse: None,
+            is_osc_told: false,
+            is_midi_told: false,
+            told: Vec::new(),
+        }
+    }
+
+    /// Nothing is learned any more: it was of the project before.
+    pub fn begin_next_project(&mut self) {
+        (self.learning, self.coarse) = (None, None);
+    }
+
+    /// Returns the MIDI inputs, made if there are none and the machine has MIDI. They open nothing yet.
+    fn midi(&mut self) -> Option<&mut MidiInputs> {
+        if self.midi.is_none() {
+            let host = self.host.as_deref()?;
+            let made = match self.on_thread {
+                true => MidiInputs::on_thread(host, self.queue.clone(), self.wake.clone()),
+                false => Ok(MidiInputs::here(host, self.queue.clone())),
+            };
+            self.midi = Some(made.inspect_err(|e| log::warn!("no thread for MIDI: {e}")).ok()?);
+        }
+        self.midi.as_mut()
+    }
+}
+
+impl Session {
+    /// Returns what is listened to.
+    pub fn controls_view(&self) -> ControlsView {
+        let controls = &self.controls;
+        ControlsView {
+            osc: controls.osc.as_ref().map(OscInput::state),
+            is_osc_public: controls.osc.as_ref().is_some_and(|osc| !osc.asked().ip().is_loopback()),
+            has_midi: controls.host.is_some(),
+            choice: controls.choice.clone(),
+            midi: controls.midi.as_ref().map(MidiInputs::state).unwrap_or_default(),
+            has_gamepads: controls.pad_host.is_some(),
+            gamepads: controls.pads.as_ref().map(PadInputs::state),
+        }
+    }
+
+    /// Returns the control that moves a number of a uniform.
+    pub fn control_of(&self, target: &ControlTarget) -> Option<&ControlAddress> {
+        self.project().controls.get(&self.as_in_texts(target))
+    }
+
+    /// Returns the number whose control is being learned.
+    pub fn is_learning(&self, target: &ControlTarget) -> bool {
+        self.controls.learning.as_ref() == Some(&self.as_in_texts(target))
+    }
+
+    /// Returns a target with the name that the texts have for its uniform, which the program that draws may not have.
+    fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
+        ControlTarget { uniform: self.newest_name(&target.uniform), ..target.clone() }
+    }
+
+    /// Listens to OSC at an address, or no longer.
+    pub(super) fn set_osc(&mut self, address: Option<SocketAddr>) {
+        if self.controls.osc.as_ref().map(OscInput::asked) == address {
+            return;
+        }
+        self.settled(About::Osc);
+        self.controls.is_osc_told = false;
+        // The old socket is closed first: the new one may have its address.
+        self.controls.osc = None;
+        let Some(address) = address else { return };
+        match OscInput::listen(address, self.controls.queue.clone(), self.wake.clone()) {
+            Ok(osc) => self.controls.osc = Some(osc),
+            Err(error) => self.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
+        }
+    }
+
+    pub(super) fn set_midi(&mut self, choice: MidiChoice) {
+        if self.controls.choice == choice {
+            return;
+        }
+        self.settled(About::Midi);
+        (self.controls.is_midi_told, self.controls.told) = (false, Vec::new());
+        self.controls.choice = choice.clone();
+        if let Some(midi) = self.controls.midi() {
+            midi.choose(choice);
+        }
+    }
+
+    pub(super) fn list_midi_devices(&mut self) {
+        if let Some(midi) = self.controls.midi() {
+            midi.ask_names();
+        }
+    }
+
+    /// Binds the control that moves next; `None`: none any more.
+    pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
+        self.controls.coarse = None;
+        self.controls.learning = target.map(|target| self.as_in_texts(&target));
+    }
+
+    pub(super) fn forget_control(&mut self, target: &ControlTarget) {
+        let target = self.as_in_texts(target);
+        if self.project().controls.contains_key(&target) {
+            self.documents.current_mut().controls.remove(&target);
+        }
+        if self.controls.learning.as_ref() == Some(&target) {
+            self.controls.learning = None;
+        }
+    }
+
+    /// Takes what controls have sent, before frames are drawn.
+    pub(super) fn follow_controls(&mut self) {
+        if let Some(midi) = &mut self.controls.midi {
+            midi.step(self.now);
+        }
+        self.tell_of_osc();
+        self.tell_of_midi();
+        self.follow_gamepads();
+        let events = self.controls.queue.take();
+        if events.is_empty() {
+            return;
+        }
+        self.learn(&events);
+        self.turn_by_controls(&events);
+    }
+
+    fn tell_of_osc(&mut self) {
+        let Some(osc) = &self.controls.osc else { return };
+        match osc.state() {
+            OscState::Missing(why) if !std::mem::replace(&mut self.controls.is_osc_told, true) => {
+                let at = osc.asked();
+                let text = format!("OSC cannot listen at {at}: {why}. Eddy tries again every 3 seconds");
+                self.notice_about(About::Osc, Level::Warning, text);
+            }
+            OscState::Listening(at) if std::mem::take(&mut self.controls.is_osc_told) => {
+                self.settled(About::Osc);
+                self.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
+            }
+            OscState::Starting | OscState::Missing(_) | OscState::Listening(_) => {}
+        }
+    }
+
+    fn tell_of_midi(&mut self) {
+        let state = match &self.controls.midi {
+            Some(midi) if self.controls.choice != MidiChoice::Off => midi.state(),
+            _ => return,
+        };
+        let told = std::mem::replace(&mut self.controls.told, state.open.clone());
+        for name in state.open.iter().filter(|name| !told.contains(name)) {
+            self.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
+        }
+        for name in told.iter().filter(|name| !state.open.contains(name)) {
+            self.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
+        }
+        match state.missing {
+            Some(why) if !std::mem::replace(&mut self.controls.is_midi_told, true) => {
+                let text = format!("MIDI: {why}. Eddy looks for devices every 2 seconds");
+                self.notice_about(About::Midi, Level::Warning, text);
+            }
+            None if std::mem::take(&mut self.controls.is_midi_told) => self.settled(About::Midi),
+            _ => {}
+        }
+    }
+
+    /// Binds what was touched to what waits for it.
+    fn learn(&mut self, events: &[ControlEvent]) {
+        if let Some((target, channel, number, since)) = self.controls.coarse.clone() {
+            let fine = ControlAddress::ControlChange14 { channel, number };
+            if self.now.saturating_duration_since(since) > FINE_PART {
+                self.controls.coarse = None;
+            } else if events.iter().any(|event| event.source == fine) {
+                self.controls.coarse = None;
+                self.documents.current_mut().controls.insert(target, fine);
+                self.changed = true;
+            }
+        }
+        let Some(target) = &self.controls.learning else { return };
+        let Some(address) = touched(events, target.index()) else { return };
+        let target = target.clone();
+        self.controls.learning = None;
+        let fine = match &address {
+            ControlAddress::ControlChange { channel, number } if *number < 32 => {
+                self.controls.coarse = Some((target.clone(), *channel, *number, self.now));
+                Some(ControlAddress::ControlChange14 { channel: *channel, number: *number })
+            }
+            _ => None,
+        };
+        let is_there = |fine: &ControlAddress| events.iter().any(|event| event.source == *fine);
+        let address = fine.filter(is_there).unwrap_or(address);
+        self.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
+        self.documents.current_mut().controls.insert(target, address);
+        self.changed = true;
+    }
+
+    /// Turns the uniforms of the controls that have moved.
+    fn turn_by_controls(&mut self, events: &[ControlEvent]) {
+        let before = self.project().custom_uniform_values.clone();
+        let bindings = self.project().controls.clone();
+        let uniforms: Vec<CustomUniform> = self
+            .custom_uniforms()
+            .iter()
+            .map(|uniform| CustomUniform { name: self.newest_name(&uniform.name), ..uniform.clone() })
+            .collect();
+        let mut turned = BTreeSet::new();
+        for event in newest(events) {
+            let bound = bindings.iter().filter(|(_, address)| **address == event.source).map(|(target, _)| target);
+            let bound = bound.map(|target| (target.uniform.as_str(), target.index(), false));
+            let named = direct(&event.source).map(|moved| (moved.uniform, moved.index, true));
+            for (name, index, is_own_units) in bound.chain(named) {
+                let Some(uniform) = uniforms.iter().find(|uniform| uniform.name == name) else { continue };
+                let now = uniform.value(&self.project().custom_uniform_values);
+                if let Some(value) = moved(uniform, &now, index, event, is_own_units) {
+                    self.documents.current_mut().turn_custom_uniform(uniform, value);
+                    turned.insert(uniform.name.clone());
+                }
+            }
+        }
+        if self.project().custom_uniform_values != before {
+            self.passes.push_controls(before, turned);
+            self.custom_uniforms_turned();
+            self.changed = true;
+        }
+    }
+}
+
+/// Returns the control that a hand has touched. `index`: the number of a vector that it is for, to which the argument of that
+/// number belongs where an OSC message has so many.
+fn touched(events: &[ControlEvent], index: usize) -> Option<ControlAddress> {
+    let is_touched = |event: &&ControlEvent| match &event.source {
+        // A key that is released.
+        ControlAddress::Note { .. } => event.value > 0.0,
+        // A stick that is not quite at rest, a trigger that is brushed.
+        ControlAddress::Pad { part: PadPart::Axis(_), .. } => (event.value - 0.5).abs() > 0.25,
+        ControlAddress::Pad { part: PadPart::Button(_), .. } => event.value > 0.5,
+        ControlAddress::Osc { path, .. } => {
+            let is_finger = path.ends_with(TOUCH) && (event.value == 0.0 || event.value == 1.0);
+            direct(&event.source).is_none() && !is_finger
+        }
+        _ => true,
+    };
+    let first = events.iter().find(is_touched)?;
+    let ControlAddress::Osc { path, .. } = &first.source else { return Some(first.source.clone()) };
+    let own = ControlAddress::Osc { path: path.clone(), argument: index };
+    let has_own = events.iter().any(|event| event.source == own);
+    Some(if has_own { own } else { first.source.clone() })
+}
+
+/// Returns the events in their order, of each control the last one alone; of keys all, as each press switches something over.
+fn newest(events: &[ControlEvent]) -> Vec<&ControlEvent> {
+    let mut seen = BTreeSet::new();
+    let mut kept = Vec::new();
+    for event in events.iter().rev() {
+        if matches!(event.source, ControlAddress::Note { .. }) || seen.insert(&event.source) {
+            kept.push(event);
+        }
+    }
+    kept.reverse();
+    kept
+}
+
+#[cfg(test)]
+mod tests;

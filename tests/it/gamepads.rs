@@ -1,0 +1,29 @@
+//! Gamepads on the built program: zeros without a recording, and what a recording holds of them.
+
+use crate::support::{gpu, program::Bench};
+
+const SHOW: &str = "#iChannel0 \"gamepad\"\nvoid mainImage(out vec4 o, in vec2 p) {\n\
+    o = vec4(texelFetch(iChannel0, ivec2(1, 0), 0).r, texelFetch(iChannel0, ivec2(0, 2), 0).r, 0.5, 1.0); }\n";
+
+/// Texel 1 is left y of the first pad, texel 34 the press of its first button.
+#[test]
+fn a_recording_holds_what_a_gamepad_did() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/image.glsl", SHOW);
+    b.line("render p --size 4x4 --out still.npy").expect(0);
+    assert_eq!(b.npy("still.npy").at(1, 1), [0.0, 0.0, 0.5, 1.0]);
+    let first = "\"delta\":0.1,\"rate\":10,\"size\":[4,4],\"mouse\":[0,0,0,0],\"date\":[0,0,0,0]";
+    b.write(
+        "pad.replay",
+        format!(
+            "{{\"eddy_recording\":1}}\n{{\"time\":0,{first}}}\n{{\"time\":0.1,\"pads\":[[1,-0.75],[34,1]]}}\n{{\"time\":0.2}}\n\
+             {{\"time\":0.3,\"pads\":[]}}\n"
+        ),
+    );
+    for (frame, wanted) in [(0, [0.0, 0.0]), (1, [-0.75, 1.0]), (2, [-0.75, 1.0]), (3, [0.0, 0.0])] {
+        b.line(&format!("render p --replay pad.replay --at {frame} --out {frame}.npy")).expect(0);
+        let [x, y, ..] = b.npy(&format!("{frame}.npy")).at(1, 1);
+        assert_eq!([x, y], wanted, "frame {frame}");
+    }
+}
