@@ -33,6 +33,12 @@ pub struct Measures<'a> {
     pub taken: Vec<Measured>,
 }
 
+impl Measures<'_> {
+    pub fn is_empty(&self) -> bool {
+        self.quantities.is_empty() && self.assertions.is_empty()
+    }
+}
+
 /// Returns the quantities that `//@probe` comments of a project ask for, and what is wrong with those that cannot be
 /// measured.
 pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {

@@ -7,6 +7,7 @@ mod args;
 mod audit;
 mod bench;
 mod check;
+mod checkpoints;
 mod compare;
 mod divergence;
 mod failure;

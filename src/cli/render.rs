@@ -2,6 +2,7 @@
 
 use super::{
     args::RenderArgs,
+    checkpoints::Checkpoints,
     looped::Seam,
     machine::{Machine, Trouble, median, open_measured},
     measured::{self, Measured, Measures},
@@ -13,10 +14,12 @@ use super::{
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::Pixels,
-    film::{Encoding, Film, FilmError, Mean, Output, Shape, Stills, shrunk},
+    film::{Encoding, Film, FilmError, Mean, Output, Shape, Still, Stills, shrunk},
     media::MediaSet,
     playback::{
         offline::{Offline, OfflineError},
+        recording::Recording,
+        scene::{LONGEST, Scene, SceneInputs},
         script::ScriptedInputs,
     },
     project::{self, PassId, Project},
@@ -136,9 +139,21 @@ impl Job<'_> {
             return Err(blurred_state(&project));
         }
         let mut mean = Mean::default();
-        if !jumps && args.shard.is_some() && wanted.first().is_some_and(|first| *first > 0) {
-            self.note_state(report, wanted[0]);
+        let first = wanted.first().copied().unwrap_or_default();
+        let checkpoints = self.checkpoints(report, (&project, &media), &offline, inputs)?;
+        let mut begin = 0;
+        if let Some(checkpoints) = &checkpoints {
+            let remark;
+            (begin, remark) = checkpoints.resume(&mut offline, first)?;
+            remark.into_iter().for_each(|what| note(report, what));
+            if !targets.writes() && measures.is_empty() {
+                checkpoints.leave_pictures_out(&mut offline, (&project, &media))?;
+            }
         }
+        if !jumps && args.shard.is_some() && args.resume.is_none() && first > 0 {
+            note_state(report, first);
+        }
+        let source = self.source(&project, &offline, inputs)?;
         let mut seam = match args.looped {
             Some(secs) if targets.writes() => {
                 Some(Seam::open(machine, report, args, (secs, targets.rate), &missing, inputs)?)
@@ -147,8 +162,8 @@ impl Job<'_> {
         };
         let mut writer = Writer::Nothing;
         let (mut millis, mut written) = (Vec::new(), Vec::new());
-        let progress = Progress::new(&report.title(), if jumps { wanted.len() as u32 } else { frames });
-        for frame in 0..frames {
+        let progress = Progress::new(&report.title(), if jumps { wanted.len() as u32 } else { frames - begin });
+        for frame in begin..frames {
             let is_wanted = wanted.binary_search(&frame).is_ok();
             if jumps && !is_wanted {
                 offline.skip()?;
@@ -165,6 +180,9 @@ impl Job<'_> {
             millis.push(drawn.millis);
             report.frames += 1;
             progress.step();
+            if let Some(checkpoints) = &checkpoints {
+                written.extend(checkpoints.write(&offline, frame + 1)?);
+            }
             if !is_wanted {
                 continue;
             }
@@ -185,7 +203,7 @@ impl Job<'_> {
                 let opened = (&project, &media);
                 writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
             }
-            match self.write(&mut writer, report, frame, pixels, &mut written) {
+            match self.write(&mut writer, report, (frame, source.as_ref()), pixels, &mut written) {
                 // Whoever reads standard output has seen enough.
                 Err(Trouble::Other(error)) if matches!(error.downcast_ref(), Some(FilmError::Closed)) => {
                     return Ok(Drawn::default());
@@ -207,14 +225,48 @@ impl Job<'_> {
         Ok(Drawn { written, kept, measures: measures.taken, mentioned: true })
     }
 
-    /// Says why frames before those of a shard are drawn.
-    fn note_state(&self, report: &mut Report, first: u32) {
-        let what = format!(
-            "the project has a state, so that its frames depend on those before: this shard draws frames 0 to {} first, and \
-             does not write them",
-            first - 1
-        );
-        report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
+    /// Returns the checkpoints that are written or gone on from. A project without a state needs none.
+    fn checkpoints(
+        &self,
+        report: &mut Report,
+        opened: (&Project, &MediaSet),
+        offline: &Offline,
+        inputs: &ScriptedInputs,
+    ) -> Result<Option<Checkpoints<'_>>, Trouble> {
+        let args = self.args;
+        if args.checkpoint_every.is_none() && args.resume.is_none() {
+            return Ok(None);
+        }
+        if !offline.has_state()? {
+            let what = "the project has no state: every frame can be drawn by itself, and no checkpoint is needed";
+            note(report, what.into());
+            return Ok(None);
+        }
+        let spec = (args.project[self.index].as_str(), report.sweep.as_slice());
+        Checkpoints::new(args, spec, opened, offline, inputs).map(Some)
+    }
+
+    /// Returns what is saved in pictures besides the texels, where they are frames as they are drawn.
+    fn source(
+        &self,
+        project: &Project,
+        offline: &Offline,
+        inputs: &ScriptedInputs,
+    ) -> Result<Option<PictureSource>, Trouble> {
+        let Job { args, targets, .. } = self;
+        let is_png = matches!(targets.encoding, Encoding::Still(Still::Png { .. }));
+        let is_plain = args.factor() == 1 && args.shutter.is_none() && args.looped.is_none();
+        if args.no_project || !is_png || !is_plain || !targets.writes() {
+            return Ok(None);
+        }
+        Ok(Some(PictureSource {
+            project: project.clone(),
+            pass: args.pass.pass.clone(),
+            device: offline.engine()?.gpu().describe(),
+            has_state: offline.has_state()?,
+            size: args.run.canvas(),
+            inputs: inputs.clone(),
+        }))
     }
 
     /// Begins to write, now that the first picture is there.
@@ -263,7 +315,7 @@ impl Job<'_> {
         &self,
         writer: &mut Writer,
         report: &Report,
-        frame: u32,
+        (frame, source): (u32, Option<&PictureSource>),
         pixels: Pixels,
         written: &mut Vec<PathBuf>,
     ) -> Result<(), Trouble> {
@@ -273,12 +325,60 @@ impl Job<'_> {
             (Writer::Film(film), _) => film.push(pixels).map_err(failed)?,
             (Writer::Stills(stills), Some(path)) => {
                 self.targets.check(path)?;
-                stills.push(path.clone(), pixels).map_err(failed)?;
+                stills.push(path.clone(), pixels, source.map(|source| source.scene(frame))).map_err(failed)?;
             }
             (Writer::Stills(stills), None) => stills.pipe(pixels).map_err(failed)?,
         }
         written.extend(path.filter(|path| written.last() != Some(path)));
         Ok(())
+    }
+}
+
+/// Says why frames before those of a shard are drawn.
+fn note_state(report: &mut Report, first: u32) {
+    let what = format!(
+        "the project has a state, so that its frames depend on those before: this shard draws frames 0 to {} first, and \
+         does not write them; --checkpoint-every and --resume save that",
+        first - 1
+    );
+    note(report, what);
+}
+
+fn note(report: &mut Report, what: String) {
+    report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
+}
+
+/// Holds what a picture is drawn from.
+struct PictureSource {
+    project: Project,
+    pass: PassId,
+    device: String,
+    has_state: bool,
+    size: (u32, u32),
+    inputs: ScriptedInputs,
+}
+
+impl PictureSource {
+    fn scene(&self, frame: u32) -> Scene {
+        let inputs = match (self.inputs.script(), self.inputs.recording()) {
+            (Some(script), _) => SceneInputs::Script(script),
+            (None, recording) => {
+                let end = frame as usize + 1;
+                let begin = if self.has_state && end <= LONGEST { 0 } else { end - 1 };
+                let project = self.project.name.clone();
+                let frames = recording.and_then(|recording| recording.frames.get(begin..end)).unwrap_or_default();
+                SceneInputs::Recording(Recording { project, frames: frames.to_vec() })
+            }
+        };
+        Scene {
+            eddy: env!("CARGO_PKG_VERSION").into(),
+            device: self.device.clone(),
+            pass: self.pass.clone(),
+            frame,
+            size: self.size,
+            project: self.project.clone(),
+            inputs,
+        }
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::rgb;
 use eddy_engine::Pixels;
-use eddy_playback::capture;
+use eddy_playback::{capture, scene::Scene};
 use eddy_texture::TexelFormat;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, WritableImage,
 };
 use half::f16;
-use std::io::{self, Seek, Write};
+use std::io::{self, Cursor, Seek, Write};
 
 /// The form of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,26 @@ impl Still {
             Still::Png { depth } => png(out, pixels, depth),
             Still::Npy => capture::encode(out, pixels, capture::Format::Npy),
             Still::Exr => exr(out, pixels, texels),
+        }
+    }
+}
+
+impl Still {
+    /// Does the same with the scene in the file, where its format has a place for it.
+    pub fn write_scene(
+        self,
+        out: &mut (impl Write + Seek),
+        pixels: &Pixels,
+        texels: TexelFormat,
+        scene: Option<&Scene>,
+    ) -> io::Result<()> {
+        match (self, scene) {
+            (Still::Png { .. }, Some(scene)) => {
+                let mut file = Cursor::new(Vec::new());
+                self.write(&mut file, pixels, texels)?;
+                out.write_all(&scene.embed(file.into_inner())?)
+            }
+            _ => self.write(out, pixels, texels),
         }
     }
 }
@@ -77,7 +97,6 @@ fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat) -> i
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Cursor;
 
     fn pixels() -> Pixels {
         let texels = vec![[1.0, 0.5, -0.25, 1.0], [1e-8, 65_504.0, f32::INFINITY, 0.1], [0.2; 4], [3.5, 0.0, 1.0, 0.0]];

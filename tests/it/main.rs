@@ -14,6 +14,7 @@
 mod support;
 
 mod bars;
+mod checkpoints;
 mod cli;
 mod cli_measure;
 mod cli_render;

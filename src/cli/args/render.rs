@@ -25,7 +25,7 @@ pub struct RenderArgs {
     /// File to write, or a folder for STEM.png of each project (with several frames STEM_0004.png, with more digits if
     /// needed); with --pass sound .wav or .flac, or a folder for STEM.wav. A film (.mp4, .gif and others) is one file. -
     /// writes to standard output. Optional with --json, --probe or --assert: frames are then drawn but not written
-    #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
+    #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert", "checkpoint_every"])]
     pub out: Option<PathBuf>,
     /// Number of frames to draw, of which the last is written, or all of them into a film [default: 1, or as many as --at
     /// needs; with --replay all recorded frames]; or the frames to write: 0-59 (both ends), 0-599:2 (every second), 3,8,20-30
@@ -84,6 +84,21 @@ pub struct RenderArgs {
     /// within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
     #[arg(long, value_name = "CLAIM", value_parser = Assertion::parse)]
     pub assert: Vec<Assertion>,
+    /// Save the state of the run every N frames, so that later frames can be drawn without those before. Without --out
+    /// nothing else is written, and Image is not drawn
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub checkpoint_every: Option<u32>,
+    /// Folder for the checkpoints, named STEM_000100.eddystate [default: that of --out, else the current
+    /// one]
+    #[arg(long, value_name = "DIR", requires = "checkpoint_every")]
+    pub checkpoints: Option<PathBuf>,
+    /// Go on from a checkpoint, or from the latest one in a folder that is not after the first frame to write. It must be of
+    /// this version of Eddy, this project, resolution, rate and input
+    #[arg(long, value_name = "PATH", conflicts_with = "looped")]
+    pub resume: Option<PathBuf>,
+    /// Write PNG images without the project and its inputs in them. With them, an image opens as its frame in the window
+    #[arg(long)]
+    pub no_project: bool,
     /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,

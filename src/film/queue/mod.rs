@@ -5,6 +5,7 @@ use super::{
 };
 use eddy_audio::wav;
 use eddy_engine::Pixels;
+use eddy_playback::scene::Scene;
 use eddy_project::{Staged, limits, write_with};
 use eddy_texture::TexelFormat;
 use eddy_video::{Stop, Tools};
@@ -250,7 +251,8 @@ pub struct Stills {
 }
 
 enum Place {
-    File(PathBuf),
+    /// With what is saved in the file besides the picture.
+    File(PathBuf, Option<Box<Scene>>),
     Pipe,
 }
 
@@ -267,10 +269,10 @@ impl Stills {
         let work = move |jobs: Receiver<Job<(Place, Pixels)>>| {
             loop {
                 match jobs.recv() {
-                    Ok(Job::Next((Place::File(path), pixels))) => {
+                    Ok(Job::Next((Place::File(path, scene), pixels))) => {
                         let written = write_with(&path, |file| {
                             let mut out = BufWriter::new(file);
-                            still.write(&mut out, &pixels, texels)?;
+                            still.write_scene(&mut out, &pixels, texels, scene.as_deref())?;
                             out.flush()
                         });
                         written.map_err(FilmError::io(&path))?;
@@ -289,8 +291,8 @@ impl Stills {
     }
 
     /// Writes a picture whole or not at all: what was there stays until then. An error may be that of an earlier picture.
-    pub fn push(&mut self, path: PathBuf, pixels: Pixels) -> Result<(), FilmError> {
-        self.queue.push(Job::Next((Place::File(path), pixels)))
+    pub fn push(&mut self, path: PathBuf, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
+        self.queue.push(Job::Next((Place::File(path, scene.map(Box::new)), pixels)))
     }
 
     /// Writes a picture to the pipe.

@@ -1,0 +1,136 @@
+//! States of a run on disk: written every so many frames by one call of `eddy render`, and gone on from by others.
+
+use super::{args::RenderArgs, machine::Trouble};
+use crate::{
+    engine::BuildOptions,
+    media::MediaSet,
+    playback::{
+        checkpoint::{self, Moment},
+        offline::Offline,
+        script::ScriptedInputs,
+    },
+    project::{self, PassId, Project},
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The checkpoints of one project of a call.
+pub struct Checkpoints<'a> {
+    args: &'a RenderArgs,
+    /// The name of the project's files, with what a sweep sets.
+    stem: String,
+    moment: Moment,
+}
+
+impl<'a> Checkpoints<'a> {
+    pub fn new(
+        args: &'a RenderArgs,
+        (spec, swept): (&str, &[String]),
+        (project, media): (&Project, &MediaSet),
+        offline: &Offline,
+        inputs: &ScriptedInputs,
+    ) -> Result<Self, Trouble> {
+        let mut stem = project::stem(spec);
+        swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
+        let moment = Moment {
+            eddy: env!("CARGO_PKG_VERSION").into(),
+            project: project.name.clone(),
+            fingerprint: checkpoint::fingerprint(project, media, inputs),
+            frame: 0,
+            size: args.drawn().canvas(),
+            device: offline.engine()?.gpu().describe(),
+        };
+        let made = Self { args, stem, moment };
+        if args.checkpoint_every.is_some() {
+            let folder = made.folder();
+            fs::create_dir_all(folder)
+                .map_err(|error| anyhow::anyhow!("cannot create the folder {}: {error}", folder.display()))?;
+        }
+        Ok(made)
+    }
+
+    /// Goes on from the checkpoint of `--resume` from which the fewest frames are drawn before `first`. Returns the frame
+    /// that is drawn next, and a remark.
+    pub fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), Trouble> {
+        let Some(place) = &self.args.resume else { return Ok((0, None)) };
+        let file = match place.is_dir() {
+            false => place.clone(),
+            true => {
+                let found = checkpoint::latest(place, &self.stem, first);
+                let found = found.map_err(|error| anyhow::anyhow!("--resume {}: {error}", place.display()))?;
+                let Some((_, file)) = found else {
+                    let what = format!(
+                        "--resume {}: no checkpoint of {} is at or before frame {first}; all frames before it are drawn",
+                        place.display(),
+                        self.stem
+                    );
+                    return Ok((0, Some(what)));
+                };
+                file
+            }
+        };
+        let refused = |error: checkpoint::CheckpointError| {
+            let hint = error.hint();
+            Trouble::from(anyhow::Error::from(error).context(format!("--resume: {hint}")))
+        };
+        let found = checkpoint::read(&file, &self.moment).map_err(refused)?;
+        let frame = found.moment.frame;
+        if frame > first {
+            let what = anyhow::anyhow!(
+                "--resume {}: it is before frame {frame}, and frame {first} is to be written: name an earlier checkpoint, or \
+                 the folder of all",
+                file.display()
+            );
+            return Err(what.into());
+        }
+        offline.resume(frame, &found.state).map_err(|error| anyhow::anyhow!("--resume {}: {error}", file.display()))?;
+        let is_elsewhere = found.moment.device != self.moment.device;
+        let remark = is_elsewhere.then(|| {
+            let (was, is) = (&found.moment.device, &self.moment.device);
+            format!("{} was drawn by {was}, and this is {is}: last bits may differ", file.display())
+        });
+        Ok((frame, remark))
+    }
+
+    /// Compiles only what the frames to come read of those before, where no picture is asked for.
+    pub fn leave_pictures_out(
+        &self,
+        offline: &mut Offline,
+        (project, media): (&Project, &MediaSet),
+    ) -> Result<(), Trouble> {
+        let run = &self.args.run;
+        let mut passes = offline.engine()?.passes_with_state();
+        passes.sort();
+        if run.no_skip || passes.is_empty() || passes.contains(&PassId::Image) {
+            return Ok(());
+        }
+        let options = |wanted| BuildOptions { wanted, without: run.without_pass.set(), ..BuildOptions::default() };
+        offline.build(project, media, &options(passes.clone()))?;
+        let mut found = offline.engine()?.passes_with_state();
+        found.sort();
+        if found != passes {
+            offline.build(project, media, &options(vec![self.args.pass.pass.clone()]))?;
+        }
+        Ok(())
+    }
+
+    /// Writes a checkpoint if one is due before frame `next`.
+    pub fn write(&self, offline: &Offline, next: u32) -> Result<Option<PathBuf>, Trouble> {
+        let Some(every) = self.args.checkpoint_every.filter(|every| next.is_multiple_of(*every)) else {
+            return Ok(None);
+        };
+        debug_assert!(every > 0);
+        let path = checkpoint::path(self.folder(), &self.stem, next);
+        let state = offline.engine()?.state()?;
+        checkpoint::write(&path, &Moment { frame: next, ..self.moment.clone() }, &state)
+            .map_err(anyhow::Error::from)?;
+        Ok(Some(path))
+    }
+
+    fn folder(&self) -> &Path {
+        let pictures = self.args.out.as_deref().filter(|out| out.is_dir());
+        self.args.checkpoints.as_deref().or(pictures).unwrap_or(Path::new("."))
+    }
+}
