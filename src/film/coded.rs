@@ -34,10 +34,10 @@ impl Codec {
     /// Returns the constant rate factor of the qualities low, medium and high; of ProRes the profiles LT, standard and HQ.
     fn words(self) -> [u32; 3] {
         match self {
-            Codec::H264 => [28, 20, 12],
-            Codec::H265 => [30, 22, 12],
+            Codec::H264 => [28, 20, 10],
+            Codec::H265 => [30, 22, 10],
             Codec::Vp9 => [40, 28, 12],
-            Codec::Av1 => [45, 30, 10],
+            Codec::Av1 => [45, 30, 5],
             Codec::ProRes => [1, 2, 3],
             Codec::Ffv1 => [0, 0, 0],
         }
@@ -222,7 +222,12 @@ impl CodedFilm {
         (tools, stop): (&Tools, &Stop),
     ) -> Result<CodedFilm, FilmError> {
         coded.check_size(shape)?;
-        let encoder = coded.encoder(&tools.encoders()?, (shape.width, shape.height))?;
+        let size = (shape.width, shape.height);
+        // Where there is no choice, ffmpeg says itself that it lacks the encoder; listing them takes a tenth of a second.
+        let encoder = match coded.candidates(size) {
+            [only] => only,
+            _ => coded.encoder(&tools.encoders()?, size)?,
+        };
         let named = |path: &Path| file_name(path).map_err(FilmError::io(path));
         let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
         let mut arguments = coded.arguments(shape, encoder, wav);
