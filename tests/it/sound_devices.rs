@@ -7,6 +7,7 @@ use eddy::{
         fake::{FakeHost, FakeOut},
         host::Format,
     },
+    playback::scene::{Scene, SceneInputs},
     project::{InputKind, Media, PassId},
     session::{Command, DeviceState, Level, SessionOptions},
 };
@@ -358,6 +359,10 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     room.stage.session.apply(Command::Pause);
     room.run(0.1);
     let shown = seen(&mut room);
+    // An image holds its project, and nothing that was heard.
+    let picture = room.stage.screenshot();
+    let SceneInputs::Recording(held) = Scene::read(&picture).unwrap().inputs else { panic!("inputs of the window") };
+    assert!(held.frames.len() == 1 && held.frames[0].inputs.microphone.is_none());
     // What is heard while time stands is not seen.
     room.host.input.hear(&vec![0.9; 4410]);
     room.run(0.1);
