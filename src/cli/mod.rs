@@ -17,6 +17,7 @@ mod looped;
 mod machine;
 mod measured;
 mod nonfinite;
+mod plan;
 mod precision;
 mod printed;
 mod probe;
@@ -97,6 +98,9 @@ fn run(command: &Command) -> u8 {
                 Ok(targets) => targets,
                 Err(usage) => return trouble(usage),
             };
+            if args.plan {
+                return printed(plan::run(args, &targets, &inputs));
+            }
             if let Err(error) = targets.prepare(args.run.canvas()) {
                 return trouble(error_chain(&error));
             }

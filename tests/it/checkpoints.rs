@@ -127,3 +127,33 @@ fn pictures_hold_their_project_unless_asked_not_to() {
     render(&b, ["--at", "12", "--out", "c.png", "--supersample", "2"]).expect(0);
     assert!(!Scene::is_in(&b.bytes("c.png")));
 }
+
+#[test]
+fn a_plan_counts_what_the_tasks_draw_and_writes_nothing() {
+    let Some(b) = bench() else { return };
+    let plan = |more: &[&str]| {
+        let run = render(&b, ["--plan", "--json"].into_iter().chain(more.iter().copied())).expect(0);
+        run.json().remove(0)["plan"].clone()
+    };
+    let found = plan(&["--frames", "0-41", "--shard", "0/7"]);
+    let resumed = &found["resumed"];
+    assert_eq!((&found["writes"], &found["tasks"], &found["most_frames"]), (&42.into(), &7.into(), &42.into()));
+    assert_eq!(found["state"], serde_json::json!(["Buffer A"]));
+    assert_eq!(
+        (&resumed["checkpoint_every"], &resumed["most_frames"], &resumed["serial_frames"]),
+        (&6.into(), &6.into(), &36.into())
+    );
+    assert!(found["state_ms"].as_f64().is_some_and(|millis| millis > 0.0));
+    // Blocks of 5 and 6 frames: some begin between two checkpoints.
+    let found = plan(&["--frames", "0-36", "--shard", "0/7"]);
+    assert!(found["resumed"]["most_frames"].as_u64().is_some_and(|most| (6..12).contains(&most)), "{found}");
+    assert!(plan(&["--frames", "0-41"])["resumed"].is_null());
+    b.image("plain.glsl", "fragColor = vec4(iTime);");
+    let run = b.line("render plain.glsl --size 8x4 --frames 0-41 --shard 0/4 --out o --plan").expect(0);
+    assert!(
+        run.out.contains("each can be drawn by itself") && run.out.contains("at most 11 frames each"),
+        "{}",
+        run.out
+    );
+    assert!(b.names("o").is_empty());
+}

@@ -25,7 +25,7 @@ pub struct RenderArgs {
     /// File to write, or a folder for STEM.png of each project (with several frames STEM_0004.png, with more digits if
     /// needed); with --pass sound .wav or .flac, or a folder for STEM.wav. A film (.mp4, .gif and others) is one file. -
     /// writes to standard output. Optional with --json, --probe or --assert: frames are then drawn but not written
-    #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert", "checkpoint_every"])]
+    #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert", "checkpoint_every", "plan"])]
     pub out: Option<PathBuf>,
     /// Number of frames to draw, of which the last is written, or all of them into a film [default: 1, or as many as --at
     /// needs; with --replay all recorded frames]; or the frames to write: 0-59 (both ends), 0-599:2 (every second), 3,8,20-30
@@ -99,6 +99,9 @@ pub struct RenderArgs {
     /// Write PNG images without the project and its inputs in them. With them, an image opens as its frame in the window
     #[arg(long)]
     pub no_project: bool,
+    /// Draw a few frames, write nothing, and tell which frames depend on which and what the tasks of an array would cost
+    #[arg(long)]
+    pub plan: bool,
     /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,

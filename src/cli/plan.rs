@@ -1,0 +1,163 @@
+//! `eddy render --plan`: which frames depend on which, and what the tasks of an array cost, measured on a few frames.
+
+use super::{
+    args::RenderArgs,
+    checkpoints::Checkpoints,
+    machine::{Machine, Trouble, median, open_measured},
+    report::{Printer, Report},
+    targets::Targets,
+};
+use crate::playback::{offline::Offline, script::ScriptedInputs, shard::Shard};
+use serde::Serialize;
+use std::io;
+
+/// Frames that are drawn to measure one.
+const MEASURED: u32 = 8;
+
+/// The cost of a project's frames.
+#[derive(Debug, Serialize)]
+struct Plan {
+    /// Frames that are written, and the tasks that share them.
+    writes: usize,
+    tasks: u64,
+    /// The passes by which frames depend on those before; none: every frame can be drawn by itself.
+    state: Vec<String>,
+    /// Milliseconds of a frame without what only its picture needs; the same as `frame_ms` where that is nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state_ms: Option<f64>,
+    /// Bytes of a checkpoint before it is compressed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    checkpoint_bytes: Option<u64>,
+    /// The most frames that a task draws: by itself, and from checkpoints every so many frames.
+    most_frames: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    resumed: Option<Resumed>,
+}
+
+#[derive(Debug, Serialize)]
+struct Resumed {
+    checkpoint_every: u32,
+    most_frames: u32,
+    /// Frames of the run that writes the checkpoints.
+    serial_frames: u32,
+}
+
+#[derive(Serialize)]
+struct JsonLine<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    plan: Option<&'a Plan>,
+}
+
+pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    for spec in &args.project {
+        let swept = targets.sweep.first().cloned().unwrap_or_default();
+        let mut report = Report::swept(spec, &swept);
+        let plan = machine
+            .attempt(&mut report, |machine, report| plan(machine, report, (spec, &swept), args, targets, inputs));
+        let words = plan.as_ref().map_or(String::new(), |plan| plan.words(&report));
+        printer.print_as(&JsonLine { report: &report, plan: plan.as_ref() }, &report, &words)?;
+    }
+    Ok(printer.exit_code())
+}
+
+fn plan(
+    machine: &mut Machine,
+    report: &mut Report,
+    (spec, swept): (&str, &[String]),
+    args: &RenderArgs,
+    targets: &Targets,
+    inputs: &ScriptedInputs,
+) -> Result<Plan, Trouble> {
+    let (project, mut offline, media) =
+        open_measured(machine, report, spec, &args.drawn(), (&args.pass.pass, &|_| Vec::new()), inputs.clone())?;
+    let (at, tasks) = (&targets.at, targets.shard.count);
+    let blocks: Vec<(u32, u32)> = (0..tasks)
+        .map(|index| Shard { index, count: tasks }.part_of(at.len() as u64))
+        .filter(|block| block.start < block.end)
+        .map(|block| (at[block.start as usize], at[block.end as usize - 1]))
+        .collect();
+    report.frame_ms = measure(&mut offline, report)?;
+    let largest = at.len().div_ceil(tasks as usize) as u32;
+    let mut plan = Plan {
+        writes: at.len(),
+        tasks,
+        state: Vec::new(),
+        state_ms: None,
+        checkpoint_bytes: None,
+        most_frames: largest,
+        resumed: None,
+    };
+    if !offline.has_state()? {
+        return Ok(plan);
+    }
+    plan.state = offline.engine()?.passes_with_state().iter().map(|pass| pass.title()).collect();
+    plan.checkpoint_bytes = Some(offline.engine()?.checkpoint_bytes());
+    plan.most_frames = at.last().map_or(0, |last| last + 1);
+    Checkpoints::new(args, (spec, swept), (&project, &media), &offline, inputs)?
+        .leave_pictures_out(&mut offline, (&project, &media))?;
+    plan.state_ms = measure(&mut offline, report)?;
+    if tasks > 1 {
+        let every = plan.most_frames.div_ceil(tasks as u32).max(1);
+        let drawn = |(first, last): &(u32, u32)| last + 1 - first / every * every;
+        plan.resumed = Some(Resumed {
+            checkpoint_every: every,
+            most_frames: blocks.iter().map(drawn).max().unwrap_or_default(),
+            // The last checkpoint that a task goes on from.
+            serial_frames: blocks.last().map_or(0, |(first, _)| first / every * every),
+        });
+    }
+    Ok(plan)
+}
+
+/// Returns the milliseconds of a frame, the first one left out.
+fn measure(offline: &mut Offline, report: &mut Report) -> Result<Option<f64>, Trouble> {
+    let mut millis = Vec::new();
+    for _ in 0..=MEASURED {
+        offline.rewind_at_end()?;
+        millis.push(offline.draw()?.millis);
+        report.frames += 1;
+    }
+    Ok(median(millis.split_off(1)))
+}
+
+impl Plan {
+    fn words(&self, report: &Report) -> String {
+        let frame_ms = report.frame_ms.unwrap_or_default();
+        let time = |frames: u32, millis: f64| duration(f64::from(frames) * millis / 1e3);
+        let each = |frames: u32| format!("at most {frames} frames each, {}", time(frames, frame_ms));
+        let depends = match self.state.is_empty() {
+            true => "each can be drawn by itself".to_owned(),
+            false => format!("each depends on those before, through {}", crate::project::listed(&self.state)),
+        };
+        let mut lines = vec![format!("{}: {} frames; {depends}", report.title(), self.writes)];
+        lines.push(format!("{frame_ms:.2} ms a frame, the median of {MEASURED}"));
+        if let (Some(state_ms), Some(bytes)) = (self.state_ms, self.checkpoint_bytes) {
+            let mebibytes = bytes as f64 / f64::from(1 << 20);
+            lines.push(format!("{state_ms:.2} ms without the picture; a checkpoint takes at most {mebibytes:.1} MiB"));
+        }
+        let tasks = if self.tasks == 1 { "1 task".into() } else { format!("{} tasks", self.tasks) };
+        lines.push(format!("{tasks}: {}", each(self.most_frames)));
+        if let Some(resumed) = &self.resumed {
+            let state_ms = self.state_ms.unwrap_or(frame_ms);
+            lines.push(format!(
+                "{tasks} from checkpoints (--checkpoint-every {}): {}, after {} for the checkpoints",
+                resumed.checkpoint_every,
+                each(resumed.most_frames),
+                time(resumed.serial_frames, state_ms)
+            ));
+        }
+        lines.join("\n  ")
+    }
+}
+
+/// Returns a time as people say it.
+fn duration(secs: f64) -> String {
+    match secs {
+        secs if secs < 120.0 => format!("{secs:.1} s"),
+        secs if secs < 7200.0 => format!("{:.0} min", secs / 60.0),
+        secs => format!("{:.1} h", secs / 3600.0),
+    }
+}
