@@ -41,7 +41,7 @@ fn farthest_by(b: &Bench, film: &str, frames: usize, matrix: &str) -> (u8, u8) {
 
 fn card(b: &Bench) {
     b.image("card.glsl", CARD);
-    b.line("render card.glsl --size 128x72 --out card.png").expect(0);
+    b.line("render card.glsl --size 128x72 --no-project --out card.png").expect(0);
 }
 
 #[test]
