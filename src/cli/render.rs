@@ -254,9 +254,9 @@ impl Job<'_> {
         inputs: &ScriptedInputs,
     ) -> Result<Option<PictureSource>, Trouble> {
         let Job { args, targets, .. } = self;
-        let is_png = matches!(targets.encoding, Encoding::Still(Still::Png { .. }));
+        let has_place = matches!(targets.encoding, Encoding::Still(Still::Png { .. } | Still::Exr));
         let is_plain = args.factor() == 1 && args.shutter.is_none() && args.looped.is_none();
-        if args.no_project || !is_png || !is_plain || !targets.writes() {
+        if args.no_project || !has_place || !is_plain || !targets.writes() {
             return Ok(None);
         }
         Ok(Some(PictureSource {

@@ -2,10 +2,14 @@
 
 use super::rgb;
 use eddy_engine::Pixels;
-use eddy_playback::{capture, scene::Scene};
+use eddy_playback::{
+    capture,
+    scene::{ATTRIBUTE, Scene},
+};
 use eddy_texture::TexelFormat;
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, Text,
+    WritableImage,
 };
 use half::f16;
 use std::io::{self, Cursor, Seek, Write};
@@ -38,7 +42,7 @@ impl Still {
             Still::Png { depth: 8 } => capture::encode(out, pixels, capture::Format::Png),
             Still::Png { depth } => png(out, pixels, depth),
             Still::Npy => capture::encode(out, pixels, capture::Format::Npy),
-            Still::Exr => exr(out, pixels, texels),
+            Still::Exr => exr(out, pixels, texels, None),
         }
     }
 }
@@ -58,6 +62,7 @@ impl Still {
                 self.write(&mut file, pixels, texels)?;
                 out.write_all(&scene.embed(file.into_inner())?)
             }
+            (Still::Exr, Some(scene)) => exr(out, pixels, texels, Some(scene.attribute()?)),
             _ => self.write(out, pixels, texels),
         }
     }
@@ -74,7 +79,7 @@ fn png(out: &mut impl Write, pixels: &Pixels, depth: u32) -> io::Result<()> {
     Ok(writer.finish()?)
 }
 
-fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat) -> io::Result<()> {
+fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat, scene: Option<String>) -> io::Result<()> {
     let rows = || pixels.texels.chunks_exact(pixels.width as usize).rev().flatten();
     let channel = |index: usize| {
         let values = rows().map(|texel| texel[index]);
@@ -87,7 +92,11 @@ fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat) -> i
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = (0..texels.components()).map(channel).collect();
     let size = (pixels.width as usize, pixels.height as usize);
     // Blocks of 16 lines by ZIP.
-    let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    let mut attributes = LayerAttributes::default();
+    if let Some(scene) = scene {
+        attributes.other.insert(Text::from(ATTRIBUTE), AttributeValue::Text(Text::from(scene.as_str())));
+    }
+    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
     Image::from_layer(layer).write().non_parallel().to_buffered(out).map_err(|error| match error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other.to_string()),

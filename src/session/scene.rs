@@ -14,7 +14,7 @@ use eddy_playback::{
     scene::{LONGEST, Scene, SceneInputs},
 };
 use eddy_project::{PassId, Project, confine, limits};
-use std::{path::Path, sync::Arc};
+use std::{ffi::OsStr, path::Path, sync::Arc};
 
 /// Holds the project of a picture that is to be read from the device.
 #[derive(Clone, Debug)]
@@ -58,7 +58,8 @@ impl PictureSource {
 
 /// Returns whether a file is a picture that holds a project.
 pub(super) fn holds_project(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+    let has_place = |extension: &OsStr| ["png", "exr"].iter().any(|kind| extension.eq_ignore_ascii_case(kind));
+    path.extension().is_some_and(has_place)
         && confine::read_own(path, limits::MEDIA_FILE).is_ok_and(|bytes| Scene::is_in(&bytes))
 }
 

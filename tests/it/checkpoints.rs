@@ -123,6 +123,13 @@ fn pictures_hold_their_project_unless_asked_not_to() {
     assert!(scene.project.custom_uniform_values.contains_key("level"));
     render(&b, ["--at", "12", "--out", "b.png", "--no-project"]).expect(0);
     assert!(!Scene::is_in(&b.bytes("b.png")) && b.png("a.png") == b.png("b.png"));
+    render(&b, ["--at", "12", "--out", "a.exr"]).expect(0);
+    let of_floats = Scene::read(&b.path("a.exr")).unwrap();
+    assert_eq!((of_floats.frame, of_floats.inputs), (scene.frame, scene.inputs.clone()));
+    render(&b, ["--at", "12", "--out", "b.exr", "--no-project"]).expect(0);
+    assert!(!Scene::is_in(&b.bytes("b.exr")));
+    let floats = |name: &str| image::load_from_memory(&b.bytes(name)).unwrap().into_rgba32f();
+    assert_eq!(floats("a.exr"), floats("b.exr"));
     // What is no frame of the project holds none.
     render(&b, ["--at", "12", "--out", "c.png", "--supersample", "2"]).expect(0);
     assert!(!Scene::is_in(&b.bytes("c.png")));

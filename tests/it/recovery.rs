@@ -244,16 +244,18 @@ fn kill_one(state: &Path, project: &Path, after: Duration) -> (u64, Option<u64>)
     (typed.last().expect("it has typed").1, second_before.map(|(_, number)| *number))
 }
 
+/// `EDDY_KILLS=100` is a long run.
 #[test]
-fn killed_a_hundred_times_it_loses_at_most_a_second() {
+fn killed_at_any_moment_it_loses_at_most_a_second() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let project = write_project(dir.path());
     let mut lost = Vec::new();
-    for kill in 0..100u64 {
+    let kills = support::env::number("EDDY_KILLS", 25);
+    for kill in 0..kills {
         let state = dir.path().join(format!("state-{kill}"));
         // At every phase of the writing: the steps share no factor with its rhythm.
-        let after = Duration::from_millis(1000 + kill * 37 % 650);
+        let after = Duration::from_millis(1000 + kill * 109 % 650);
         let (last, safe) = kill_one(&state, &project, after);
         let mut next = session(&gpu, &state);
         offer(&mut next);
@@ -265,6 +267,6 @@ fn killed_a_hundred_times_it_loses_at_most_a_second() {
         lost.push(last.saturating_sub(number));
     }
     lost.sort_unstable();
-    println!("keys lost, of one every 7 ms: median {}, most {}", lost[50], lost[99]);
+    println!("keys lost, of one every 7 ms: median {}, most {}", lost[lost.len() / 2], lost[lost.len() - 1]);
     assert_eq!(fs::read_to_string(project.join("image.glsl")).unwrap(), plain(0.2), "the project itself is untouched");
 }

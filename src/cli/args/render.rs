@@ -96,7 +96,7 @@ pub struct RenderArgs {
     /// this version of Eddy, this project, resolution, rate and input
     #[arg(long, value_name = "PATH", conflicts_with = "looped")]
     pub resume: Option<PathBuf>,
-    /// Write PNG images without the project and its inputs in them. With them, an image opens as its frame in the window
+    /// Write PNG and EXR images without the project and its inputs in them. With them, an image opens as its frame in the window
     #[arg(long)]
     pub no_project: bool,
     /// Draw a few frames, write nothing, and tell which frames depend on which and what the tasks of an array would cost

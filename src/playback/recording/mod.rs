@@ -3,7 +3,7 @@
 //! Owns what a frame is given (time, date, mouse, keys, gamepads, what the microphone's texture holds, canvas, values of the author's own uniforms) and the file that
 //! keeps it. Holds no picture and no text of the project: another text draws other pictures of the same inputs.
 
-mod base64;
+pub(crate) mod base64;
 mod file;
 
 pub use file::{EXTENSION, ReadError};

@@ -1,10 +1,10 @@
 //! The project, the inputs and the frame of a picture, in the picture's own file: opened again, it is that frame.
 //!
-//! Owns the text chunk of a PNG file that holds them: `iTXt` with the keyword `eddy`, compressed (PNG specification, third
-//! edition, section 11.3.3.4). No path of the machine is in it. Files that channels read are named, not carried.
+//! Owns the text chunk of a PNG file that holds them, `iTXt` with the keyword `eddy`, compressed (PNG specification, third
+//! edition, section 11.3.3.4), and the attribute `eddy` of an OpenEXR file, a string: the same in base64. No path of the machine is in it. Files that channels read are named, not carried.
 
 use crate::{
-    recording::{RecordedFrame, Recording},
+    recording::{RecordedFrame, Recording, base64},
     run::Frame,
     script::{Script, ScriptedInputs},
 };
@@ -14,6 +14,7 @@ use eddy_project::{
 use flate2::{Compression, Crc, read::ZlibDecoder, write::ZlibEncoder};
 use serde::{Deserialize, Serialize};
 use std::{
+    borrow::Cow,
     io::{self, Read, Write},
     path::{Path, PathBuf},
     sync::Arc,
@@ -22,6 +23,8 @@ use std::{
 /// Version of the form that this build writes, and the newest one it reads.
 const VERSION: u32 = 1;
 const KEYWORD: &[u8] = b"eddy";
+/// The name of the attribute of an OpenEXR file.
+pub const ATTRIBUTE: &str = "eddy";
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 /// The most frames that are drawn again to show one: ten minutes at 60 frames a second.
@@ -107,10 +110,7 @@ impl Scene {
         if !png.starts_with(SIGNATURE) || png.len() < begin {
             return Ok(png);
         }
-        let mut data = [KEYWORD, b"\0\x01\0\0\0"].concat();
-        let mut packed = ZlibEncoder::new(&mut data, Compression::default());
-        packed.write_all(self.text()?.as_bytes())?;
-        packed.finish()?;
+        let data = [KEYWORD, b"\0\x01\0\0\0", &self.packed()?].concat();
         let mut out = png[..begin].to_vec();
         out.extend(u32::try_from(data.len()).map_err(io::Error::other)?.to_be_bytes());
         let mut crc = Crc::new();
@@ -121,6 +121,17 @@ impl Scene {
         out.extend(crc.sum().to_be_bytes());
         out.extend_from_slice(&png[begin..]);
         Ok(out)
+    }
+
+    /// Returns the value of the attribute that holds the scene in an OpenEXR file; its name is [`ATTRIBUTE`].
+    pub fn attribute(&self) -> io::Result<String> {
+        Ok(base64::encode(&self.packed()?))
+    }
+
+    fn packed(&self) -> io::Result<Vec<u8>> {
+        let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
+        packed.write_all(self.text()?.as_bytes())?;
+        packed.finish()
     }
 
     fn text(&self) -> io::Result<String> {
@@ -146,22 +157,22 @@ impl Scene {
         Ok(serde_json::to_string(&form)?)
     }
 
-    /// Reads the scene of a PNG file.
+    /// Reads the scene of a PNG or OpenEXR file.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
-        Self::of_png(&confine::read_own(path, limits::MEDIA_FILE)?, path)
+        Self::of_file(&confine::read_own(path, limits::MEDIA_FILE)?, path)
     }
 
-    /// Returns whether a PNG file holds a scene, whole or not.
-    pub fn is_in(png: &[u8]) -> bool {
-        chunk(png).is_some()
+    /// Returns whether a PNG or OpenEXR file holds a scene, whole or not.
+    pub fn is_in(file: &[u8]) -> bool {
+        packed_in(file).is_some()
     }
 
-    fn of_png(png: &[u8], path: &Path) -> Result<Scene, SceneError> {
-        let packed = chunk(png).ok_or_else(|| SceneError::None { path: path.into() })?;
+    fn of_file(file: &[u8], path: &Path) -> Result<Scene, SceneError> {
+        let packed = packed_in(file).ok_or_else(|| SceneError::None { path: path.into() })?;
         let damaged = |reason: String| SceneError::Damaged { path: path.into(), reason };
         let mut text = String::new();
         let limit = limits::ALL_TEXTS.bytes;
-        let read = ZlibDecoder::new(packed).take(limit + 1).read_to_string(&mut text);
+        let read = ZlibDecoder::new(&*packed).take(limit + 1).read_to_string(&mut text);
         read.map_err(|error| damaged(error.to_string()))?;
         if text.len() as u64 > limit {
             return Err(damaged(format!("it is larger than {}", limits::ALL_TEXTS)));
@@ -227,6 +238,39 @@ impl Scene {
             }
         }
     }
+}
+
+/// The compressed text of the scene.
+fn packed_in(file: &[u8]) -> Option<Cow<'_, [u8]>> {
+    chunk(file).map(Cow::Borrowed).or_else(|| {
+        let text = std::str::from_utf8(attribute(file)?).ok()?;
+        // Text that is not base64 is damaged, and not absent.
+        Some(Cow::Owned(base64::decode(text).unwrap_or_default()))
+    })
+}
+
+/// The value of the scene's attribute in the first header of an OpenEXR file (OpenEXR file layout, "Header").
+fn attribute(exr: &[u8]) -> Option<&[u8]> {
+    // The magic number, then version and flags.
+    let mut rest = exr.strip_prefix(b"\x76\x2f\x31\x01")?.get(4..)?;
+    loop {
+        let (name, after) = until_zero(rest)?;
+        if name.is_empty() {
+            return None;
+        }
+        let (kind, after) = until_zero(after)?;
+        let (length, after) = after.split_first_chunk::<4>()?;
+        let (value, after) = after.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        if name == ATTRIBUTE.as_bytes() && kind == b"string" {
+            return Some(value);
+        }
+        rest = after;
+    }
+}
+
+fn until_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let end = bytes.iter().position(|byte| *byte == 0)?;
+    Some((&bytes[..end], &bytes[end + 1..]))
 }
 
 /// The compressed text of the scene's chunk.

@@ -44,7 +44,7 @@ fn png() -> Vec<u8> {
 }
 
 fn read(png: &[u8]) -> Result<Scene, SceneError> {
-    Scene::of_png(png, Path::new("a.png"))
+    Scene::of_file(png, Path::new("a.png"))
 }
 
 #[test]
