@@ -5,7 +5,7 @@ use super::{
     values::{self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter},
 };
 use crate::{
-    cli::sweep::Sweep,
+    cli::{progress, sweep::Sweep},
     film::{Chroma, Codec, ColorRange, Format, Quality, Style},
     playback::{
         frames::{FrameList, Frames},
@@ -84,6 +84,9 @@ pub struct RenderArgs {
     /// within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
     #[arg(long, value_name = "CLAIM", value_parser = Assertion::parse)]
     pub assert: Vec<Assertion>,
+    /// Progress on standard error
+    #[arg(long, value_name = "STYLE", default_value = "auto")]
+    pub progress: progress::Style,
     /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,
