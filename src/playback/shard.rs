@@ -220,7 +220,6 @@ mod tests {
         let to = |last| [&stepped("20")[..], &[("SLURM_ARRAY_TASK_MAX", last)]].concat();
         assert_eq!(auto(&to("25")), shard(2, 4));
         assert_eq!(auto(&to("27")), shard(2, 4), "--array=10-27:5");
-        // Such as --array=10,20,25,30.
         for list in ["24", "30", "3"] {
             let message = auto(&to(list)).unwrap_err();
             assert!(message.contains("not a range") && message.contains("as in 0-3"), "{list}: {message}");
