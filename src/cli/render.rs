@@ -6,7 +6,7 @@ use super::{
     looped::Seam,
     machine::{Machine, Trouble, median, open_measured},
     measured::{self, Measured, Measures},
-    progress::Progress,
+    progress::CallProgress,
     report::{Printer, Report},
     soundtrack::{self, FilmTime},
     targets::Targets,
@@ -48,6 +48,7 @@ fn is_zero(number: &u32) -> bool {
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = if targets.is_pipe() { Printer::beside_pipe() } else { Printer::new(args.json) };
     let mut machine = Machine::default();
+    let progress = CallProgress::new(args.progress, targets.pictures(), "frames");
     for (index, spec) in args.project.iter().enumerate() {
         for (number, swept) in targets.sweep.iter().enumerate() {
             let part = targets.part(index, number);
@@ -55,9 +56,11 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
                 continue;
             }
             let mut report = Report::swept(spec, swept);
-            let job = Job { args, targets, index, part };
+            let job = Job { args, targets, index, part, progress: &progress };
+            progress.open(&report.title());
             let drawn = machine.attempt(&mut report, |machine, report| job.draw(machine, report, inputs));
             let Drawn { written, kept, measures, mentioned } = drawn.unwrap_or_default();
+            progress.end(&report, part.len());
             let words =
                 if mentioned { words(&report, &written, kept) + &measured_words(&measures) } else { String::new() };
             printer.print_as(&JsonLine { report: &report, measured: &measures, kept }, &report, &words)?;
@@ -104,6 +107,7 @@ struct Job<'a> {
     index: usize,
     /// The frames that are this call's, rising.
     part: &'a [u32],
+    progress: &'a CallProgress,
 }
 
 impl Job<'_> {
@@ -162,7 +166,8 @@ impl Job<'_> {
         };
         let mut writer = Writer::Nothing;
         let (mut millis, mut written) = (Vec::new(), Vec::new());
-        let progress = Progress::new(&report.title(), if jumps { wanted.len() as u32 } else { frames - begin });
+        let steps = if jumps { wanted.len() as u32 } else { frames - begin };
+        let progress = self.progress.begin(&report.title(), self.part.len(), steps);
         for frame in begin..frames {
             let is_wanted = wanted.binary_search(&frame).is_ok();
             if jumps && !is_wanted {

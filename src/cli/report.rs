@@ -117,6 +117,22 @@ impl Report {
         self.status = self.status.max(status);
     }
 
+    /// Returns the first error with its place, and how many there are beside it.
+    pub fn first_error(&self) -> Option<String> {
+        let Message { source, line, column, message, .. } =
+            self.diagnostics.iter().find(|m| m.severity == Severity::Error.name())?;
+        let place = match (source, line, column) {
+            (Some(source), Some(line), Some(column)) => format!("{source}:{line}:{column}: "),
+            _ => String::new(),
+        };
+        let more = match self.errors() - 1 {
+            0 => String::new(),
+            1 => " (and 1 more error)".into(),
+            more => format!(" (and {more} more errors)"),
+        };
+        Some(format!("{place}{message}{more}"))
+    }
+
     pub fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|m| m.severity == Severity::Error.name()).count()
     }
@@ -192,16 +208,19 @@ mod tests {
         let d = &line["diagnostics"][0];
         assert_eq!((&d["source"], &d["line"], &d["column"]), (&"image.glsl".into(), &2.into(), &3.into()));
         assert_eq!(d["hints"][0], "good");
+        assert_eq!(report.first_error().as_deref(), Some("image.glsl:2:3: no `bad`"));
     }
 
     #[test]
     fn the_worst_counts_and_a_warning_is_no_trouble() {
         let mut report = Report::new("x");
         report.diagnose(&[Diagnostic::warning(None, "hm")], &SourceMap::default(), None);
-        assert_eq!((report.status, report.errors()), (Status::Ok, 0));
+        assert_eq!((report.status, report.errors(), report.first_error()), (Status::Ok, 0, None));
         report.fail(Status::Error, "no device");
+        assert_eq!(report.first_error().as_deref(), Some("no device"));
         report.diagnose(&[Diagnostic::error(None, "e")], &SourceMap::default(), None);
         assert_eq!((report.status, report.errors()), (Status::Error, 2));
+        assert_eq!(report.first_error().as_deref(), Some("no device (and 1 more error)"));
         assert_eq!(
             [Status::Ok, Status::Diagnostics, Status::Unsupported, Status::Error].map(Status::exit_code),
             [0, 1, 2, 2]

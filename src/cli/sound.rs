@@ -4,6 +4,7 @@
 use super::{
     args::RenderArgs,
     machine::{Machine, Trouble, median, millis_since, open_sound},
+    progress::CallProgress,
     report::{Printer, Report},
     targets::{check_folder, check_within, stems, tells_case_apart},
 };
@@ -162,21 +163,27 @@ struct Made {
 pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
+    let blocks = sounds.frames.div_ceil(BLOCK_FRAMES);
+    let progress = CallProgress::new(args.progress, args.project.len() * blocks as usize, "blocks");
     for (index, spec) in args.project.iter().enumerate() {
         let mut report = Report::new(spec);
+        progress.open(&report.title());
         let made = machine.attempt(&mut report, |machine, report| {
             let mut offline = open_sound(machine, report, spec, &args.run, inputs.clone())?;
             let (mut frames, mut millis) = (Vec::new(), Vec::new());
-            for block in 0..sounds.frames.div_ceil(BLOCK_FRAMES) {
+            let progress = progress.begin(&report.title(), blocks as usize, blocks);
+            for block in 0..blocks {
                 let began = Instant::now();
                 frames.extend(offline.draw_sound(block)?);
                 millis.push(millis_since(began));
+                progress.step();
             }
             frames.truncate(sounds.frames as usize);
             let file = sounds.write(index, &frames)?;
             let seconds = frames.len() as f64 / f64::from(SAMPLE_RATE);
             Ok::<_, Trouble>(Made { seconds, samples: frames.len(), block_ms: median(millis), file })
         });
+        progress.end(&report, blocks as usize);
         let words = made.as_ref().map_or(String::new(), |made| {
             let file = made.file.as_ref().map_or(String::new(), |file| format!(": {}", file.display()));
             let millis = made.block_ms.unwrap_or_default();

@@ -20,8 +20,9 @@ struct Scheduler {
     index: &'static str,
     /// The number of tasks, by the first of these that is set; none where the scheduler does not say it.
     counts: &'static [&'static str],
-    /// The index of the first task, where arrays may begin anywhere, and the distance of two.
+    /// The index of the first task, where arrays may begin anywhere, that of the last, and the distance of two.
     first: Option<&'static str>,
+    last: Option<&'static str>,
     step: Option<&'static str>,
     /// The index of the first task where it is always the same.
     begins_at: u64,
@@ -30,13 +31,22 @@ struct Scheduler {
 /// In the order in which they are asked. GNU parallel comes first: it also runs within tasks of the others.
 const SCHEDULERS: [Scheduler; 4] = [
     // Job numbers count from 1: `man parallel`, "PARALLEL_SEQ".
-    Scheduler { name: "GNU parallel", index: "PARALLEL_SEQ", counts: &[], first: None, step: None, begins_at: 1 },
+    Scheduler {
+        name: "GNU parallel",
+        index: "PARALLEL_SEQ",
+        counts: &[],
+        first: None,
+        last: None,
+        step: None,
+        begins_at: 1,
+    },
     // <https://slurm.schedmd.com/job_array.html>
     Scheduler {
         name: "Slurm",
         index: "SLURM_ARRAY_TASK_ID",
         counts: &["SLURM_ARRAY_TASK_COUNT"],
         first: Some("SLURM_ARRAY_TASK_MIN"),
+        last: Some("SLURM_ARRAY_TASK_MAX"),
         step: Some("SLURM_ARRAY_TASK_STEP"),
         begins_at: 0,
     },
@@ -46,6 +56,7 @@ const SCHEDULERS: [Scheduler; 4] = [
         index: "AWS_BATCH_JOB_ARRAY_INDEX",
         counts: &["AWS_BATCH_JOB_ARRAY_SIZE"],
         first: None,
+        last: None,
         step: None,
         begins_at: 0,
     },
@@ -55,6 +66,7 @@ const SCHEDULERS: [Scheduler; 4] = [
         index: "JOB_COMPLETION_INDEX",
         counts: &["JOB_COMPLETION_COUNT", "JOB_COMPLETIONS"],
         first: None,
+        last: None,
         step: None,
         begins_at: 0,
     },
@@ -93,7 +105,7 @@ impl Shard {
             },
         };
         let optional = |name: Option<&str>| name.map_or(Ok(None), number);
-        for Scheduler { name, index, counts, first, step, begins_at } in SCHEDULERS {
+        for Scheduler { name, index, counts, first, last, step, begins_at } in SCHEDULERS {
             let Some(id) = number(index)? else { continue };
             let counted = counts.iter().find_map(|count| number(count).transpose()).transpose()?;
             let count = match (wanted, counted) {
@@ -113,6 +125,16 @@ impl Shard {
                     count.max(1) - 1
                 ))
             };
+            // Of a list, as in --array=3,7, Slurm says a step of 1, and no task knows the others.
+            if let Some(last) = optional(last)?
+                && last.checked_sub(first).map(|distance| distance / step) != count.checked_sub(1)
+            {
+                return Err(ShardError(format!(
+                    "auto: {name}: {count} tasks from {first} to {last} in steps of {step} are a list and not a range; use \
+                     an array from 0 on, as in 0-{}",
+                    count.max(1) - 1
+                )));
+            }
             let place = id.checked_sub(first).filter(|distance| distance.is_multiple_of(step)).ok_or_else(uneven)?;
             return if place / step < count { Self::new(place / step, count) } else { Err(uneven()) };
         }
@@ -195,6 +217,13 @@ mod tests {
             ]
         };
         assert_eq!(auto(&stepped("20")), shard(2, 4), "--array=10-25:5");
+        let to = |last| [&stepped("20")[..], &[("SLURM_ARRAY_TASK_MAX", last)]].concat();
+        assert_eq!(auto(&to("25")), shard(2, 4));
+        assert_eq!(auto(&to("27")), shard(2, 4), "--array=10-27:5");
+        for list in ["24", "30", "3"] {
+            let message = auto(&to(list)).unwrap_err();
+            assert!(message.contains("not a range") && message.contains("as in 0-3"), "{list}: {message}");
+        }
         for uneven in ["12", "9", "30"] {
             let message = auto(&stepped(uneven)).unwrap_err();
             assert!(message.contains("as in 0-3"), "{uneven}: {message}");

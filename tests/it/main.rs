@@ -23,6 +23,7 @@ mod cubemaps;
 mod directives;
 mod engine;
 mod exports;
+mod farms;
 mod fills;
 mod films;
 mod fixes;

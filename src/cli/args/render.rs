@@ -5,7 +5,7 @@ use super::{
     values::{self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter},
 };
 use crate::{
-    cli::sweep::Sweep,
+    cli::{progress, sweep::Sweep},
     film::{Chroma, Codec, ColorRange, Format, Quality, Style},
     playback::{
         frames::{FrameList, Frames},
@@ -102,6 +102,9 @@ pub struct RenderArgs {
     /// Draw a few frames, write nothing, and tell which frames depend on which and what the tasks of an array would cost
     #[arg(long)]
     pub plan: bool,
+    /// Progress on standard error
+    #[arg(long, value_name = "STYLE", default_value = "auto")]
+    pub progress: progress::Style,
     /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,

@@ -141,6 +141,12 @@ impl Targets {
         &self.at[within(part.start)..within(part.end)]
     }
 
+    /// Returns how many frames of all projects this call writes.
+    pub fn pictures(&self) -> usize {
+        let parts = (0..self.projects).flat_map(|project| (0..self.sweep.len()).map(move |swept| (project, swept)));
+        parts.map(|(project, swept)| self.part(project, swept).len()).sum()
+    }
+
     /// Returns whether anything is written.
     pub fn writes(&self) -> bool {
         self.place != Output::Nowhere

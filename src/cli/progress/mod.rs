@@ -1,0 +1,180 @@
+//! Progress of `eddy render` on standard error: a bar, lines for a log, or lines that a scheduler reads.
+
+mod openjd;
+mod terminal;
+
+use super::report::Report;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::{
+    cell::Cell,
+    io::{self, Write},
+    time::{Duration, Instant},
+};
+
+/// Draws of the bar per second, at most.
+const HERTZ: u8 = 5;
+/// The time between two lines of a log, and between two reports to a scheduler.
+const PLAIN_EVERY: Duration = Duration::from_secs(5);
+const OPENJD_EVERY: Duration = Duration::from_secs(1);
+
+/// The ways to show progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Style {
+    /// A bar where standard error is a terminal, and nothing elsewhere
+    Auto,
+    /// A bar in any case
+    Bar,
+    /// A line every 5 seconds, for a log
+    Plain,
+    /// Nothing
+    None,
+    /// Lines of Open Job Description: openjd_progress, openjd_status and openjd_fail
+    Openjd,
+}
+
+impl Style {
+    /// Says why the whole call failed, for a scheduler. Returns its argument.
+    pub fn failed<T: std::fmt::Display>(self, why: T) -> T {
+        if self == Style::Openjd {
+            say(&openjd::fail(&why.to_string()));
+        }
+        why
+    }
+}
+
+/// The progress of a call, which draws several projects one after the other.
+pub struct CallProgress {
+    style: Style,
+    /// The pictures of the call, at least 1.
+    pictures: u64,
+    /// Those of projects that are done, drawn or not.
+    done: Cell<u64>,
+    unit: &'static str,
+}
+
+impl CallProgress {
+    /// `unit` is what is counted, in the plural.
+    pub fn new(style: Style, pictures: usize, unit: &'static str) -> CallProgress {
+        CallProgress { style, pictures: pictures.max(1) as u64, done: Cell::new(0), unit }
+    }
+
+    /// A project is about to be read and compiled.
+    pub fn open(&self, title: &str) {
+        if self.style == Style::Openjd {
+            say(&openjd::status(&format!("{title}: compiling")));
+        }
+    }
+
+    /// Begins to draw a project of so many pictures, for which so many steps are needed. A single step has no bar unless
+    /// that was asked for.
+    pub fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
+        let target = match self.style {
+            Style::Auto if steps > 1 => ProgressDrawTarget::stderr_with_hz(HERTZ),
+            Style::Bar => terminal::target(HERTZ),
+            _ => ProgressDrawTarget::hidden(),
+        };
+        let bar = ProgressBar::with_draw_target(Some(steps.into()), target);
+        let template = format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {}, {{per_sec}}, {{eta}} left", self.unit);
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            bar.set_style(style);
+        }
+        bar.set_prefix(title.to_owned());
+        let now = Instant::now();
+        let progress =
+            Progress { call: self, bar, title: title.to_owned(), pictures, steps, began: now, told: Cell::new(now) };
+        if self.style == Style::Openjd {
+            progress.tell(0);
+        }
+        progress
+    }
+
+    /// A project of so many pictures is done, or has failed.
+    pub fn end(&self, report: &Report, pictures: usize) {
+        self.done.set(self.done.get() + pictures as u64);
+        if self.style != Style::Openjd {
+            return;
+        }
+        match report.first_error() {
+            Some(why) => say(&openjd::fail(&format!("{}: {why}", report.title()))),
+            None => {
+                say(&openjd::status(&format!("{}: done", report.title())));
+                say(&openjd::progress(self.done.get() as f64 / self.pictures as f64));
+            }
+        }
+    }
+}
+
+/// The progress of a project. Its bar disappears when it is dropped.
+pub struct Progress<'a> {
+    call: &'a CallProgress,
+    bar: ProgressBar,
+    title: String,
+    pictures: usize,
+    steps: u32,
+    began: Instant,
+    /// The time of the last line.
+    told: Cell<Instant>,
+}
+
+impl Progress<'_> {
+    /// A frame is done, or is known to be there.
+    pub fn step(&self) {
+        self.bar.inc(1);
+        let every = match self.call.style {
+            Style::Plain => PLAIN_EVERY,
+            Style::Openjd => OPENJD_EVERY,
+            Style::Auto | Style::Bar | Style::None => return,
+        };
+        if self.told.get().elapsed() >= every {
+            self.told.set(Instant::now());
+            self.tell(self.bar.position());
+        }
+    }
+
+    /// Writes how far it is, in lines.
+    fn tell(&self, steps: u64) {
+        let words = words(&self.title, (steps, self.steps.into(), self.call.unit), self.began.elapsed());
+        if self.call.style == Style::Plain {
+            return say(&words);
+        }
+        let of_project = steps as f64 / f64::from(self.steps.max(1));
+        let pictures = self.call.done.get() as f64 + self.pictures as f64 * of_project;
+        say(&openjd::status(&words));
+        say(&openjd::progress(pictures / self.call.pictures as f64));
+    }
+}
+
+impl Drop for Progress<'_> {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Returns how many steps are done, at which rate, and how long the others take at that rate.
+fn words(title: &str, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> String {
+    let rate = done as f64 / elapsed.as_secs_f64().max(1e-9);
+    if done == 0 {
+        return format!("{title}: 0 of {all} {unit}");
+    }
+    let left = Duration::from_secs_f64((all.saturating_sub(done) as f64 / rate).min(1e9));
+    format!("{title}: {done} of {all} {unit}, {rate:.1} per second, {} left", indicatif::HumanDuration(left))
+}
+
+/// Writes a line at once, so that lines of others do not come between. Nobody is left to tell where standard error is
+/// closed.
+fn say(line: &str) {
+    let _ = io::stderr().lock().write_all(format!("{line}\n").as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_says_the_rate_and_what_is_left() {
+        let line = |done, secs| words("a", (done, 60, "frames"), Duration::from_secs(secs));
+        assert_eq!(line(0, 0), "a: 0 of 60 frames");
+        assert_eq!(line(20, 10), "a: 20 of 60 frames, 2.0 per second, 20 seconds left");
+        assert_eq!(line(60, 10), "a: 60 of 60 frames, 6.0 per second, 0 seconds left");
+    }
+}
