@@ -202,7 +202,7 @@ fn commands_without_a_window_keep_nothing() {
 
 /// Types a line with a growing number and says each on standard output, until it is killed.
 #[test]
-#[ignore = "is started by `killed_a_hundred_times_it_loses_at_most_a_second`"]
+#[ignore = "is started by `killed_at_any_moment_it_loses_at_most_a_second`"]
 fn a_session_that_types() {
     let (Some(state), Some(project)) = (env::var_os(STATE), env::var_os(PROJECT)) else { return };
     let gpu = support::gpu().unwrap();
