@@ -36,11 +36,11 @@ fn shader(home: &Path, name: &str, text: &str) -> PathBuf {
 
 #[test]
 fn the_page_of_settings_writes_the_file_and_follows_it() {
-    let Some((display, home)) = Display::of_size_with_home(1300, 1200) else { return };
+    let Some((display, home)) = Display::of_size_with_home(1300, 1500) else { return };
     let file = settings_file(home.path(), "# mine\ntheme = \"dark\" # at night\n\nmine-too = 3\n");
     let project = shader(home.path(), "red.glsl", RED);
     let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
-    window.resize(1300, 1200);
+    window.resize(1300, 1500);
     window.compiled();
     window.keys(&["ctrl+comma"]);
     window.shows("settings:page");
