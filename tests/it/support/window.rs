@@ -13,6 +13,8 @@ use std::{
 /// The software driver paints slowly on a busy machine; a test waits for what it can see, never for a fixed time, and
 /// gives up after this.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// A picture that plays has its next frame by then, on a busy machine too; else it has been paused.
+const NEXT_FRAME: Duration = Duration::from_secs(10);
 /// A window that says nothing for so long has come to rest.
 const SETTLED: Duration = Duration::from_millis(400);
 
@@ -208,9 +210,10 @@ impl<'a> Window<'a> {
         // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays
         // its frames tell, however far apart; a window that is paused, or covered by the gallery, says nothing when it
         // has come to rest.
+        let is_halted = self.newest("halt").is_some_and(|halt| halt["kind"].is_string());
         let frame = self.newest("frame").filter(|frame| frame["playing"] == true && layout["viewport"].is_array());
-        let patience = match frame {
-            Some(frame) if frame["fps"].is_number() => PATIENCE,
+        let patience = match frame.filter(|_| !is_halted) {
+            Some(frame) if frame["fps"].is_number() => NEXT_FRAME,
             // It begins to play, or has nothing to draw.
             Some(_) => BEGINS,
             None => SETTLED,
