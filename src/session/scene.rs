@@ -29,12 +29,9 @@ impl PictureSource {
     /// Returns the scene of the picture that the renderer shows; none before its first frame.
     pub fn scene(self, renderer: &mut Renderer) -> Option<Scene> {
         let Run { mut frames, is_whole } = renderer.history().run();
-        // Nobody expects a room's sound in an image that is given away.
-        let has_microphone = frames.iter().any(|frame| frame.inputs.microphone.is_some());
-        if !self.has_state || !is_whole || frames.len() > LONGEST || has_microphone {
+        if !self.has_state || !is_whole || frames.len() > LONGEST {
             frames.drain(..frames.len().saturating_sub(1));
         }
-        frames.iter_mut().for_each(|frame| frame.inputs.microphone = None);
         let (last, count) = (frames.last()?, frames.len());
         let (size, frame) = (last.size, u32::try_from(last.inputs.frame).unwrap_or_default());
         let recorded = |(index, frame): (usize, eddy_playback::run::Frame)| RecordedFrame {

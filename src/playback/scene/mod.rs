@@ -102,6 +102,17 @@ fn portable(project: &Project) -> Project {
     project
 }
 
+/// Returns the recording without what a microphone heard: nobody expects a room's sound in an image that is given away.
+/// Its frames are not those that were drawn then, so that only the last one is left.
+fn without_microphone(recording: &Recording) -> Cow<'_, Recording> {
+    if recording.frames.iter().all(|frame| frame.inputs.microphone.is_none()) {
+        return Cow::Borrowed(recording);
+    }
+    let mut last = recording.frames[recording.frames.len() - 1].clone();
+    (last.inputs.microphone, last.reset) = (None, false);
+    Cow::Owned(Recording { project: recording.project.clone(), frames: vec![last] })
+}
+
 impl Scene {
     /// Returns a PNG file with the scene in it. A file that is not a PNG comes back as it is.
     pub fn embed(&self, png: Vec<u8>) -> io::Result<Vec<u8>> {
@@ -139,7 +150,7 @@ impl Scene {
             SceneInputs::Script(script) => (Some(script.clone()), None),
             SceneInputs::Recording(recording) => {
                 let mut lines = Vec::new();
-                recording.write(&mut lines)?;
+                without_microphone(recording).write(&mut lines)?;
                 (None, Some(String::from_utf8(lines).map_err(io::Error::other)?))
             }
         };

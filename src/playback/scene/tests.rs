@@ -83,6 +83,26 @@ fn frames_are_those_of_the_run() {
 }
 
 #[test]
+fn nothing_of_the_microphone_is_in_it() {
+    let mut inputs = scripted();
+    let heard = |n: usize, inputs: FrameInputs| FrameInputs {
+        microphone: (n == 3).then(|| std::sync::Arc::new([7; 2 * eddy_audio::BINS])),
+        ..inputs
+    };
+    let frames = (0..13).map(|n| RecordedFrame {
+        inputs: heard(n, inputs.next_frame()),
+        size: (4, 3),
+        values: Default::default(),
+        reset: n == 0,
+    });
+    let recording = Recording { project: "waves".into(), frames: frames.collect() };
+    let scene = Scene { inputs: SceneInputs::Recording(recording), ..scene() };
+    let back = read(&scene.embed(png()).unwrap()).unwrap();
+    let frames = back.frames(true).unwrap();
+    assert!(frames.len() == 1 && frames[0].inputs.frame == 12 && frames[0].inputs.microphone.is_none());
+}
+
+#[test]
 fn damaged_files_are_refused_or_read_whole() {
     let whole = scene().embed(png()).unwrap();
     for at in 0..whole.len() {
