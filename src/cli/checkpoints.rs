@@ -71,10 +71,8 @@ impl<'a> Checkpoints<'a> {
                 file
             }
         };
-        let refused = |error: checkpoint::CheckpointError| {
-            let hint = error.hint();
-            Trouble::from(anyhow::Error::from(error).context(format!("--resume: {hint}")))
-        };
+        let refused =
+            |error: checkpoint::CheckpointError| Trouble::from(anyhow::anyhow!("--resume: {error}; {}", error.hint()));
         let found = checkpoint::read(&file, &self.moment).map_err(refused)?;
         let frame = found.moment.frame;
         if frame > first {
