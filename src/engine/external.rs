@@ -41,8 +41,7 @@ pub(super) trait ExternalTexture: Send {
     }
 }
 
-/// Returns what fills the texture of a channel; `None` for a pass, for what is not there, and for kinds of inputs that
-/// are not drawn yet.
+/// Returns what fills the texture of a channel; `None` for a pass and for what is not there.
 pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn ExternalTexture>> {
     match channel.input.kind() {
         InputKind::Buffer | InputKind::CubemapPass => None,

@@ -52,6 +52,8 @@ pub struct InputRow {
     pub key: &'static str,
     /// The type in the site's JSON.
     pub json_type: &'static str,
+    /// Shadertoy has it.
+    pub is_on_shadertoy: bool,
     /// The type there of media that are streamed from another site.
     pub json_stream_type: Option<&'static str>,
     /// The id and the path that the site's JSON has for the only input of this kind.
@@ -79,6 +81,7 @@ const PICTURE: InputRow = InputRow {
     glyph: "img",
     key: "texture",
     json_type: "texture",
+    is_on_shadertoy: true,
     json_stream_type: None,
     json_id: None,
     directive: None,
@@ -185,13 +188,13 @@ static ROWS: [InputRow; 11] = [
         directive: Some("webcam"),
         ..DEVICE
     },
-    // The site has none.
     InputRow {
         kind: InputKind::Gamepad,
         title: "Gamepad",
         glyph: "G",
         key: "gamepad",
         json_type: "gamepad",
+        is_on_shadertoy: false,
         directive: Some("gamepad"),
         sampler: Sampler::KEYBOARD,
         has_fixed_sampler: true,

@@ -105,6 +105,15 @@ impl Session {
         }
     }
 
+    /// Asks once more for what was asked for once and has not come: the device that was to give it is gone.
+    pub(super) fn renew_requests(&mut self) {
+        self.watched.captures.retry();
+        self.searching.background.renew_request();
+        self.comparing.background.renew_request();
+        self.auditing.renew_request();
+        self.tracing.renew_request();
+    }
+
     /// Takes the outputs that came with a job.
     pub(super) fn take_outputs(&mut self, has_frame: bool) {
         let is_new = self.watched.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);

@@ -118,17 +118,18 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
     if !is_glsl && file.extension().is_some() {
         return picture(path);
     }
-    let words = InputKind::all().filter_map(|kind| kind.row().directive);
-    let known = words.chain(["self", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]);
+    let words: Vec<&str> = InputKind::all().filter_map(|kind| kind.row().directive).collect();
+    let known = words.iter().copied().chain(["self", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]);
     let mut diagnostic = Diagnostic::error(span, format!("\"{value}\" is not an input that a channel can read"));
     if let Some(near) = nearest(word, known) {
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
-    diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"microphone\", \"gamepad\", \
-        \"file://pic.png\", \
-        \"file://song.mp3\" or \"builtin://noise-rgba-256\"",
-    ));
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    diagnostics.push(diagnostic.hint(format!(
+        "a channel reads \"buffer_a\", \"self\", {}, \"file://pic.png\", \"file://song.mp3\" or \
+         \"builtin://noise-rgba-256\"",
+        quoted.join(", ")
+    )));
     None
 }
 

@@ -1,6 +1,6 @@
 //! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
 
-use crate::{Input, InputKind, Media, Pass, PassId, Project, advice, listed};
+use crate::{Input, Media, Pass, PassId, Project, advice, listed};
 
 /// The buffers that the site has.
 const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -73,8 +73,9 @@ fn is_or_are(names: &[&str]) -> &'static str {
 
 /// Says what becomes of an input that the site does not have.
 fn picture(input: &Input) -> Option<String> {
-    if input.kind() == InputKind::Gamepad {
-        return Some("gamepads, which Shadertoy does not have; the channel is empty there.".into());
+    let row = input.row();
+    if !row.is_on_shadertoy {
+        return Some(format!("the {}, which Shadertoy does not have; the channel is empty there.", row.key));
     }
     match input.media()? {
         Media::Builtin(name) => Some(format!("{name}, a texture of Eddy's; the channel is empty on Shadertoy.")),

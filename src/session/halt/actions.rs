@@ -82,11 +82,7 @@ impl Session {
             let text = format!("cannot start a thread for compiling: {e}. Save your texts and restart Eddy");
             self.notice_about(About::Window, Level::Error, text);
         }
-        self.watched.captures.retry();
-        self.searching.background.renew_request();
-        self.comparing.background.renew_request();
-        self.auditing.renew_request();
-        self.tracing.renew_request();
+        self.renew_requests();
         // Its buffers begin anew, and so must what they go by.
         self.end_replay("the GPU device was replaced");
         self.playback.change_device();
