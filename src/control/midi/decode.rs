@@ -1,7 +1,8 @@
 //! The bytes of MIDI 1.0 to events.
 //!
 //! Status bytes, running status and system messages are those of the "MIDI 1.0 Detailed Specification" (MIDI Manufacturers
-//! Association, 4.2); controllers 0 to 31 are the coarse and 32 to 63 the fine parts of 14-bit controllers there.
+//! Association, 4.2); controllers 0 to 31 are the coarse and 32 to 63 the fine parts of 14-bit controllers there. Controllers 99
+//! and 98 select a non-registered parameter, 101 and 100 a registered one, and 6 with 38 ("data entry") set its value.
 
 use crate::ControlEvent;
 use eddy_project::ControlAddress;
@@ -9,6 +10,17 @@ use std::time::{Duration, Instant};
 
 /// The fine part of a 14-bit controller follows the coarse one within this.
 const PAIR: Duration = Duration::from_millis(50);
+
+/// Controllers that set the parameter that is selected, coarse and fine.
+const DATA_ENTRY: u8 = 6;
+const DATA_ENTRY_FINE: u8 = 38;
+/// Controllers that select a parameter.
+const NRPN_FINE: u8 = 98;
+const NRPN_COARSE: u8 = 99;
+const RPN_FINE: u8 = 100;
+const RPN_COARSE: u8 = 101;
+/// The parameter number that stands for none: 127 in both parts.
+const NO_PARAMETER: u16 = 16_383;
 
 const NOTE_OFF: u8 = 0x80;
 const NOTE_ON: u8 = 0x90;
@@ -29,6 +41,58 @@ pub struct MidiDecoder {
     first: Option<u8>,
     /// The newest coarse part of each channel's controllers 0 to 31.
     coarse: [[Option<Coarse>; 32]; 16],
+    /// The parameter that is selected on each channel.
+    parameters: [Parameter; 16],
+}
+
+/// The non-registered parameter that is selected on a channel, as far as its number has come.
+#[derive(Clone, Copy, Debug, Default)]
+struct Parameter {
+    coarse: Option<u8>,
+    fine: Option<u8>,
+    /// The coarse part of its newest value.
+    value: Option<u8>,
+    /// A fine part of a value has come: the next coarse part waits for its own.
+    is_fine: bool,
+}
+
+impl Parameter {
+    fn number(&self) -> Option<u16> {
+        let number = (u16::from(self.coarse?) << 7) | u16::from(self.fine?);
+        (number != NO_PARAMETER).then_some(number)
+    }
+
+    /// Takes a controller. Returns the parameter that it sets with its position, once that is known.
+    fn take(&mut self, controller: u8, data: u8) -> Option<(u16, f64)> {
+        match controller {
+            NRPN_COARSE => self.select(|it| it.coarse = Some(data)),
+            NRPN_FINE => self.select(|it| it.fine = Some(data)),
+            // What is set from now on is a registered parameter, such as the range of the pitch bend.
+            RPN_COARSE | RPN_FINE => *self = Self::default(),
+            DATA_ENTRY => {
+                let number = self.number()?;
+                self.value = Some(data);
+                // Many senders have no fine part.
+                return (!self.is_fine).then(|| (number, f64::from(data) / 127.0));
+            }
+            DATA_ENTRY_FINE => {
+                let (number, coarse) = (self.number()?, self.value?);
+                self.is_fine = true;
+                return Some((number, fourteen(coarse, data)));
+            }
+            _ => {}
+        }
+        None
+    }
+
+    /// Takes a part of the number. The value of another parameter is forgotten.
+    fn select(&mut self, part: impl FnOnce(&mut Self)) {
+        let before = self.number();
+        part(self);
+        if self.number() != before {
+            (self.value, self.is_fine) = (None, false);
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +133,9 @@ impl MidiDecoder {
             PITCH_BEND => add(ControlAddress::PitchBend { channel }, bend(first, data)),
             CONTROL_CHANGE => {
                 add(ControlAddress::ControlChange { channel, number: first }, seventh);
-                if let Some(value) = self.pair(channel, first, data, now) {
+                if let Some((number, value)) = self.parameters[usize::from(channel)].take(first, data) {
+                    add(ControlAddress::Nrpn { channel, number }, value);
+                } else if let Some(value) = self.pair(channel, first, data, now) {
                     add(ControlAddress::ControlChange14 { channel, number: first - 32 }, value);
                 }
             }
@@ -90,12 +156,16 @@ impl MidiDecoder {
             32..64 => {
                 let coarse = of_channel[usize::from(number - 32)].as_mut()?;
                 coarse.is_pair |= now.saturating_duration_since(coarse.at) <= PAIR;
-                let whole = (u16::from(coarse.value) << 7) | u16::from(value);
-                coarse.is_pair.then(|| f64::from(whole) / 16_383.0)
+                coarse.is_pair.then(|| fourteen(coarse.value, value))
             }
             _ => None,
         }
     }
+}
+
+/// Returns the position that two parts of 7 bits say.
+fn fourteen(coarse: u8, fine: u8) -> f64 {
+    f64::from((u16::from(coarse) << 7) | u16::from(fine)) / 16_383.0
 }
 
 /// Returns the position of a pitch bend: 0 at one end, 1 at the other, and exactly a half at rest (8192), which is not the middle
@@ -169,6 +239,41 @@ mod tests {
         assert_eq!(send(701, 39, 0), Some(8192.0 / 16_383.0));
         assert_eq!(send(900, 39, 1), Some(8193.0 / 16_383.0), "the fine part alone");
         assert_eq!(send(901, 64, 1), None, "no part of a pair");
+    }
+
+    /// Returns the parameters that some bytes set, without the controllers by which they do.
+    fn parameters(bytes: &[u8]) -> Vec<(String, f64)> {
+        read(bytes).into_iter().filter(|(name, _)| name.contains("nrpn")).collect()
+    }
+
+    #[test]
+    fn a_parameter_is_selected_by_two_controllers_and_set_by_one_or_two() {
+        let fine = |coarse: u16, fine: u16| f64::from(coarse * 128 + fine) / 16_383.0;
+        let of = |values: &[f64]| values.iter().map(|value| ("midi 1 nrpn 300".to_owned(), *value)).collect::<Vec<_>>();
+        // 300 is 2 * 128 + 44.
+        let select = [0xb0, 99, 2, 98, 44];
+        let cases: [(&[u8], &[f64]); 8] = [
+            (&[], &[]),
+            (&[6, 127], &[1.0]),
+            // Coarse and fine: the first coarse part may be all there is, and later ones wait.
+            (&[6, 64, 38, 1], &[64.0 / 127.0, fine(64, 1)]),
+            (&[6, 64, 38, 1, 6, 65, 38, 2], &[64.0 / 127.0, fine(64, 1), fine(65, 2)]),
+            (&[38, 5], &[]),
+            // The null parameter, and a registered one.
+            (&[99, 127, 98, 127, 6, 1], &[]),
+            (&[101, 0, 100, 0, 6, 2], &[]),
+            // Selected again by both parts, as many senders do before each value.
+            (&[99, 2, 98, 44, 6, 0], &[0.0]),
+        ];
+        for (rest, wanted) in cases {
+            assert_eq!(parameters(&[&select[..], rest].concat()), of(wanted), "{rest:?}");
+        }
+        assert_eq!(parameters(&[0xb0, 6, 1, 99, 2, 6, 1]), [], "nothing is selected yet");
+        let other = parameters(&[0xb0, 99, 2, 98, 44, 6, 1, 38, 1, 98, 45, 6, 127]);
+        assert_eq!(other.last(), Some(&("midi 1 nrpn 301".to_owned(), 1.0)), "another parameter has no fine part yet");
+        // Channels have a selection each, and the controllers themselves are still there.
+        assert_eq!(parameters(&[0xb0, 99, 0, 98, 1, 0xb1, 6, 1]), []);
+        is(&[0xb0, 6, 127], &[("midi 1 cc 6", 1.0)]);
     }
 
     #[test]
