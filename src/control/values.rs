@@ -128,7 +128,10 @@ mod tests {
         let place = |name: &str, value: f64| {
             place_of(uniforms().iter().find(|uniform| uniform.name == name).unwrap(), 0, value)
         };
-        assert_eq!([place("speed", 1.0), place("count", 9.0), place("free", 0.25)], [Some(0.75), Some(1.0), Some(0.25)]);
+        assert_eq!(
+            [place("speed", 1.0), place("count", 9.0), place("free", 0.25)],
+            [Some(0.75), Some(1.0), Some(0.25)]
+        );
         assert_eq!((place("speed", 4.0), place("on", 1.0)), (Some(1.5), None));
     }
 

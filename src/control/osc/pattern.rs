@@ -20,7 +20,10 @@ enum Token {
     Any,
     Rest,
     /// One of the ranges, or none of them.
-    Set { ranges: Vec<(u8, u8)>, is_negated: bool },
+    Set {
+        ranges: Vec<(u8, u8)>,
+        is_negated: bool,
+    },
     OneOf(Vec<Vec<u8>>),
 }
 
@@ -245,7 +248,7 @@ mod tests {
         assert_eq!((values.len(), values.last()), (limits::OSC_PATTERNS + 1, Some(&0.0)));
     }
 
-    /// What takes exponential time by trying one way after the other.
+    /// These take exponential time where one way is tried after the other.
     #[test]
     fn a_pattern_made_to_take_long_takes_little() {
         let pattern = Pattern::parse(&format!("/{}b", "*a".repeat(120))).unwrap();

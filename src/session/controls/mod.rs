@@ -17,9 +17,7 @@ use eddy_control::{
     pads::{PadHost, PadInputs, PadState},
     place_of,
 };
-use eddy_project::{
-    ControlAddress, ControlTarget, CustomUniform, CustomUniformType, CustomUniformValue, PadPart,
-};
+use eddy_project::{ControlAddress, ControlTarget, CustomUniform, CustomUniformType, CustomUniformValue, PadPart};
 use std::{
     collections::{BTreeMap, BTreeSet},
     net::SocketAddr,
@@ -364,7 +362,9 @@ impl Session {
         let index = target.index();
         let number = |value: &CustomUniformValue| value.components().get(index).copied();
         let Some(value) = number(now) else { return false };
-        let Some(slider) = place_of(uniform, index, value).filter(|_| event.source.stays_in_place()) else { return true };
+        let Some(slider) = place_of(uniform, index, value).filter(|_| event.source.stays_in_place()) else {
+            return true;
+        };
         let target_value = moved.map_or(Some(value), number).unwrap_or(value);
         let movement = Movement { knob: event.value, slider, value, target: target_value };
         self.controls.takeovers.entry(target.clone()).or_default().moves(movement)

@@ -160,6 +160,7 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
     let mut project = room.session.project().clone();
     project.custom_uniform_values.insert("speed".into(), eddy_project::CustomUniformValue::Float(3.0));
     room.session.apply(Command::OpenProject { project: Box::new(project), size: None });
+    room.session.apply(Command::Answer(crate::Answer::Discard));
     room.until("a program", |session| session.drawing.has_program() && !session.custom_uniforms().is_empty());
     room.send(&[0xb0, 70, 21]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(Waits::Below)));
