@@ -59,7 +59,8 @@ mod tests {
     fn files_that_a_channel_reads_are_found_one_folder_deep() {
         let dir = tempfile::tempdir().unwrap();
         std::fs::create_dir_all(dir.path().join("media/deep")).unwrap();
-        for name in ["b.png", "image.glsl", "eddy.toml", "media/a.MP3", "media/deep/c.png", ".hidden.png", "clip.webm"] {
+        for name in ["b.png", "image.glsl", "eddy.toml", "media/a.MP3", "media/deep/c.png", ".hidden.png", "clip.webm"]
+        {
             std::fs::write(dir.path().join(name), "").unwrap();
         }
         let file = |path: &str, kind| FolderFile { path: path.into(), kind };

@@ -1,4 +1,4 @@
-//! How each small picture is made, on the thread of thumbnails.
+//! Each small picture as the thread of thumbnails makes it.
 
 use super::Subject;
 use crate::{

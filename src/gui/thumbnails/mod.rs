@@ -84,6 +84,15 @@ enum Made {
     Files(PathBuf, Vec<FolderFile>),
 }
 
+/// Returns the newest order, as what was scrolled away is not looked at. `None`: nobody asks any more.
+fn newest(orders: &Receiver<Wanted>, waiting: &mut Vec<Wanted>) -> Option<Wanted> {
+    if waiting.is_empty() {
+        waiting.push(orders.recv().ok()?);
+    }
+    waiting.extend(orders.try_iter());
+    waiting.pop()
+}
+
 impl Thumbnails {
     /// Starts the thread that makes them. `wake` is called when there is a new one.
     pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
@@ -91,7 +100,8 @@ impl Thumbnails {
         let (made_here, made) = channel();
         let live = Live::new(gpu, wake.clone());
         let work = move || {
-            while let Ok(wanted) = wanted_here.recv() {
+            let mut waiting = Vec::new();
+            while let Some(wanted) = newest(&wanted_here, &mut waiting) {
                 let made = match wanted {
                     Wanted::Picture(subject) => {
                         // A panic is this picture's alone; the others are still wanted.
