@@ -24,8 +24,8 @@ pub use gamepads::Gamepads;
 pub use gather::{files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;
-pub use sound::begin_of_sound;
 pub use npy::{bytes as npy_bytes, header as npy_header};
+pub use sound::begin_of_sound;
 
 use eddy_audio::Sound;
 use eddy_diag::Diagnostic;

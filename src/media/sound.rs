@@ -1,6 +1,9 @@
 //! Music that a channel names: the project's own files, and stand-ins for those of the site.
 
-use super::{MediaError, gather::{bytes_of, room_of}};
+use super::{
+    MediaError,
+    gather::{bytes_of, room_of},
+};
 use eddy_audio::{Limits, Sound, decode};
 use eddy_project::{Media, confine, limits};
 use std::{

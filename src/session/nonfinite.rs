@@ -48,7 +48,9 @@ impl Session {
         let Searching { background, input } = &mut self.searching;
         let Some(input) = input.take() else { return };
         self.changed = true;
-        let (Some((Replay { snapshot, frames }, camera)), Some(project)) = (input.output, self.drawing.project().cloned()) else {
+        let (Some((Replay { snapshot, frames }, camera)), Some(project)) =
+            (input.output, self.drawing.project().cloned())
+        else {
             return background
                 .fail("no earlier frames are kept: reset and play again; very large buffers are never kept");
         };
