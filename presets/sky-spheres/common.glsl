@@ -74,16 +74,3 @@ float noise(vec3 p) {
     vec2 row = mix(level.xz, level.yw, f.x);
     return mix(row.x, row.y, f.y);
 }
-
-// GGX (B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007), alpha = roughness^2.
-// A half vector about the z axis by two numbers in 0 to 1.
-vec3 halfVector(vec2 u, float alpha) {
-    float cosTheta = sqrt((1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x));
-    float sinTheta = sqrt(max(1.0 - cosTheta * cosTheta, 0.0));
-    return vec3(sinTheta * cos(2.0 * PI * u.y), sinTheta * sin(2.0 * PI * u.y), cosTheta);
-}
-
-float ggx(float cosTheta, float alpha) {
-    float a2 = alpha * alpha, d = cosTheta * cosTheta * (a2 - 1.0) + 1.0;
-    return a2 / (PI * d * d);
-}

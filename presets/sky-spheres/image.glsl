@@ -1,16 +1,7 @@
 // Reflections by filtered importance sampling (J. Krivanek, M. Colbert, "Real-time Shading with Filtered Importance
 // Sampling", EGSR 2008): few directions drawn by the lobe, each reading the mip level whose texels cover its share of it.
 
-// Points of Hammersley: as even as so few can be.
-vec2 hammersley(int i, int n) {
-    uint bits = uint(i);
-    bits = (bits << 16u) | (bits >> 16u);
-    bits = ((bits & 0x00ff00ffu) << 8u) | ((bits & 0xff00ff00u) >> 8u);
-    bits = ((bits & 0x0f0f0f0fu) << 4u) | ((bits & 0xf0f0f0f0u) >> 4u);
-    bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xccccccccu) >> 2u);
-    bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xaaaaaaaau) >> 1u);
-    return vec2((float(i) + 0.5) / float(n), float(bits >> 8u) / 16777216.0);
-}
+#include "lobe.glsl"
 
 vec3 environment(vec3 direction, float level) {
     return textureLod(iChannel0, direction, level).rgb;

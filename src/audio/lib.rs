@@ -55,6 +55,18 @@ impl Sound {
         self.frames.len() as f64 / f64::from(SAMPLE_RATE)
     }
 
+    /// Returns the largest sample of each of so many stretches of the same length, from 0 to 1, of both channels.
+    pub fn outline(&self, stretches: usize) -> Vec<f32> {
+        let count = self.frames.len();
+        // Of a long file every so many samples are looked at: an outline shows no more.
+        let stride = (count / stretches.max(1) / 512).max(1);
+        let stretch = |n: usize| {
+            let frames = &self.frames[n * count / stretches..(n + 1) * count / stretches];
+            frames.iter().step_by(stride).fold(0.0, |most: f32, [l, r]| most.max(l.abs()).max(r.abs())).min(1.0)
+        };
+        (0..stretches).map(stretch).collect()
+    }
+
     /// The mono sample `n` of the sound played in a loop from sample 0 on; silence before.
     pub fn looped(&self, n: i64) -> f32 {
         if n < 0 || self.frames.is_empty() {

@@ -47,7 +47,8 @@ pub fn find(
     (index, read): (usize, &PassInputs),
     mut inputs: ScriptedInputs,
 ) -> Result<DivergenceReport, Trouble> {
-    let (media, _) = media::gather(project, args.run.media.as_deref());
+    let (mut media, _) = media::gather(project, args.run.media.as_deref());
+    media.set_camera_picture(engine.camera_picture());
     let pass = args.pass.pass.clone();
     let (skip, without) = (!args.run.no_skip, args.run.without_pass.set());
     let options = BuildOptions { wanted: vec![pass.clone()], skip, without, probe: None, trial: None };

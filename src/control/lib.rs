@@ -12,10 +12,12 @@ pub mod midi;
 pub mod osc;
 pub mod pads;
 mod queue;
+mod takeover;
 mod values;
 
 pub use queue::ControlQueue;
-pub use values::{Moved, OWN_UNITS, direct, moved};
+pub use takeover::{Movement, Takeover, Waits};
+pub use values::{Moved, OWN_UNITS, direct, moved, place_of};
 
 use eddy_project::ControlAddress;
 use std::sync::Arc;

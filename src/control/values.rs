@@ -64,10 +64,24 @@ pub fn moved(
     (value != *now).then_some(value)
 }
 
+/// Returns the place of a uniform's number in its range, from 0 to 1 where it is within. `None`: the uniform is a switch or has no
+/// such number, so nothing stands between its values.
+pub fn place_of(uniform: &CustomUniform, index: usize, value: f64) -> Option<f64> {
+    let (min, max) = match uniform.ty {
+        CustomUniformType::Bool => return None,
+        ty => range_of(uniform, ty, index),
+    };
+    (max > min).then(|| (value - min) / (max - min))
+}
+
+fn range_of(uniform: &CustomUniform, ty: CustomUniformType, index: usize) -> (f64, f64) {
+    let usual = if ty == CustomUniformType::Int { INT_WITHOUT_RANGE } else { 1.0 };
+    uniform.range.map_or((0.0, usual), |range| (range.min[index], range.max[index]))
+}
+
 /// Returns the value at a part of the range, on the author's steps where there are steps.
 fn in_range(uniform: &CustomUniform, index: usize, part: f64) -> f64 {
-    let usual = if uniform.ty == CustomUniformType::Int { INT_WITHOUT_RANGE } else { 1.0 };
-    let (min, max) = uniform.range.map_or((0.0, usual), |range| (range.min[index], range.max[index]));
+    let (min, max) = range_of(uniform, uniform.ty, index);
     // Exact at both ends.
     let value = min * (1.0 - part) + max * part;
     match uniform.step.map(|step| step[index]).filter(|step| *step > 0.0) {
@@ -111,6 +125,14 @@ mod tests {
         assert_eq!(at("steps", 0.3), Some(vec![0.25]));
         assert_eq!(set("at", 1, &osc("/a", 0, 0.5), false), Some(vec![0.0, 5.0]));
         assert_eq!(set("at", 2, &osc("/a", 0, 0.5), false), None);
+        let place = |name: &str, value: f64| {
+            place_of(uniforms().iter().find(|uniform| uniform.name == name).unwrap(), 0, value)
+        };
+        assert_eq!(
+            [place("speed", 1.0), place("count", 9.0), place("free", 0.25)],
+            [Some(0.75), Some(1.0), Some(0.25)]
+        );
+        assert_eq!((place("speed", 4.0), place("on", 1.0)), (Some(1.5), None));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_media::{Gamepads, Keyboard, MediaKey, MediaSet, Texels};
 use eddy_project::{Channel, Input, InputKind};
 use eddy_texture::{TexelFormat, TextureShape};
+use eddy_video::CameraFrame;
 use std::sync::Arc;
 
 /// A source of texels that is no pass.
@@ -28,6 +29,11 @@ pub(super) trait ExternalTexture: Send {
     /// worth drawing again.
     fn is_late(&self) -> bool {
         false
+    }
+
+    /// Returns the picture of a camera that the newest frame shows.
+    fn camera_picture(&self) -> Option<CameraFrame> {
+        None
     }
 
     /// Says what `iChannelTime` is.
@@ -256,6 +262,11 @@ impl External {
     /// Returns whether the frame that is drawn shows other texels than it should: see [`ExternalTexture::is_late`].
     pub fn is_late(&self) -> bool {
         self.source.is_late()
+    }
+
+    /// Returns the picture of a camera that the frame shows: see [`ExternalTexture::camera_picture`].
+    pub fn camera_picture(&self) -> Option<CameraFrame> {
+        self.source.camera_picture()
     }
 
     /// Writes the texels of a frame if they are other than before.

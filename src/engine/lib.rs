@@ -46,6 +46,7 @@ pub use compiled::CompiledPass;
 pub use costs::{CostClock, PassCost, PassRead, PassRole};
 pub use eddy_gpu::{Paint, ValueLook};
 pub use eddy_graph::When;
+pub use eddy_video::CameraFrame;
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
 pub use inspect::DrawInputs;

@@ -5,7 +5,7 @@ use super::{
     external::{ChannelClock, ExternalTexture},
 };
 use eddy_texture::{TexelFormat, TextureShape};
-use eddy_video::{Camera, Frame, FrameSource, PLACEHOLDER, Pace};
+use eddy_video::{Camera, CameraFrame, Frame, FrameSource, PLACEHOLDER, Pace};
 use std::sync::Arc;
 
 /// The frame of a video at `iTime`, in a loop.
@@ -114,6 +114,11 @@ impl ExternalTexture for Webcam {
         // A camera that came on later is of the next program.
         let newest = newest.filter(|newest| (newest.width, newest.height) == self.shown.size);
         self.shown.take(newest.map(|newest| newest.frame))
+    }
+
+    fn camera_picture(&self) -> Option<CameraFrame> {
+        let (width, height) = self.shown.size;
+        self.shown.of.clone().map(|frame| CameraFrame { width, height, frame })
     }
 
     fn bytes(&self) -> &[u8] {

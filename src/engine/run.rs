@@ -15,6 +15,7 @@ use super::{
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
 use eddy_project::{CustomUniformValues, PassId};
 use eddy_texture::{TexelFormat, TextureShape};
+use eddy_video::CameraFrame;
 
 /// A device, and the program that runs on it.
 pub struct Engine {
@@ -253,6 +254,12 @@ impl Engine {
     /// see [`eddy_video::Pace::Live`].
     pub fn is_late(&self) -> bool {
         self.running.as_ref().is_some_and(|running| running.program.externals.iter().any(|external| external.is_late()))
+    }
+
+    /// Returns the picture of a camera that the newest frame shows. Another engine gets it by
+    /// [`MediaSet::set_camera_picture`](eddy_media::MediaSet::set_camera_picture), so that it can draw the same frame.
+    pub fn camera_picture(&self) -> Option<CameraFrame> {
+        self.running.as_ref()?.program.externals.iter().find_map(|external| external.camera_picture())
     }
 
     pub fn size(&self) -> (u32, u32) {

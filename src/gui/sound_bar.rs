@@ -33,6 +33,7 @@ pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
 
 fn mute(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     let (icon, label) = match sound.is_muted {
+        _ if sound.ended_before => (Icon::Muted, "Open the sound device again"),
         true => (Icon::Muted, "Unmute"),
         false => (Icon::Speaker, "Mute"),
     };

@@ -1,8 +1,9 @@
 //! Videos that a channel names: the project's own files, and stand-ins for those of the site.
 
-use super::MediaError;
+use super::{MediaError, Texels};
 use eddy_project::{FileError, Media, confine, limits};
-use eddy_video::{Place, Pool, Tools, Video, VideoError, is_animation, next_numbered};
+use eddy_texture::TexelFormat;
+use eddy_video::{Frame, FrameSource, Pace, Place, Pool, Tools, Video, VideoError, is_animation, next_numbered};
 use std::{
     fs::File,
     io::Read,
@@ -59,6 +60,17 @@ pub(super) fn load(
         return Video::of_animation(&shown, bytes, pool).map_err(failed);
     }
     Err(failed(VideoError::NoPicture))
+}
+
+/// Loads the first frame of a video, for people to look at.
+pub fn first_frame(media: &Media, base: Option<&Path>) -> Result<Texels, MediaError> {
+    let video = load(media, base, None, &Pool::default())?;
+    let (info, shown) = (video.info(), video.frame_at(0.0, Pace::Exact));
+    let row = info.width as usize * 4;
+    // The top row comes first there, and last here.
+    let turned = |frame: Frame| frame.texels.rchunks_exact(row).flatten().copied().collect();
+    let bytes = shown.frame.map_or_else(|| vec![0; info.frame_bytes()], turned);
+    Ok(Texels::flat(info.width, info.height, TexelFormat::Rgba8, bytes))
 }
 
 /// The first bytes of a file, which say what it is.

@@ -126,6 +126,11 @@ pub(super) fn room_of(bytes: u64) -> u64 {
     bytes / (2 * SOUND_BYTES * u64::from(SAMPLE_RATE))
 }
 
+/// Bytes that so many seconds of sound need.
+pub(super) fn bytes_of(seconds: u32) -> u64 {
+    u64::from(seconds) * 2 * SOUND_BYTES * u64::from(SAMPLE_RATE)
+}
+
 impl MediaSet {
     /// Bytes that more pictures and models may take.
     fn room(&self) -> u64 {

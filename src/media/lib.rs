@@ -19,17 +19,19 @@ mod site;
 mod sound;
 
 pub use error::MediaError;
+pub use film::first_frame;
 pub use gamepads::Gamepads;
 pub use gather::{files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
+pub use sound::begin_of_sound;
 
 use eddy_audio::Sound;
 use eddy_diag::Diagnostic;
 use eddy_project::{Channel, Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
-use eddy_video::{Camera, Pace, Video};
+use eddy_video::{Camera, CameraFrame, Pace, Video};
 use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
     collections::{HashMap, HashSet},
@@ -123,6 +125,11 @@ impl MediaSet {
 
     pub fn set_camera(&mut self, camera: Option<Camera>) {
         self.camera = camera;
+    }
+
+    /// Has channels of a webcam read one picture: what another engine showed in the frame that is drawn again. `None`: black.
+    pub fn set_camera_picture(&mut self, picture: Option<CameraFrame>) {
+        self.camera = picture.map(Camera::still);
     }
 
     /// Returns how long a picture waits for a frame of a video.

@@ -1,6 +1,9 @@
 //! Music that a channel names: the project's own files, and stand-ins for those of the site.
 
-use super::{MediaError, gather::room_of};
+use super::{
+    MediaError,
+    gather::{bytes_of, room_of},
+};
 use eddy_audio::{Limits, Sound, decode};
 use eddy_project::{Media, confine, limits};
 use std::{
@@ -10,6 +13,11 @@ use std::{
 
 /// Endings that are tried for a file of the site, after the one that it has there.
 const ENDINGS: [&str; 6] = ["wav", "mp3", "ogg", "flac", "m4a", "aac"];
+
+/// Loads at most so many seconds of a sound, for people to look at.
+pub fn begin_of_sound(media: &Media, base: Option<&Path>, seconds: u32) -> Result<Sound, MediaError> {
+    load(media, base, None, bytes_of(seconds))
+}
 
 /// Loads a sound that may take `room` bytes.
 pub(super) fn load(

@@ -7,12 +7,12 @@ use crate::{
 };
 use eddy_background::{Control, Count};
 use eddy_diag as diag;
-use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
+use eddy_engine::{BuildError, BuildOptions, CameraFrame, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
 use eddy_gpu::{Gpu, GpuOptions};
-use eddy_media as media;
+use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, Origin, PassId, Project};
 use std::{
-    path::{Path, PathBuf},
+    path::PathBuf,
     time::{Duration, Instant},
 };
 
@@ -58,6 +58,8 @@ pub struct Comparison {
     pub turns: Vec<(f64, f64)>,
     /// Frames that both have drawn for it.
     pub frames: usize,
+    /// Several frames were drawn with one picture of the camera, the last: those before are not kept.
+    pub is_camera_still: bool,
     /// The run's first frames are no longer kept: both began later, from empty buffers.
     pub is_cut: bool,
     /// The revision of the project that was compared.
@@ -77,11 +79,13 @@ pub struct CompareJob {
     /// The other project may be one that the driver takes minutes for.
     pub trial: Option<Trial>,
     pub run: Run,
+    /// The picture of a camera that the last of the frames showed.
+    pub camera: Option<CameraFrame>,
 }
 
 /// Compares two projects; counts frames. Fails where there is no other project, or one of both cannot be drawn.
 pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, String> {
-    let CompareJob { gpu, project, saved, against, revision, shown, media_dir, trial, run } = job;
+    let CompareJob { gpu, project, saved, against, revision, shown, media_dir, trial, run, camera } = job;
     let Run { mut frames, is_whole } = run;
     let last = frames.last().cloned().ok_or("no frame has been drawn yet")?;
     // Files of a revision are there for as long as they are read.
@@ -107,7 +111,8 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
     // another.
     let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
     let side = |project: &Project, name: &str| {
-        let made = Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size, trial.clone());
+        let media = || media::gather(project, media_dir.as_deref()).0;
+        let made = Side::new(&gpu, project, &pass, (media(), camera.clone()), frames[0].size, trial.clone());
         made.map_err(|why| format!("{name}: {why}"))
     };
     let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
@@ -132,7 +137,8 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
     }
     let turns = take_turns(&mut ours, &mut theirs, &last.inputs, control).map_err(|e| e.to_string())?;
     let (frame, frames) = (last.inputs.frame, frames.len());
-    Ok(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_cut, revision })
+    let is_camera_still = camera.is_some() && frames > 1;
+    Ok(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_camera_still, is_cut, revision })
 }
 
 fn load(spec: &str, name: &str) -> Result<Project, String> {
@@ -149,11 +155,11 @@ impl Side {
         gpu: &Gpu,
         project: &Project,
         pass: &PassId,
-        media_dir: Option<&Path>,
+        (mut media, camera): (MediaSet, Option<CameraFrame>),
         (width, height): (u32, u32),
         trial: Option<Trial>,
     ) -> Result<Self, String> {
-        let (media, _) = media::gather(project, media_dir);
+        media.set_camera_picture(camera);
         let mut wanted = vec![PassId::Image];
         wanted.extend((*pass != PassId::Image).then(|| pass.clone()));
         // Also what does not change: it is timed.

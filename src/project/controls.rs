@@ -14,8 +14,10 @@ use std::{collections::BTreeMap, fmt};
 const COMPONENTS: [&str; 2] = ["xyzw", "rgba"];
 /// Letters that OSC 1.0 does not allow in an address: they have a meaning in patterns.
 const NOT_IN_OSC: &[char] = &[' ', '#', '*', ',', '?', '[', ']', '{', '}'];
+/// Parameter numbers of MIDI, without the one of 16,383, which stands for none.
+const PARAMETERS: u16 = 16_383;
 /// The forms of an address, for messages.
-pub(super) const FORMS: &str = "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
+pub(super) const FORMS: &str = "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 nrpn 300\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
 
 /// A control of a device, whichever device has it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -24,6 +26,8 @@ pub enum ControlAddress {
     ControlChange { channel: u8, number: u8 },
     /// A MIDI control change of 14 bits: the controllers `number`, below 32, and `number` + 32.
     ControlChange14 { channel: u8, number: u8 },
+    /// A non-registered parameter (NRPN) of MIDI, 0 to 16,382: the controllers 99 and 98 say which, 6 and 38 its value.
+    Nrpn { channel: u8, number: u16 },
     /// A MIDI note.
     Note { channel: u8, key: u8 },
     /// The pitch bend of a MIDI channel.
@@ -105,6 +109,10 @@ impl ControlAddress {
         match (kind.to_ascii_lowercase().as_str(), rest) {
             ("cc", [number]) => Some(Self::ControlChange { channel, number: below(number, 128)? }),
             ("cc14", [number]) => Some(Self::ControlChange14 { channel, number: below(number, 32)? }),
+            ("nrpn", [number]) => {
+                let number = number.parse().ok().filter(|n| *n < PARAMETERS)?;
+                Some(Self::Nrpn { channel, number })
+            }
             ("note", [key]) => Some(Self::Note { channel, key: below(key, 128)? }),
             ("bend", []) => Some(Self::PitchBend { channel }),
             _ => None,
@@ -117,6 +125,7 @@ impl ControlAddress {
         match self {
             Self::ControlChange { channel, number } => format!("CC {number}{}", of(*channel)),
             Self::ControlChange14 { channel, number } => format!("CC {number}+{}{}", number + 32, of(*channel)),
+            Self::Nrpn { channel, number } => format!("NRPN {number}{}", of(*channel)),
             Self::Note { channel, key } => format!("Note {key}{}", of(*channel)),
             Self::PitchBend { channel } => format!("Pitch bend{}", of(*channel)),
             Self::Pad { pad: 0, part } => format!("Pad {}", part.name()),
@@ -126,12 +135,21 @@ impl ControlAddress {
     }
 }
 
+impl ControlAddress {
+    /// Returns whether it is a knob or a fader that stays where a hand leaves it, so that its position may differ from the value
+    /// that it is to move.
+    pub fn stays_in_place(&self) -> bool {
+        matches!(self, Self::ControlChange { .. } | Self::ControlChange14 { .. } | Self::Nrpn { .. })
+    }
+}
+
 impl fmt::Display for ControlAddress {
     /// As `eddy.toml` has it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ControlChange { channel, number } => write!(f, "midi {} cc {number}", channel + 1),
             Self::ControlChange14 { channel, number } => write!(f, "midi {} cc14 {number}", channel + 1),
+            Self::Nrpn { channel, number } => write!(f, "midi {} nrpn {number}", channel + 1),
             Self::Note { channel, key } => write!(f, "midi {} note {key}", channel + 1),
             Self::PitchBend { channel } => write!(f, "midi {} bend", channel + 1),
             Self::Pad { pad, part } => write!(f, "pad {} {}", pad + 1, part.name()),
@@ -156,6 +174,7 @@ mod tests {
         let all = [
             ControlAddress::ControlChange { channel: 0, number: 127 },
             ControlAddress::ControlChange14 { channel: 15, number: 31 },
+            ControlAddress::Nrpn { channel: 15, number: 16_382 },
             ControlAddress::Note { channel: 3, key: 0 },
             ControlAddress::PitchBend { channel: 9 },
             ControlAddress::Pad { pad: 3, part: PadPart::Axis(1) },
@@ -177,6 +196,8 @@ mod tests {
             "midi 17 cc 1",
             "midi 1 cc 128",
             "midi 1 cc14 32",
+            "midi 1 nrpn 16383",
+            "midi 1 nrpn",
             "midi 1 note",
             "midi 1 bend 2",
             "midi 1 knob 2",

@@ -180,8 +180,8 @@ static ROWS: [InputRow; 11] = [
     },
     InputRow {
         kind: InputKind::Webcam,
-        title: "webcam",
-        glyph: "film",
+        title: "Webcam",
+        glyph: "cam",
         key: "webcam",
         json_type: "webcam",
         json_id: Some(("4sf3zn", "/presets/webcam.png")),

@@ -126,6 +126,8 @@ pub const OSC_MESSAGES: usize = 1_024;
 pub const OSC_DEPTH: usize = 8;
 /// Arguments of an OSC message.
 pub const OSC_ARGUMENTS: usize = 64;
+/// Different address patterns of OSC that are followed in a frame.
+pub const OSC_PATTERNS: usize = 32;
 /// Movements of controls that wait for the next frame.
 pub const CONTROL_EVENTS: usize = 4_096;
 /// MIDI devices that are open at once.

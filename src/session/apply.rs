@@ -58,6 +58,7 @@ impl Session {
             Command::Hide(is_hidden) => self.hide(is_hidden),
             Command::SetVolume(volume) => self.audio.set_volume(volume),
             Command::SetMute(on) => self.audio.set_mute(on),
+            Command::OpenSoundAgain => self.open_sound_again(),
             Command::SetAudioOutput(device) => self.audio.choose_output(device),
             Command::SetAudioInput(device) => self.audio.choose_input(device),
             Command::ListAudioDevices => self.audio.list_devices(&self.wake),

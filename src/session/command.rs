@@ -82,11 +82,13 @@ pub enum Command {
     SetMute(bool),
     /// The device that plays, by its name; `None`: the system's default one.
     SetAudioOutput(Option<String>),
+    /// Opens the device that plays although the run before ended while it was being opened.
+    OpenSoundAgain,
     /// The device that records.
     SetAudioInput(Option<String>),
     /// Looks which devices there are: see [`Session::audio_devices`](super::Session::audio_devices).
     ListAudioDevices,
-    /// Records by the microphone for channels that read it, until this is taken back or Eddy ends. Nothing but a person
+    /// Records by the microphone for channels that read it, until this is taken back or another project opens. Nothing but a person
     /// asks for it.
     UseMicrophone(bool),
     /// Listens to OSC at an address; `None`: no longer. Nothing but a person asks for it.

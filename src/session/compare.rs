@@ -6,6 +6,7 @@ use super::{
     read_back::TakeRun,
 };
 use eddy_background::{Background, Count, Status, Wake};
+use eddy_engine::CameraFrame;
 use eddy_playback::{
     comparing::{Baseline, CompareJob, Comparison, compare},
     run::Run,
@@ -15,7 +16,7 @@ use std::sync::Arc;
 pub(super) struct Comparing {
     pub background: Background<CompareJob, Count, Arc<Comparison>>,
     against: Option<Baseline>,
-    input: Ticket<Run>,
+    input: Ticket<(Run, Option<CameraFrame>)>,
 }
 
 impl Comparing {
@@ -62,6 +63,7 @@ impl Session {
         let Comparing { background, against, input } = &mut self.comparing;
         let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };
         self.changed = true;
+        let (run, camera) = input.output;
         let Some(project) = self.drawing.project().cloned() else {
             return background.fail("nothing has been drawn yet");
         };
@@ -77,7 +79,8 @@ impl Session {
                 shown: self.picture.shown.clone(),
                 trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
                 media_dir,
-                run: input.output,
+                run,
+                camera,
             }),
         }
     }

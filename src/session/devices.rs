@@ -8,7 +8,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_project::{InputKind, Project};
-use eddy_video::{Camera, CameraDevice, CameraSource, Tools, VideoError};
+use eddy_video::{Camera, CameraDevice, CameraFrame, CameraSource, Tools, VideoError};
 
 /// The devices that the person has allowed the open project to use.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -62,8 +62,16 @@ impl Devices {
         self.camera.as_ref().filter(|camera| camera.newest().is_some())
     }
 
+    /// Turns the camera off, now and whoever draws its pictures still. Returns whether one was on.
+    fn turn_camera_off(&mut self) -> bool {
+        let camera = self.camera.take();
+        camera.iter().for_each(Camera::turn_off);
+        camera.is_some()
+    }
+
     /// Turns everything off: another project has to ask again.
     pub fn begin_next_project(&mut self) {
+        self.turn_camera_off();
         *self = Devices { chosen: self.chosen.take(), found: std::mem::take(&mut self.found), ..Devices::default() };
     }
 }
@@ -82,6 +90,11 @@ impl Session {
         }
     }
 
+    /// Returns the newest picture of the camera that is on.
+    pub fn camera_picture(&self) -> Option<CameraFrame> {
+        self.devices.camera.as_ref().and_then(Camera::newest)
+    }
+
     /// Returns the cameras that there are, known once one has been on, and which one is on.
     pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
         (&self.devices.found, self.devices.camera.as_ref().map(Camera::source))
@@ -95,7 +108,7 @@ impl Session {
         self.settled(About::Device);
         if !on {
             self.devices.consent.withdraw(kind);
-            if self.devices.camera.take().is_some() {
+            if self.devices.turn_camera_off() {
                 self.compile_soon();
             }
             return;
@@ -107,7 +120,7 @@ impl Session {
     /// The person chooses a camera, which turns it on.
     pub(super) fn choose_camera(&mut self, id: String) {
         self.devices.chosen = Some(CameraSource::Device(id));
-        self.devices.camera = None;
+        self.devices.turn_camera_off();
         self.use_device(InputKind::Webcam, true);
     }
 

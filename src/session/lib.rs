@@ -66,6 +66,7 @@ pub use costs::{PassCosts, TimedPass};
 pub use devices::{CameraState, DeviceConsent};
 pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};
+pub use eddy_control::Waits;
 pub use export::directive_errors;
 pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;

@@ -7,11 +7,12 @@ use super::{
 };
 use eddy_background::{Background, Count, Status, Wake};
 use eddy_debugger::nonfinite::{SearchEnd, SearchJob, search};
+use eddy_engine::CameraFrame;
 use eddy_playback::run::{Replay, ReplayFrom};
 
 pub(super) struct Searching {
     pub background: Background<SearchJob, Count, SearchEnd>,
-    input: Ticket<Option<Replay>>,
+    input: Ticket<Option<(Replay, Option<CameraFrame>)>>,
 }
 
 impl Searching {
@@ -47,7 +48,9 @@ impl Session {
         let Searching { background, input } = &mut self.searching;
         let Some(input) = input.take() else { return };
         self.changed = true;
-        let (Some(Replay { snapshot, frames }), Some(project)) = (input.output, self.drawing.project().cloned()) else {
+        let (Some((Replay { snapshot, frames }, camera)), Some(project)) =
+            (input.output, self.drawing.project().cloned())
+        else {
             return background
                 .fail("no earlier frames are kept: reset and play again; very large buffers are never kept");
         };
@@ -60,6 +63,7 @@ impl Session {
                 size: self.drawing.size(),
                 media_dir: self.options.media_dir.clone(),
                 snapshot,
+                camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
             }),
         }

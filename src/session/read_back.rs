@@ -12,7 +12,7 @@ use super::{
     miniatures::Miniatures,
     probe::Probing,
 };
-use eddy_engine::{EngineError, PassInputs, Picture, Pixels};
+use eddy_engine::{CameraFrame, EngineError, PassInputs, Picture, Pixels};
 use eddy_playback::run::{Replay, ReplayFrom, Run};
 use eddy_project::PassId;
 use std::time::Instant;
@@ -140,25 +140,27 @@ impl RenderTask for ReadPicture {
     }
 }
 
-/// Hands out the frames up to the newest; `None`: none are kept.
+/// Hands out the frames up to the newest, with the picture of a camera that the newest shows; `None`: none are kept.
 pub(super) struct TakeReplay(pub ReplayFrom);
 
 impl RenderTask for TakeReplay {
-    type Output = Option<Replay>;
+    type Output = Option<(Replay, Option<CameraFrame>)>;
 
     fn run(self, renderer: &mut Renderer) -> Self::Output {
-        renderer.history().replay(self.0)
+        let camera = renderer.engine_mut().camera_picture();
+        renderer.history().replay(self.0).map(|replay| (replay, camera))
     }
 }
 
-/// Hands out the inputs of all frames up to the newest.
+/// Hands out the inputs of all frames up to the newest, with the picture of a camera that the newest shows.
 pub(super) struct TakeRun;
 
 impl RenderTask for TakeRun {
-    type Output = Run;
+    type Output = (Run, Option<CameraFrame>);
 
-    fn run(self, renderer: &mut Renderer) -> Run {
-        renderer.history().run()
+    fn run(self, renderer: &mut Renderer) -> Self::Output {
+        let camera = renderer.engine_mut().camera_picture();
+        (renderer.history().run(), camera)
     }
 }
 

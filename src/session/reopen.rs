@@ -108,7 +108,7 @@ impl Session {
 
     /// Asks the engine for the run, and waits for it, but not for long.
     fn take_run(&mut self) -> Option<Run> {
-        self.ask_engine(Instant::now() + PATIENCE, TakeRun)
+        self.ask_engine(Instant::now() + PATIENCE, TakeRun).map(|(run, _)| run)
     }
 
     /// Asks the engine for something that it has, and waits for it until then.

@@ -153,7 +153,7 @@ impl Session {
             last_pictures: LastPictures::new(options.cache_dir.as_deref()),
             playback: Playback::default(),
             devices: Devices::default(),
-            audio: Audio::new(options.audio.clone(), options.audio_on_thread),
+            audio: Audio::new(options.audio.clone(), options.audio_on_thread, options.state_dir.as_deref()),
             controls: Controls::new(&options, wake.clone()),
             picture: Picture::default(),
             watched: ReadBacks::default(),

@@ -14,7 +14,7 @@ use eddy_debugger::{
     divergence::{self, DivergenceFound, DivergenceJob},
     trace::Traced,
 };
-use eddy_engine::EngineError;
+use eddy_engine::{CameraFrame, EngineError};
 use eddy_playback::run::{Replay, ReplayFrom};
 use eddy_project::{PassId, Project};
 use std::{io, sync::Arc};
@@ -105,7 +105,7 @@ impl Tracing {
 pub(super) struct Divergence {
     background: Background<DivergenceJob, (), DivergenceFound>,
     of: Option<Arc<Traced>>,
-    input: Ticket<Option<Replay>>,
+    input: Ticket<Option<(Replay, Option<CameraFrame>)>>,
 }
 
 impl Divergence {
@@ -180,7 +180,7 @@ impl Session {
         let Some(input) = self.tracing.divergence.input.take() else { return };
         self.changed = true;
         let Divergence { background, of: Some(traced), .. } = &mut self.tracing.divergence else { return };
-        let Some(Replay { snapshot, frames }) = input.output else {
+        let Some((Replay { snapshot, frames }, camera)) = input.output else {
             return background.fail(
                 "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers are never \
                  kept",
@@ -195,6 +195,7 @@ impl Session {
                 size: self.drawing.size(),
                 media_dir: self.options.media_dir.clone(),
                 snapshot,
+                camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
             }),
         }

@@ -143,6 +143,19 @@ impl Camera {
         Camera(Arc::new(Owner { source, shared }))
     }
 
+    /// A camera that shows one picture: what another one showed in a frame that is drawn again.
+    pub fn still(picture: CameraFrame) -> Camera {
+        let state = State { newest: Some(picture), ..State::default() };
+        let shared = Arc::new(Shared { state: Mutex::new(state), ..Shared::default() });
+        Camera(Arc::new(Owner { source: CameraSource::First, shared }))
+    }
+
+    /// Turns it off, whoever else has a handle: a picture that is drawn by another thread may have one for a while.
+    pub fn turn_off(&self) {
+        self.0.shared.lock().is_closed = true;
+        self.0.shared.stop.stop();
+    }
+
     pub fn source(&self) -> &CameraSource {
         &self.0.source
     }

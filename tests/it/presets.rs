@@ -40,6 +40,8 @@ fn what_projects_share_is_the_same_in_each() {
             assert!(are_same(&texts(folder, projects, file)), "{file} differs among {projects:?}");
         }
     }
+    let lobes = ["presets/sky-spheres", "assets/lab/lobe"];
+    assert!(are_same(&texts("", &lobes, "lobe.glsl")), "lobe.glsl differs between the preset and its study");
     // The scene and the equation of peers that solve them in different ways.
     for (projects, begins) in [
         (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),

@@ -3,8 +3,9 @@
 
 use crate::support::{self, skipped, stage::*};
 use eddy::{
+    playback::comparing::Baseline,
     project::InputKind,
-    session::{CameraState, Command, Level, SessionOptions},
+    session::{CameraState, Command, Level, SessionOptions, Status},
     video::CameraSource,
 };
 use image::{
@@ -26,6 +27,11 @@ fn gif(frames: u8) -> Vec<u8> {
     }
     drop(encoder);
     bytes
+}
+
+fn has_ffmpeg() -> bool {
+    let runs = Process::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    runs.is_ok_and(|status| status.success())
 }
 
 #[test]
@@ -71,8 +77,7 @@ fn what_is_dropped_and_moves_is_a_video() {
 #[test]
 fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
     let Some(gpu) = support::gpu() else { return };
-    let runs = Process::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    if !runs.is_ok_and(|status| status.success()) {
+    if !has_ffmpeg() {
         return skipped("ffmpeg is not installed");
     }
     let camera = CameraSource::of_text("lavfi:color=white:s=24x16:r=30");
@@ -109,6 +114,71 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
     stage.until("another project", |s| s.device_state(webcam) == CameraState::Off);
     stage.for_a_while();
     assert_eq!(stage.session.device_state(webcam), CameraState::Off);
+}
+
+/// The trace, the search for a difference from the device and the comparison read what the shown frame read.
+#[test]
+fn a_trace_and_a_comparison_have_the_picture_of_the_camera_that_was_shown() {
+    let Some(gpu) = support::gpu() else { return };
+    if !has_ffmpeg() {
+        return skipped("ffmpeg is not installed");
+    }
+    // Every frame is of another grey, and none is black.
+    let camera = CameraSource::of_text("lavfi:nullsrc=s=16x16:r=30,geq=lum='60+mod(N*7,150)':cb=128:cr=128");
+    let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
+    stage.write("eddy.toml", "[passes.image]\nchannels.0 = { webcam = true }\n");
+    stage.write("image.glsl", SHOW);
+    let folder = stage.folder().to_str().unwrap().to_owned();
+    stage.session.apply(Command::Open(folder));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
+    stage.until("the camera is on", |s| s.device_state(InputKind::Webcam) == CameraState::On);
+    stage.until_compiled();
+    stage.session.apply(Command::Step);
+    stage.settle();
+    let shown = stage.red();
+    assert!(shown > 30, "{shown}");
+    let near = |value: f32| (value * 255.0 - f32::from(shown)).abs() < 1.0;
+    stage.session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.until("a trace", |s| s.trace().traced.is_some());
+    let traced = stage.session.trace().traced.unwrap();
+    assert!(near(traced.device[0]) && traced.value == Some(traced.device), "{:?} {:?}", traced.value, traced.device);
+    stage.session.apply(Command::FindDivergence);
+    stage.until("the search", |s| matches!(s.divergence(), Some(Status::Ended(_))));
+    let Some(Status::Ended(found)) = stage.session.divergence() else { unreachable!() };
+    assert_eq!(found.unwrap().first, None);
+    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.until("a comparison", |s| matches!(s.comparison(), Some(Status::Ended(_))));
+    let Some(Status::Ended(done)) = stage.session.comparison() else { unreachable!() };
+    let done = done.unwrap();
+    assert!(near(done.ours.texels[0][0]) && done.ours.texels == done.theirs.texels, "{:?}", done.ours.texels[0]);
+    assert!(!done.is_camera_still, "only the shown frame was drawn");
+}
+
+#[test]
+fn a_trace_and_a_comparison_have_the_frame_of_a_video() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    stage.write("a.gif", gif(10));
+    stage.write("eddy.toml", "[passes.image]\nchannels.0 = { file = \"a.gif\", kind = \"video\" }\n");
+    stage.write("image.glsl", SHOW);
+    let folder = stage.folder();
+    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    stage.session.apply(Command::Seek(0.75));
+    stage.settle();
+    assert_eq!(stage.red(), 140);
+    let near = |value: f32| (value * 255.0 - 140.0).abs() < 0.5;
+    stage.session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.until("a trace", |s| s.trace().traced.is_some());
+    let traced = stage.session.trace().traced.unwrap();
+    assert!(near(traced.device[0]) && traced.value == Some(traced.device), "{:?} {:?}", traced.value, traced.device);
+    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.until("a comparison", |s| matches!(s.comparison(), Some(Status::Ended(_))));
+    let Some(Status::Ended(done)) = stage.session.comparison() else { unreachable!() };
+    assert!(near(done.unwrap().ours.texels[0][0]), "{:?}", done.unwrap().ours.texels[0]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ use eddy::{
 };
 use std::{
     f64::consts::TAU,
+    path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -20,6 +21,7 @@ use std::{
 const RATE: f64 = 44_100.0;
 /// Samples of the song.
 const LENGTH: f64 = 441_000.0;
+const SONG: &str = "channels.0 = { file = \"song.wav\", kind = \"music\" }";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, vec2(0.1, 0.75)); }\n";
 
 /// A WAV file of 16 bits, stereo, 44.1 kHz, with the same on both channels.
@@ -52,11 +54,16 @@ struct Room {
 
 impl Room {
     fn open(host: FakeHost, manifest: &str) -> Option<Room> {
+        Self::with_state(host, manifest, None)
+    }
+
+    fn with_state(host: FakeHost, manifest: &str, state_dir: Option<PathBuf>) -> Option<Room> {
         let gpu = gpu()?;
         let audio = host.clone();
         let mut stage = Stage::with_options(gpu, |_| SessionOptions {
             audio: Some(Arc::new(audio)),
             audio_on_thread: false,
+            state_dir,
             ..SessionOptions::default()
         });
         stage.write("song.wav", wav((0..441_000).map(saw)));
@@ -74,7 +81,7 @@ impl Room {
     }
 
     fn with_song(host: FakeHost) -> Option<Room> {
-        Self::open(host, "channels.0 = { file = \"song.wav\", kind = \"music\" }")
+        Self::open(host, SONG)
     }
 
     /// So much time goes by, at 60 frames a second.
@@ -386,6 +393,96 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     }
     assert_eq!(seen(&mut room), shown, "the same picture without the microphone");
     assert_eq!(room.stage.session.shown_pass(), &PassId::Image);
+}
+
+#[test]
+fn a_microphone_is_closed_when_another_project_opens() {
+    let reads = "channels.0 = { microphone = true }";
+    let Some(mut room) = Room::open(FakeHost::default(), reads) else { return };
+    room.host.input.plug_in();
+    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(Command::UseMicrophone(true));
+    room.run(0.2);
+    assert!(room.host.input.is_open());
+    // The next one reads it as well, and nobody has switched it on for that one.
+    std::fs::create_dir(room.stage.path("next")).unwrap();
+    room.stage.write("next/eddy.toml", format!("[passes.image]\n{reads}\n"));
+    room.stage.write("next/image.glsl", SHOW);
+    let next = room.stage.folder().join("next");
+    room.stage.session.apply(Command::Open(next.to_str().unwrap().into()));
+    room.stage.until_compiled();
+    room.stage.session.apply(Command::Play);
+    room.run(0.5);
+    let view = room.stage.session.microphone_view().unwrap();
+    assert!(view.is_read && !view.is_on && !room.host.input.is_open(), "{view:?}");
+    room.stage.session.apply(Command::UseMicrophone(true));
+    room.run(0.2);
+    assert!(room.host.input.is_open());
+}
+
+/// Leaves a copy of the state folder as a crash would have at this moment.
+fn crashed(state: &Path) -> tempfile::TempDir {
+    let copy = tempfile::tempdir().unwrap();
+    for entry in std::fs::read_dir(state).unwrap() {
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_file() {
+            std::fs::copy(entry.path(), copy.path().join(entry.file_name())).unwrap();
+        }
+    }
+    copy
+}
+
+#[test]
+fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
+    let state = tempfile::tempdir().unwrap();
+    let start = |state: &Path| Room::with_state(FakeHost::default(), SONG, Some(state.to_owned()));
+    let Some(mut room) = start(state.path()) else { return };
+    room.stage.session.apply(Command::Play);
+    room.run(0.1);
+    assert_eq!(room.host.out.attempts(), 1);
+    let after_crash = crashed(state.path());
+    // One that plays for a while has left nothing, and neither has a run that ends as it should.
+    room.run(1.5);
+    let well = crashed(state.path());
+    drop(room);
+
+    let mut next = start(after_crash.path()).unwrap();
+    next.stage.session.apply(Command::Play);
+    next.run(1.0);
+    assert_eq!(
+        (next.host.out.attempts(), next.stage.count("Eddy ended while it opened the default sound device")),
+        (0, 1)
+    );
+    assert!(next.stage.session.output_view().unwrap().ended_before);
+    drop(next);
+    // Until somebody asks for it.
+    let mut again = start(after_crash.path()).unwrap();
+    again.stage.session.apply(Command::Play);
+    again.run(0.5);
+    assert_eq!(again.host.out.attempts(), 0, "nobody has asked yet");
+    again.stage.session.apply(Command::OpenSoundAgain);
+    again.run(0.1);
+    assert!(again.host.out.is_open() && again.stage.count("Eddy ended while") == 0);
+    again.run(1.5);
+    drop(again);
+    for state in [well.path(), after_crash.path()] {
+        let mut last = start(state).unwrap();
+        last.stage.session.apply(Command::Play);
+        last.run(0.1);
+        assert_eq!(last.host.out.attempts(), 1);
+    }
+
+    // Another device is opened at once.
+    let other = crashed(state.path());
+    std::fs::write(other.path().join("opening-sound.txt"), "headphones\n").unwrap();
+    let mut last = start(other.path()).unwrap();
+    last.stage.session.apply(Command::SetAudioOutput(Some("headphones".into())));
+    last.stage.session.apply(Command::Play);
+    last.run(0.2);
+    assert_eq!(last.stage.count("Eddy ended while it opened the sound device headphones"), 1);
+    last.stage.session.apply(Command::SetAudioOutput(Some("speakers".into())));
+    last.run(0.2);
+    assert!(last.host.out.is_open());
 }
 
 #[test]

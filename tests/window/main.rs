@@ -8,6 +8,7 @@ mod random;
 mod window;
 mod window_audit;
 mod window_buffers;
+mod window_channels;
 mod window_compare;
 mod window_controls;
 mod window_costs;

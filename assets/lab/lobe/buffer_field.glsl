@@ -1,3 +1,5 @@
+#include "lobe.glsl"
+
 // Normals about the eye's direction, up to 50 degrees away.
 vec3 normalAt(vec2 at, vec3 eye) {
     vec3 side = normalize(cross(eye, vec3(0.0, 1.0, 0.0)));
@@ -13,12 +15,12 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float texel = 4.0 * PI / (6.0 * SIDE * SIDE), sum = 0.0, weights = 0.0;
     int count = METHOD == MIRROR ? 1 : samples;
     for (int i = 0; i < count; i++) {
-        vec3 h = frame * (METHOD == MIRROR ? vec3(0.0, 0.0, 1.0) : halfVector(hammersley(i, count)));
+        vec3 h = frame * (METHOD == MIRROR ? vec3(0.0, 0.0, 1.0) : halfVector(hammersley(i, count), alpha));
         vec3 light = reflect(-eye, h);
         float cosine = dot(normal, light);
         if (cosine <= 0.0) continue;
         float cosH = max(dot(normal, h), 1e-4), cosE = max(dot(eye, h), 1e-4);
-        float density = ggx(cosH) * cosH / (4.0 * cosE);
+        float density = ggx(cosH, alpha) * cosH / (4.0 * cosE);
         float level = METHOD == PLAIN ? 0.0 : max(0.5 * log2(1.0 / (float(count) * density * texel)) + 1.0, 0.0);
         sum += cosine * textureLod(iChannel0, light, level).x;
         weights += cosine;

@@ -1,5 +1,6 @@
 //! The bytes of a packet to events.
 
+use super::pattern::{Pattern, is_pattern};
 use crate::ControlEvent;
 use eddy_project::{ControlAddress, is_osc_path, limits};
 use rosc::{OscPacket, OscType};
@@ -59,7 +60,7 @@ pub fn decode(packet: &[u8]) -> Result<Vec<ControlEvent>, OscError> {
     Ok(events)
 }
 
-/// Adds the numbers of a message. One whose address no control can have is skipped, as are patterns.
+/// Adds the numbers of a message. One whose address no control can have and that is no pattern is skipped.
 fn message(bytes: &[u8], events: &mut Vec<ControlEvent>) -> Result<(), OscError> {
     let address = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
     if address.first() != Some(&b'/') {
@@ -72,7 +73,8 @@ fn message(bytes: &[u8], events: &mut Vec<ControlEvent>) -> Result<(), OscError>
         return Err(OscError::Damaged);
     }
     let Ok((_, OscPacket::Message(message))) = rosc::decoder::decode_udp(bytes) else { return Err(OscError::Damaged) };
-    if !is_osc_path(&message.addr) {
+    let is_pattern = || is_pattern(&message.addr) && Pattern::parse(&message.addr).is_some();
+    if !is_osc_path(&message.addr) && !is_pattern() {
         return Ok(());
     }
     let numbers = message.args.iter().enumerate().filter_map(|(argument, value)| Some((argument, number(value)?)));

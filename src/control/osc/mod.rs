@@ -4,9 +4,11 @@
 //! `rosc` decodes messages. It follows bundles and arrays as deep as a packet has them, so those are taken apart here first.
 
 mod decode;
+mod pattern;
 mod socket;
 #[cfg(test)]
 mod tests;
 
 pub use decode::{OscError, decode};
+pub use pattern::{dispatched, is_pattern};
 pub use socket::{OscInput, OscState};

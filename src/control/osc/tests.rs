@@ -40,7 +40,9 @@ fn numbers_of_every_type_are_events() {
         [("", 0.25), (" 2", -3.0), (" 4", 1e-9), (" 5", 1_099_511_627_776.0), (" 6", 1.0), (" 7", 0.0), (" 9", 1.0)];
     assert_eq!(shown(&read), wanted.map(|(argument, value)| (format!("/1/all{argument}"), value)));
     assert_eq!(decode(&bytes(&packet("/1", vec![]))), Ok(vec![]), "a page was chosen");
-    assert_eq!(decode(&bytes(&packet("/1/*", vec![OscType::Int(1)]))), Ok(vec![]), "a pattern");
+    let of_pattern = |pattern: &str| shown(&decode(&bytes(&packet(pattern, vec![OscType::Int(1)]))).unwrap());
+    assert_eq!(of_pattern("/1/*"), [("/1/*".to_owned(), 1.0)]);
+    assert_eq!([of_pattern("/1/[a"), of_pattern("/1/a b")], [vec![], vec![]], "neither a pattern nor an address");
 }
 
 /// Bytes by hand, so that two mistakes of one library do not hide each other: the example of OSC 1.0.

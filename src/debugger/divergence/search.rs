@@ -7,7 +7,7 @@ use super::{
 };
 use crate::trace::{Extent, Number, STEPS, Traced, ulps};
 use eddy_background::Control;
-use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot, Sources};
+use eddy_engine::{BuildOptions, CameraFrame, Engine, FrameInputs, Program, Snapshot, Sources};
 use eddy_gpu::Gpu;
 use eddy_media as media;
 use eddy_project::{CustomUniformValues, PassId};
@@ -97,18 +97,21 @@ pub struct DivergenceJob {
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
+    /// The picture of a camera that the last of the frames showed. Those before are drawn with it as well: theirs are not kept.
+    pub camera: Option<CameraFrame>,
     /// The last one is the traced one.
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
 /// Draws the frame of a traced pixel again by an engine of its own, and finds the first assignment that differs there.
 pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound, String> {
-    let DivergenceJob { gpu, traced, shown, size, media_dir, snapshot, mut frames } = job;
+    let DivergenceJob { gpu, traced, shown, size, media_dir, snapshot, camera, mut frames } = job;
     let (project, pass) = (&traced.project, &traced.pass);
     let Some((inputs, values)) = frames.pop().filter(|(inputs, _)| inputs.frame == traced.frame) else {
         return Err("the shown frame has changed: trace the pixel again".into());
     };
-    let (media, _) = media::gather(project, media_dir.as_deref());
+    let (mut media, _) = media::gather(project, media_dir.as_deref());
+    media.set_camera_picture(camera);
     let mut wanted = vec![PassId::Image];
     wanted.extend((shown != PassId::Image && project.pass(&shown).is_some()).then_some(shown));
     let options = BuildOptions { wanted, ..BuildOptions::default() };

@@ -4,7 +4,7 @@ use super::texels::{NonfiniteTexels, born, drawn, stored};
 use crate::trace::STEPS;
 use eddy_background::{Control, Count};
 use eddy_diag::Span;
-use eddy_engine::{BuildOptions, Engine, FrameInputs, Program, Snapshot};
+use eddy_engine::{BuildOptions, CameraFrame, Engine, FrameInputs, Program, Snapshot};
 use eddy_gpu::Gpu;
 use eddy_media as media;
 use eddy_project::TextLocation;
@@ -56,13 +56,16 @@ pub struct SearchJob {
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
+    /// The picture of a camera that the last of the frames showed. Those before are drawn with it as well: theirs are not kept.
+    pub camera: Option<CameraFrame>,
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
 /// Draws the frames again by an engine of their own, and looks through the texels of each. Counts frames.
 pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, String> {
-    let SearchJob { gpu, project, shown, size, media_dir, snapshot, frames } = job;
-    let (media, _) = media::gather(&project, media_dir.as_deref());
+    let SearchJob { gpu, project, shown, size, media_dir, snapshot, camera, frames } = job;
+    let (mut media, _) = media::gather(&project, media_dir.as_deref());
+    media.set_camera_picture(camera);
     let mut wanted = vec![PassId::Image];
     wanted.extend((shown != PassId::Image && project.pass(&shown).is_some()).then_some(shown));
     let options = BuildOptions { wanted, ..BuildOptions::default() };

@@ -2,20 +2,22 @@
 
 use super::{
     names::{filter_name, input_name, wrap_name},
-    swatch::Swatches,
+    swatch::{Swatches, folder},
 };
 use crate::{
     gui::{
         accessible,
         actions::Action,
         devices, theme,
+        thumbnails::FolderFile,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
-    project::{Channel, Filter, Input, InputKind, InputSource, Media, PassId, Wrap},
+    project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap},
     session::{Command, Session},
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
+use std::time::Instant;
 
 /// The popup of a card.
 pub fn choose(
@@ -81,6 +83,7 @@ pub fn choose(
     ui.separator();
     ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
+        files(ui, pass, index, now, swatches, out);
         for (kind, title) in BUILT_IN {
             ui.colored_label(theme::of(ui).weak, title);
             ui.horizontal_wrapped(|ui| {
@@ -98,6 +101,49 @@ pub fn choose(
                     response.on_hover_text(name);
                 }
             });
+        }
+    });
+}
+
+/// The files of the project's folder that a channel can read.
+fn files(
+    ui: &mut Ui,
+    pass: &PassId,
+    index: usize,
+    now: Option<&Input>,
+    swatches: &mut Swatches<'_>,
+    out: &mut UiOutput,
+) {
+    let Some(folder) = folder(swatches.session) else { return };
+    let files = swatches.thumbnails.files(&folder, Instant::now());
+    if files.is_empty() {
+        return;
+    }
+    ui.colored_label(theme::of(ui).weak, "Files of the project");
+    ui.horizontal_wrapped(|ui| {
+        for FolderFile { path, kind } in files.iter() {
+            let kind = match kind {
+                FileKind::Video => InputKind::Video,
+                FileKind::Sound => InputKind::Music,
+                _ => InputKind::Texture,
+            };
+            let media = Media::File(path.clone());
+            // A file may be read as another kind than its ending says: an image that moves is a video.
+            let chosen = now.and_then(Input::media) == Some(&media);
+            let input = match now {
+                Some(now) if chosen => now.clone(),
+                _ => Input::Media { kind, media },
+            };
+            let (name, shown) = (path.file_name().unwrap_or_default().to_string_lossy(), path.display().to_string());
+            let (rect, response) = ui.allocate_exact_size(vec2(84.0, 82.0), Sense::click());
+            accessible::choice(&response, egui::Role::Button, chosen, &shown);
+            if ui.is_rect_visible(rect) {
+                texture_card(ui, rect, &name, &input, chosen || response.hovered(), swatches);
+            }
+            if out.clicked(&format!("choose:file:{shown}"), &response) && !chosen {
+                out.ask(Command::Bring { paths: vec![folder.join(path)], to: Some((pass.clone(), Some(index))) });
+            }
+            response.on_hover_text(shown);
         }
     });
 }

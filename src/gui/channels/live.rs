@@ -3,9 +3,23 @@
 use crate::{
     project::PassId,
     session::{Command, Session},
+    video::CameraFrame,
 };
 use egui::{ColorImage, TextureHandle, TextureOptions, Ui};
-use std::collections::HashMap;
+use std::{
+    collections::HashMap,
+    time::{Duration, Instant},
+};
+
+/// Returns every so many texels of a camera's picture, as opaque as a camera sees.
+fn reduced(picture: &CameraFrame) -> ColorImage {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let step = width.max(height).div_ceil(CAMERA).max(1);
+    let size = [width.div_ceil(step), height.div_ceil(step)];
+    let rows = picture.frame.texels.chunks_exact(width.max(1) * 4).step_by(step);
+    let bytes: Vec<u8> = rows.flat_map(|row| row.chunks_exact(4).step_by(step).flatten().copied()).collect();
+    ColorImage::from_rgba_unmultiplied(size, &bytes)
+}
 
 type Target = (PassId, usize);
 
@@ -16,7 +30,13 @@ pub struct Live {
     wanted: Vec<Target>,
     /// The last request to the session.
     sent: Vec<Target>,
+    /// A small picture of the camera, and when it was made.
+    camera: Option<(TextureHandle, Instant)>,
 }
+
+/// Texels across of the camera's small picture, and the time between two.
+const CAMERA: usize = 128;
+const CAMERA_EVERY: Duration = Duration::from_millis(100);
 
 impl Live {
     /// Returns the newest picture of a target and the shape of what it shows (width to height), and asks for more.
@@ -43,6 +63,30 @@ impl Live {
         }
         let aspect = miniature.of.0 as f32 / (miniature.of.1 as f32).max(1.0);
         self.textures.get(&target).map(|(texture, _)| (texture.clone(), aspect))
+    }
+
+    /// Returns a small picture of the camera that is on, and its shape.
+    pub fn camera(&mut self, ui: &Ui, session: &Session) -> Option<(TextureHandle, f32)> {
+        let Some(picture) = session.camera_picture() else {
+            self.camera = None;
+            return None;
+        };
+        let now = Instant::now();
+        let is_old = |at: &Instant| now.saturating_duration_since(*at) >= CAMERA_EVERY;
+        match &mut self.camera {
+            Some((_, at)) if !is_old(at) => {}
+            Some((texture, at)) => {
+                texture.set(reduced(&picture), TextureOptions::LINEAR);
+                *at = now;
+            }
+            None => {
+                let texture = ui.ctx().load_texture("camera", reduced(&picture), TextureOptions::LINEAR);
+                self.camera = Some((texture, now));
+            }
+        }
+        ui.ctx().request_repaint_after(CAMERA_EVERY);
+        let aspect = picture.width as f32 / (picture.height as f32).max(1.0);
+        self.camera.as_ref().map(|(texture, _)| (texture.clone(), aspect))
     }
 
     /// Returns the texels of a target across and up, while its picture is asked for.

@@ -55,20 +55,9 @@ fn outline(ui: &Ui, sound: &Arc<Sound>) -> Outline {
     if let Some(known) = ui.data(|data| data.get_temp::<Outline>(id)) {
         return known;
     }
-    let made = outline_of(sound);
+    let made: Outline = sound.outline(STRETCHES).into();
     ui.data_mut(|data| data.insert_temp(id, made.clone()));
     made
-}
-
-fn outline_of(sound: &Sound) -> Outline {
-    let count = sound.frames.len();
-    // Of a long file every so many samples are looked at: a strip of 200 points shows no more.
-    let stride = (count / STRETCHES / 512).max(1);
-    let stretch = |n: usize| {
-        let frames = &sound.frames[n * count / STRETCHES..(n + 1) * count / STRETCHES];
-        frames.iter().step_by(stride).fold(0.0, |most: f32, [l, r]| most.max(l.abs()).max(r.abs())).min(1.0)
-    };
-    (0..STRETCHES).map(stretch).collect()
 }
 
 /// Returns the largest sample of the last moment before a time.
@@ -131,9 +120,9 @@ mod tests {
     fn an_outline_has_the_loudest_sample_of_each_stretch() {
         let frames = (0..4000).map(|n| if n == 3999 { [0.2, -0.9] } else { [0.1, 0.0] }).collect();
         let sound = Sound { frames, truncated: false };
-        let outline = outline_of(&sound);
+        let outline = sound.outline(STRETCHES);
         assert_eq!((outline.len(), outline[0], outline[STRETCHES - 1]), (STRETCHES, 0.1, 0.9));
-        assert!(outline_of(&Sound::default()).iter().all(|level| *level == 0.0));
+        assert!(Sound::default().outline(STRETCHES).iter().all(|level| *level == 0.0));
         // The mean of both channels, as the analyser hears it.
         assert!((level_at(&sound, 4000.0 / 44_100.0) - 0.35).abs() < 1e-6);
     }

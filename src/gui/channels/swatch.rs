@@ -7,7 +7,7 @@ use crate::{
         thumbnails::{Subject, Thumbnail, Thumbnails},
     },
     media::MediaKey,
-    project::{Input, InputKind, Origin, PassId},
+    project::{Input, InputKind, Media, Origin, PassId},
     session::Session,
     texture::Dimension,
 };
@@ -34,6 +34,13 @@ impl Swatches<'_> {
             ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
             return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
         }
+        if *input == Input::Device(InputKind::Webcam)
+            && let Some((texture, aspect)) = self.live.camera(ui, self.session)
+        {
+            let shown = fitting(place, aspect);
+            ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
+            return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
+        }
         if !sound::show(ui, self.session, place, input) {
             swatch(ui, self.session, place, input, self.thumbnails);
         }
@@ -49,22 +56,22 @@ fn fitting(place: Rect, aspect: f32) -> Rect {
 fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &mut Thumbnails) {
     let painter = ui.painter();
     painter.rect_filled(place, 3.0, theme::of(ui).surround);
-    let letter = match input {
-        Input::Media { kind: InputKind::Texture | InputKind::Cubemap | InputKind::Volume, media } => {
-            let dimension = input.row().dimension;
-            let key = MediaKey { media: media.clone(), dimension, vflip: dimension == Dimension::D2 };
-            match thumbnails.get(Subject::Texture(key, folder(session))) {
-                Thumbnail::Ready(texture) => {
-                    let size = texture.size_vec2();
-                    let shown = fitting(place, size.x / size.y.max(1.0));
-                    return egui::Image::new(&texture).corner_radius(3.0).paint_at(ui, shown);
-                }
-                Thumbnail::Waiting => "…",
-                Thumbnail::Failed(_) => "!",
+    let subject = subject(session, input);
+    let letter = match (&subject, input) {
+        (Some(subject), _) => match thumbnails.get(subject.clone()) {
+            Thumbnail::Ready(texture) => {
+                let size = texture.size_vec2();
+                let shown = fitting(place, size.x / size.y.max(1.0));
+                let is_wave = matches!(subject, Subject::Sound(..));
+                let tint = if is_wave { theme::of(ui).accent } else { egui::Color32::WHITE };
+                return egui::Image::new(&texture).corner_radius(3.0).tint(tint).paint_at(ui, shown);
             }
-        }
-        Input::Pass { id: PassId::Buffer(name), .. } => name.as_str(),
-        other => other.row().glyph,
+            Thumbnail::Waiting => "…",
+            Thumbnail::Failed(_) if matches!(input.media(), Some(Media::Site { .. })) => input.row().glyph,
+            Thumbnail::Failed(_) => "!",
+        },
+        (None, Input::Pass { id: PassId::Buffer(name), .. }) => name.as_str(),
+        (None, other) => other.row().glyph,
     };
     // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
     let layout = |size: f32| {
@@ -84,8 +91,23 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
     painter.galley(place.center() - galley.size() / 2.0, galley, theme::of(ui).accent);
 }
 
+/// Returns the small picture of media. A file of Shadertoy that no file of Eddy stands in for has none.
+fn subject(session: &Session, input: &Input) -> Option<Subject> {
+    let Input::Media { kind, media } = input else { return None };
+    match kind {
+        InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
+            let dimension = input.row().dimension;
+            let key = MediaKey { media: media.clone(), dimension, vflip: dimension == Dimension::D2 };
+            Some(Subject::Texture(key, folder(session)))
+        }
+        InputKind::Video => Some(Subject::Video(media.clone(), folder(session))),
+        InputKind::Music => Some(Subject::Sound(media.clone(), folder(session))),
+        _ => None,
+    }
+}
+
 /// The project's folder, which pictures' paths are relative to.
-fn folder(session: &Session) -> Option<PathBuf> {
+pub(super) fn folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } => Some(path.clone()),
         Origin::File(path) | Origin::Json(path) => path.parent().map(PathBuf::from),

@@ -166,9 +166,16 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) 
 }
 
 fn whereabouts(comparison: &Comparison) -> String {
-    let Comparison { pass, frame, ours, against, is_cut, frames, .. } = comparison;
+    let Comparison { pass, frame, ours, against, is_cut, is_camera_still, frames, .. } = comparison;
     let cut = if *is_cut { format!(" · last {frames} frames, from empty buffers") } else { String::new() };
-    format!("{} in frame {frame}, {}x{}, against {}{cut}", pass.title(), ours.width, ours.height, against.name())
+    let camera = if *is_camera_still { " · all frames with the camera's last picture" } else { "" };
+    format!(
+        "{} in frame {frame}, {}x{}, against {}{cut}{camera}",
+        pass.title(),
+        ours.width,
+        ours.height,
+        against.name()
+    )
 }
 
 pub(super) fn distance(apart: &PictureDifference, comparison: &Comparison) -> String {

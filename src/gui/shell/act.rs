@@ -59,6 +59,9 @@ impl Shell {
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
             Action::Record => out.ask(Command::Record),
+            Action::Mute if session.output_view().is_some_and(|view| view.ended_before) => {
+                out.ask(Command::OpenSoundAgain);
+            }
             Action::Mute => {
                 let on = self.settings.settings().mute;
                 self.change(Change::Mute(!on), out);

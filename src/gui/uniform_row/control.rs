@@ -4,7 +4,7 @@ use super::parts::{child, components};
 use crate::{
     gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
     project::{ControlTarget, CustomUniform},
-    session::{Command, Session},
+    session::{Command, Session, Waits},
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
@@ -26,7 +26,11 @@ pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String>
     let said = targets(uniform).into_iter().filter_map(|(target, name)| {
         let control = match session.control_of(&target) {
             _ if session.is_learning(&target) => "touch a control…".to_owned(),
-            control => control?.label(),
+            control => match (control?.label(), session.control_waits(&target)) {
+                (label, Some(Waits::Below)) => format!("turn up {label}"),
+                (label, Some(Waits::Above)) => format!("turn down {label}"),
+                (label, None) => label,
+            },
         };
         Some(if name.is_empty() { control } else { format!("{name} {control}") })
     });
@@ -45,14 +49,19 @@ pub(super) fn label(
 ) {
     let p = theme::of(ui);
     let is_learning = targets(uniform).iter().any(|(target, _)| session.is_learning(target));
-    let color = if is_learning { p.warning } else { p.weak };
+    let waits = targets(uniform).iter().any(|(target, _)| session.control_waits(target).is_some());
+    let color = if is_learning || waits { p.warning } else { p.weak };
     let shown = RichText::new(text).size(11.0).color(color);
     let label = Label::new(shown).truncate().sense(if is_learning { Sense::CLICK } else { Sense::hover() });
     let response = child(ui, place).add(label);
     accessible::name(&response, Role::Label, format!("{}, {text}", uniform.name));
     out.place(format!("uniform:control:{}", uniform.name), place);
     let is_given_up = is_learning && ui.input(|i| i.key_pressed(Key::Escape));
-    let tip = if is_learning { "Move a knob, a fader or a key; Escape stops" } else { text };
+    let tip = match is_learning {
+        true => "Move a knob, a fader or a key; Escape stops".to_owned(),
+        false if waits => format!("{text}: the control takes over when it passes the slider's value"),
+        false => text.to_owned(),
+    };
     if response.on_hover_text(tip).clicked() || is_given_up {
         out.ask(Command::LearnControl(None));
     }

@@ -4,9 +4,11 @@
 //! how time runs, and by the device's own clock it is brought there (`eddy_audio::mixer`). Devices are opened when
 //! something is to be heard or recorded, on threads of their own; one that is missing is told of once.
 
+mod marker;
 mod microphone;
 mod view;
 
+use marker::{MarkedHost, OpenedBefore, OutputMarker};
 use microphone::reads_it;
 pub use view::{ChannelSound, MicrophoneView, OutputView, sounds};
 
@@ -19,10 +21,17 @@ use eddy_audio::{
     player::Player,
 };
 use eddy_project::{Input, InputKind, Project};
-use std::{sync::Arc, time::Instant};
+use std::{
+    path::Path,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 /// Speeds at which sound is played. Slower and faster it is none that anybody would want to hear.
 const SPEEDS: std::ops::RangeInclusive<f64> = 0.25..=4.0;
+
+/// A device that has played for so long will not end the program by being opened.
+const SETTLES: Duration = Duration::from_secs(1);
 
 pub struct Audio {
     host: Option<Arc<dyn AudioHost>>,
@@ -52,12 +61,25 @@ pub struct Audio {
     /// A device that is missing was told of.
     output_is_missing: bool,
     input_is_missing: bool,
+    /// Says to the next start that a device was being opened.
+    marker: OutputMarker,
+    /// Found of the run before: the device whose driver ended it. That one is not opened before a person asks.
+    ended_before: Option<OpenedBefore>,
+    is_end_told: bool,
+    /// Since when the output is open.
+    open_since: Option<Instant>,
 }
 
 impl Audio {
-    pub fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool) -> Self {
+    pub fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool, state_dir: Option<&Path>) -> Self {
+        let marker = OutputMarker::new(state_dir.filter(|_| host.is_some()));
+        let marked = |host| -> Arc<dyn AudioHost> { Arc::new(MarkedHost { host, marker: marker.clone() }) };
         Self {
-            host,
+            host: host.map(marked),
+            ended_before: marker.found(),
+            marker,
+            is_end_told: false,
+            open_since: None,
             on_thread,
             output: None,
             input: None,
@@ -80,8 +102,16 @@ impl Audio {
         }
     }
 
-    /// Nothing of the project before is heard. The microphone stays as a person has left it.
+    /// Nothing of the project before is heard, and the microphone is off: a person has switched it on for that project.
     pub fn begin_next_project(&mut self) {
+        // The next project is told of it again.
+        self.is_end_told = false;
+        (self.uses_microphone, self.input_is_missing) = (false, false);
+        if std::mem::take(&mut self.is_recording)
+            && let Some(microphone) = &mut self.microphone
+        {
+            microphone.switch(false);
+        }
         (self.sounds, self.coming, self.track, self.spectrum) = (Vec::new(), None, None, None);
     }
 
@@ -108,10 +138,20 @@ impl Audio {
     }
 
     pub fn choose_output(&mut self, device: Option<String>) {
+        if self.ended_before.as_ref().is_some_and(|before| *before != device) {
+            self.open_again();
+        }
         if let Some(player) = &mut self.player {
             player.choose(device.clone());
         }
         self.output = device;
+    }
+
+    /// A person wants the sound device that ended the run before to be opened again, or has chosen another one.
+    pub fn open_again(&mut self) {
+        if self.ended_before.take().is_some() {
+            self.marker.remove();
+        }
     }
 
     pub fn choose_input(&mut self, device: Option<String>) {
@@ -181,7 +221,7 @@ impl Audio {
         let line = line.filter(|line| SPEEDS.contains(&line.speed) && !self.is_hidden);
         let desired = Desired { scene: self.scene.clone(), line, gain: self.gain() };
         // Nothing is opened for a project without sound.
-        if self.player.is_none() && !desired.is_heard() {
+        if self.ended_before.is_some() || (self.player.is_none() && !desired.is_heard()) {
             return;
         }
         let wanted = (desired.scene.clone(), line, desired.gain);
@@ -194,6 +234,16 @@ impl Audio {
             player.play(desired);
         }
         player.step(now);
+        match player.state() {
+            DeviceState::Open { .. } => {
+                let since = *self.open_since.get_or_insert(now);
+                if now.saturating_duration_since(since) >= SETTLES {
+                    self.marker.clear();
+                }
+            }
+            // It is closed, or being opened on its thread.
+            DeviceState::Closed | DeviceState::Missing(_) => self.open_since = None,
+        }
         self.told = Some(wanted);
     }
 }
@@ -218,6 +268,13 @@ fn news(state: DeviceState, is_missing: &mut bool) -> Option<News> {
     }
 }
 
+impl Drop for Audio {
+    /// The program ends as it should.
+    fn drop(&mut self) {
+        self.marker.clear();
+    }
+}
+
 impl Session {
     /// Takes the sound pass as far as it is made, with its revision; `None`: there is none. The sound goes over from one
     /// revision to the next without a gap.
@@ -230,6 +287,7 @@ impl Session {
         let is_drawn = self.drawing.has_program() && !self.halting.is_halted() && !self.halting.is_device_gone();
         let line = self.playback.line().filter(|_| is_drawn);
         self.audio.play(line, &self.wake, self.now);
+        self.tell_of_the_end_before();
         let Some(player) = &self.audio.player else { return };
         match news(player.state(), &mut self.audio.output_is_missing) {
             Some(News::Missing(why)) => {
@@ -243,6 +301,26 @@ impl Session {
             Some(News::Over) => self.settled(About::Sound),
             None => {}
         }
+    }
+
+    /// Says why nothing is heard where a sound driver ended the run before.
+    fn tell_of_the_end_before(&mut self) {
+        let audio = &mut self.audio;
+        let Some(before) = audio.ended_before.clone().filter(|_| audio.has_sound()) else { return };
+        if std::mem::replace(&mut audio.is_end_told, true) {
+            return;
+        }
+        let device = before.map_or("the default sound device".to_owned(), |name| format!("the sound device {name}"));
+        let text = format!(
+            "Eddy ended while it opened {device} the last time, so nothing is heard. Click the speaker below the picture to open it \
+             again, or choose another device in Settings"
+        );
+        self.notice_about(About::Sound, Level::Warning, text);
+    }
+
+    pub(crate) fn open_sound_again(&mut self) {
+        self.audio.open_again();
+        self.settled(About::Sound);
     }
 
     pub(crate) fn hide(&mut self, is_hidden: bool) {

@@ -37,6 +37,9 @@ pub struct OutputView {
     /// The project has something to hear.
     pub has_sound: bool,
     pub device: DeviceState,
+    /// The device is not opened: the run before ended while it was. See
+    /// [`Command::OpenSoundAgain`](crate::Command::OpenSoundAgain).
+    pub ended_before: bool,
 }
 
 /// The microphone.
@@ -52,7 +55,7 @@ pub struct MicrophoneView {
 }
 
 impl Audio {
-    fn has_sound(&self) -> bool {
+    pub(super) fn has_sound(&self) -> bool {
         !self.sounds.is_empty() || self.track.is_some()
     }
 }
@@ -67,6 +70,7 @@ impl Session {
             is_muted: audio.is_muted,
             has_sound: audio.has_sound(),
             device: audio.player.as_ref().map_or(DeviceState::Closed, |player| player.state()),
+            ended_before: audio.ended_before.is_some(),
         })
     }
 

@@ -10,22 +10,25 @@ use super::{
     view::{About, Level},
 };
 use eddy_control::{
-    ControlEvent, ControlQueue, Wake, direct,
+    ControlEvent, ControlQueue, Movement, OWN_UNITS, Takeover, Waits, Wake, direct,
     midi::{MidiChoice, MidiInputs, MidiState, host::MidiHost},
     moved,
-    osc::{OscInput, OscState},
+    osc::{OscInput, OscState, dispatched, is_pattern},
     pads::{PadHost, PadInputs, PadState},
+    place_of,
 };
-use eddy_project::{ControlAddress, ControlTarget, CustomUniform, PadPart};
+use eddy_project::{ControlAddress, ControlTarget, CustomUniform, CustomUniformType, CustomUniformValue, PadPart};
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeMap, BTreeSet},
     net::SocketAddr,
     sync::Arc,
     time::{Duration, Instant},
 };
 
-/// The fine part of a 14-bit control comes within this after the coarse part, by which it was learned.
+/// The rest of a control that sends several messages comes within this after the first, by which it was learned.
 const FINE_PART: Duration = Duration::from_millis(200);
+/// The controllers of MIDI that select a non-registered parameter and set its value.
+const OF_PARAMETERS: [u8; 4] = [99, 98, 6, 38];
 /// TouchOSC sends 1 to an address that ends so when a finger touches a control, and 0 when it leaves.
 const TOUCH: &str = "/z";
 
@@ -44,8 +47,10 @@ pub(super) struct Controls {
     is_pad_told: bool,
     /// Waits for the control that moves next.
     learning: Option<ControlTarget>,
-    /// Learned by the coarse part of a control that may have a fine one.
-    coarse: Option<(ControlTarget, u8, u8, Instant)>,
+    /// Learned by a controller that may be a part of another control: the coarse part of one of 14 bits, or what selects a parameter.
+    part: Option<(ControlTarget, ControlAddress, Instant)>,
+    /// The knobs that have moved since the project was opened, by what they move.
+    takeovers: BTreeMap<ControlTarget, Takeover>,
     /// A person was told that it cannot listen.
     is_osc_told: bool,
     is_midi_told: bool,
@@ -89,7 +94,8 @@ impl Controls {
             pads: None,
             is_pad_told: false,
             learning: None,
-            coarse: None,
+            part: None,
+            takeovers: BTreeMap::new(),
             is_osc_told: false,
             is_midi_told: false,
             told: Vec::new(),
@@ -98,7 +104,8 @@ impl Controls {
 
     /// Nothing is learned any more: it was of the project before.
     pub fn begin_next_project(&mut self) {
-        (self.learning, self.coarse) = (None, None);
+        (self.learning, self.part) = (None, None);
+        self.takeovers.clear();
     }
 
     /// Returns the MIDI inputs, made if there are none and the machine has MIDI. They open nothing yet.
@@ -138,6 +145,12 @@ impl Session {
     /// Returns the number whose control is being learned.
     pub fn is_learning(&self, target: &ControlTarget) -> bool {
         self.controls.learning.as_ref() == Some(&self.as_in_texts(target))
+    }
+
+    /// Returns the side of a number's value on which its knob waits. `None`: it does not wait.
+    pub fn control_waits(&self, target: &ControlTarget) -> Option<Waits> {
+        let target = self.as_in_texts(target);
+        self.project().controls.get(&target).and_then(|_| self.controls.takeovers.get(&target)?.waits())
     }
 
     /// Returns a target with the name that the texts have for its uniform, which the program that draws may not have.
@@ -181,7 +194,7 @@ impl Session {
 
     /// Binds the control that moves next; `None`: none any more.
     pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
-        self.controls.coarse = None;
+        self.controls.part = None;
         self.controls.learning = target.map(|target| self.as_in_texts(&target));
     }
 
@@ -190,6 +203,7 @@ impl Session {
         if self.project().controls.contains_key(&target) {
             self.documents.current_mut().controls.remove(&target);
         }
+        self.controls.takeovers.remove(&target);
         if self.controls.learning.as_ref() == Some(&target) {
             self.controls.learning = None;
         }
@@ -207,8 +221,27 @@ impl Session {
         if events.is_empty() {
             return;
         }
+        let events = dispatched(events, || self.osc_addresses());
         self.learn(&events);
         self.turn_by_controls(&events);
+    }
+
+    /// Returns the OSC addresses that move something, for patterns.
+    fn osc_addresses(&self) -> Vec<String> {
+        let bound = self.project().controls.values().filter_map(|address| match address {
+            ControlAddress::Osc { path, .. } => Some(path.clone()),
+            _ => None,
+        });
+        let named = self.custom_uniforms().iter().flat_map(|uniform| {
+            let path = format!("{OWN_UNITS}{}", self.newest_name(&uniform.name));
+            let count = uniform.ty.components();
+            let letters = if uniform.ty == CustomUniformType::Color3 { "rgba" } else { "xyzw" };
+            let letters = letters.chars().take(if count > 1 { count } else { 0 });
+            let parts: Vec<String> = letters.map(|letter| format!("{path}/{letter}")).collect();
+            std::iter::once(path).chain(parts)
+        });
+        let addresses: BTreeSet<String> = bound.chain(named).collect();
+        addresses.into_iter().collect()
     }
 
     fn tell_of_osc(&mut self) {
@@ -251,30 +284,30 @@ impl Session {
 
     /// Binds what was touched to what waits for it.
     fn learn(&mut self, events: &[ControlEvent]) {
-        if let Some((target, channel, number, since)) = self.controls.coarse.clone() {
-            let fine = ControlAddress::ControlChange14 { channel, number };
+        if let Some((target, part, since)) = self.controls.part.clone() {
             if self.now.saturating_duration_since(since) > FINE_PART {
-                self.controls.coarse = None;
-            } else if events.iter().any(|event| event.source == fine) {
-                self.controls.coarse = None;
-                self.documents.current_mut().controls.insert(target, fine);
-                self.changed = true;
+                self.controls.part = None;
+            } else if let Some(whole) = whole_of(&part, events) {
+                self.controls.part = None;
+                self.bind(target, whole);
             }
         }
         let Some(target) = &self.controls.learning else { return };
         let Some(address) = touched(events, target.index()) else { return };
         let target = target.clone();
         self.controls.learning = None;
-        let fine = match &address {
-            ControlAddress::ControlChange { channel, number } if *number < 32 => {
-                self.controls.coarse = Some((target.clone(), *channel, *number, self.now));
-                Some(ControlAddress::ControlChange14 { channel: *channel, number: *number })
-            }
-            _ => None,
-        };
-        let is_there = |fine: &ControlAddress| events.iter().any(|event| event.source == *fine);
-        let address = fine.filter(is_there).unwrap_or(address);
+        let whole = whole_of(&address, events);
+        if whole.is_none() {
+            self.controls.part = Some((target.clone(), address.clone(), self.now));
+        }
+        let address = whole.unwrap_or(address);
         self.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
+        self.bind(target, address);
+    }
+
+    /// Has a control move a number from now on, and at once.
+    fn bind(&mut self, target: ControlTarget, address: ControlAddress) {
+        self.controls.takeovers.insert(target.clone(), Takeover::learned());
         self.documents.current_mut().controls.insert(target, address);
         self.changed = true;
     }
@@ -291,23 +324,63 @@ impl Session {
         let mut turned = BTreeSet::new();
         for event in newest(events) {
             let bound = bindings.iter().filter(|(_, address)| **address == event.source).map(|(target, _)| target);
-            let bound = bound.map(|target| (target.uniform.as_str(), target.index(), false));
-            let named = direct(&event.source).map(|moved| (moved.uniform, moved.index, true));
-            for (name, index, is_own_units) in bound.chain(named) {
+            let bound = bound.map(|target| (target.uniform.as_str(), target.index(), Some(target)));
+            let named = direct(&event.source).map(|moved| (moved.uniform, moved.index, None));
+            for (name, index, target) in bound.chain(named) {
                 let Some(uniform) = uniforms.iter().find(|uniform| uniform.name == name) else { continue };
                 let now = uniform.value(&self.project().custom_uniform_values);
-                if let Some(value) = moved(uniform, &now, index, event, is_own_units) {
+                let value = moved(uniform, &now, index, event, target.is_none());
+                if target.is_some_and(|target| !self.takes_over(target, uniform, &now, value.as_ref(), event)) {
+                    continue;
+                }
+                if let Some(value) = value {
                     self.documents.current_mut().turn_custom_uniform(uniform, value);
                     turned.insert(uniform.name.clone());
                 }
             }
         }
+        // A knob that waits is shown.
+        self.changed |= !events.is_empty();
         if self.project().custom_uniform_values != before {
             self.passes.push_controls(before, turned);
             self.custom_uniforms_turned();
             self.changed = true;
         }
     }
+}
+
+impl Session {
+    /// Returns whether a control moves its number, or waits until it meets the number's value.
+    fn takes_over(
+        &mut self,
+        target: &ControlTarget,
+        uniform: &CustomUniform,
+        now: &CustomUniformValue,
+        moved: Option<&CustomUniformValue>,
+        event: &ControlEvent,
+    ) -> bool {
+        let index = target.index();
+        let number = |value: &CustomUniformValue| value.components().get(index).copied();
+        let Some(value) = number(now) else { return false };
+        let Some(slider) = place_of(uniform, index, value).filter(|_| event.source.stays_in_place()) else {
+            return true;
+        };
+        let target_value = moved.map_or(Some(value), number).unwrap_or(value);
+        let movement = Movement { knob: event.value, slider, value, target: target_value };
+        self.controls.takeovers.entry(target.clone()).or_default().moves(movement)
+    }
+}
+
+/// Returns the control that a controller is a part of, if it has moved: a 14-bit control by its coarse part, or a parameter by a
+/// controller that selects or sets it.
+fn whole_of(part: &ControlAddress, events: &[ControlEvent]) -> Option<ControlAddress> {
+    let ControlAddress::ControlChange { channel, number } = part else { return None };
+    let is_whole = |address: &ControlAddress| match address {
+        ControlAddress::ControlChange14 { channel: of, number: coarse } => of == channel && coarse == number,
+        ControlAddress::Nrpn { channel: of, .. } => of == channel && OF_PARAMETERS.contains(number),
+        _ => false,
+    };
+    events.iter().map(|event| &event.source).find(|address| is_whole(address)).cloned()
 }
 
 /// Returns the control that a hand has touched. `index`: the number of a vector that it is for, to which the argument of that
@@ -321,7 +394,7 @@ fn touched(events: &[ControlEvent], index: usize) -> Option<ControlAddress> {
         ControlAddress::Pad { part: PadPart::Button(_), .. } => event.value > 0.5,
         ControlAddress::Osc { path, .. } => {
             let is_finger = path.ends_with(TOUCH) && (event.value == 0.0 || event.value == 1.0);
-            direct(&event.source).is_none() && !is_finger
+            direct(&event.source).is_none() && !is_finger && !is_pattern(path)
         }
         _ => true,
     };

@@ -142,6 +142,52 @@ fn a_fine_control_is_learned_as_one_and_a_key_switches_over() {
 }
 
 #[test]
+fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
+    let Some(mut room) = Room::open() else { return };
+    let speed = ControlTarget::whole("speed");
+    room.learn(&speed, &[0xb0, 70, 127]);
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0], None), "it was just learned");
+    // A hand moves the slider: the knob is left behind.
+    let value = eddy_project::CustomUniformValue::Float(1.0);
+    room.session.apply(Command::SetCustomUniform { name: "speed".into(), value: Some(value) });
+    room.send(&[0xb0, 70, 120]);
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![1.0], Some(Waits::Above)));
+    room.send(&[0xb0, 70, 40]);
+    assert_eq!(room.value("speed"), [1.0]);
+    room.send(&[0xb0, 70, 20]);
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0 * 20.0 / 127.0], None));
+    // So it is with a project that has the control and another value.
+    let mut project = room.session.project().clone();
+    project.custom_uniform_values.insert("speed".into(), eddy_project::CustomUniformValue::Float(3.0));
+    room.session.apply(Command::OpenProject { project: Box::new(project), size: None });
+    room.session.apply(Command::Answer(crate::Answer::Discard));
+    room.until("a program", |session| session.drawing.has_program() && !session.custom_uniforms().is_empty());
+    room.send(&[0xb0, 70, 21]);
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(Waits::Below)));
+    room.session.apply(Command::ForgetControl(speed.clone()));
+    assert_eq!(room.session.control_waits(&speed), None);
+    // A switch and a pitch bend have nothing to pass.
+    room.learn(&ControlTarget::whole("on"), &[0xb0, 71, 127]);
+    room.send(&[0xb0, 71, 0]);
+    assert_eq!(room.value("on"), [0.0]);
+}
+
+#[test]
+fn a_parameter_is_learned_by_its_number_however_its_messages_come() {
+    let Some(mut room) = Room::open() else { return };
+    let speed = ControlTarget::whole("speed");
+    room.learn(&speed, &[0xb0, 99, 2, 98, 44, 6, 64]);
+    assert_eq!(room.bound(&speed).as_deref(), Some("midi 1 nrpn 300"));
+    room.send(&[0xb0, 99, 2, 98, 44, 6, 127]);
+    assert_eq!(room.value("speed"), [4.0]);
+    room.session.apply(Command::ForgetControl(speed.clone()));
+    room.learn(&speed, &[0xb1, 99, 0]);
+    room.send(&[0xb1, 98, 5]);
+    room.send(&[0xb1, 6, 127]);
+    assert_eq!(room.bound(&speed).as_deref(), Some("midi 2 nrpn 5"));
+}
+
+#[test]
 fn osc_moves_what_it_names_and_what_it_was_learned_for() {
     let Some(mut room) = Room::open() else { return };
     room.session.apply(Command::SetOsc(Some(SocketAddr::from(([127, 0, 0, 1], 0)))));
@@ -157,10 +203,18 @@ fn osc_moves_what_it_names_and_what_it_was_learned_for() {
     send(b"/eddy/center\0\0\0\0,ff\0\x3f\0\0\0\xbf\0\0\0");
     room.until("the value", |session| session.project().custom_uniform_values.contains_key("center"));
     assert_eq!(room.value("center"), [0.5, -0.5]);
+    // A pattern moves all that it matches and is no control itself.
+    send(b"/eddy/{speed,center}\0\0\0\0,ff\0\x3f\x80\0\0\x3e\x80\0\0");
+    room.until("the values", |session| {
+        session.project().custom_uniform_values.get("center").is_some_and(|v| v.components() == [1.0, 0.25])
+    });
+    assert_eq!(room.value("speed"), [1.0]);
+    send(b"/eddy/center\0\0\0\0,ff\0\x3f\0\0\0\xbf\0\0\0");
     // The second number of a pad for the second component; a finger that touches it is no control.
     let y = ControlTarget::of_component("center", "y").unwrap();
     room.session.apply(Command::LearnControl(Some(y.clone())));
     send(b"/eddy/speed\0,f\0\0\x40\x20\0\0");
+    send(b"/1/x*\0\0\0,ff\0\x3f\0\0\0\x3f\x80\0\0");
     send(b"/1/xy/z\0,f\0\0\x3f\x80\0\0");
     send(b"/1/xy\0\0\0,ff\0\x3f\0\0\0\x3f\x80\0\0");
     room.until("a control", |session| session.control_of(&y).is_some());

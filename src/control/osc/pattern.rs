@@ -1,0 +1,262 @@
+//! Address patterns of OSC 1.0 ("OSC Message Dispatching and Pattern Matching").
+//!
+//! A pattern is matched part by part between slashes, so `*` does not go over a slash. In a part, `?` is any character, `*` any
+//! characters or none, `[a-cx]` one of a list or a range, `[!a]` any other one, and `{one,two}` one of several texts. The time
+//! grows with the product of both lengths, whatever the pattern.
+
+use crate::ControlEvent;
+use eddy_project::{ControlAddress, limits};
+use std::collections::HashMap;
+
+/// An address pattern that is well formed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Pattern {
+    parts: Vec<Vec<Token>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Token {
+    Is(u8),
+    Any,
+    Rest,
+    /// One of the ranges, or none of them.
+    Set {
+        ranges: Vec<(u8, u8)>,
+        is_negated: bool,
+    },
+    OneOf(Vec<Vec<u8>>),
+}
+
+/// Returns whether an address has a character that makes it a pattern.
+pub fn is_pattern(address: &str) -> bool {
+    address.contains(['*', '?', '[', ']', '{', '}'])
+}
+
+/// Returns the events with each pattern replaced by the addresses that it matches, of all that somebody listens to. A pattern is
+/// no address of a control itself. No more than [`limits::OSC_PATTERNS`] different ones are followed; later ones are dropped.
+pub fn dispatched(events: Vec<ControlEvent>, addresses: impl FnOnce() -> Vec<String>) -> Vec<ControlEvent> {
+    let pattern_of = |event: &ControlEvent| match &event.source {
+        ControlAddress::Osc { path, .. } if is_pattern(path) => Some(path.clone()),
+        _ => None,
+    };
+    if !events.iter().any(|event| pattern_of(event).is_some()) {
+        return events;
+    }
+    let addresses = addresses();
+    let mut known: HashMap<String, Vec<&String>> = HashMap::new();
+    let mut all = Vec::new();
+    for event in events {
+        let Some(text) = pattern_of(&event) else {
+            all.push(event);
+            continue;
+        };
+        let ControlAddress::Osc { argument, .. } = event.source else { continue };
+        if known.len() == limits::OSC_PATTERNS && !known.contains_key(&text) {
+            continue;
+        }
+        let matched = known.entry(text).or_insert_with_key(|text| {
+            let pattern = Pattern::parse(text);
+            addresses.iter().filter(|address| pattern.as_ref().is_some_and(|it| it.matches(address))).collect()
+        });
+        let source = |path: &&String| ControlAddress::Osc { path: (*path).clone(), argument };
+        all.extend(matched.iter().map(|path| ControlEvent { source: source(path), value: event.value }));
+    }
+    all
+}
+
+impl Pattern {
+    /// Reads a pattern. `None`: it is none, or a bracket or a brace is not closed.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let is_allowed = |byte: u8| byte.is_ascii_graphic() && byte != b'#';
+        if text.len() > limits::OSC_PATH || !text.bytes().all(is_allowed) {
+            return None;
+        }
+        let parts = text.strip_prefix('/')?.split('/').map(|part| tokens(part.as_bytes()));
+        Some(Self { parts: parts.collect::<Option<_>>()? })
+    }
+
+    pub(super) fn matches(&self, address: &str) -> bool {
+        let Some(rest) = address.strip_prefix('/') else { return false };
+        let mut parts = rest.split('/');
+        self.parts.iter().all(|tokens| parts.next().is_some_and(|part| part_matches(tokens, part.as_bytes())))
+            && parts.next().is_none()
+    }
+}
+
+/// Reads a part between two slashes.
+fn tokens(mut rest: &[u8]) -> Option<Vec<Token>> {
+    let mut tokens = Vec::new();
+    while let Some((first, behind)) = rest.split_first() {
+        rest = behind;
+        tokens.push(match first {
+            b'?' => Token::Any,
+            b'*' => Token::Rest,
+            b'[' => {
+                let (list, behind) = until(rest, b']')?;
+                rest = behind;
+                set(list)
+            }
+            b'{' => {
+                let (list, behind) = until(rest, b'}')?;
+                rest = behind;
+                Token::OneOf(list.split(|byte| *byte == b',').map(<[u8]>::to_vec).collect())
+            }
+            b']' | b'}' | b',' => return None,
+            byte => Token::Is(*byte),
+        });
+    }
+    Some(tokens)
+}
+
+/// Splits what stands before a closing character from what stands after it.
+fn until(text: &[u8], end: u8) -> Option<(&[u8], &[u8])> {
+    let at = text.iter().position(|byte| *byte == end)?;
+    let list = &text[..at];
+    // Brackets and braces do not contain each other.
+    (!list.iter().any(|byte| b"[]{}".contains(byte))).then(|| (list, &text[at + 1..]))
+}
+
+/// Reads the contents of brackets. A minus sign at an end and a `!` that is not the first one stand for themselves.
+fn set(list: &[u8]) -> Token {
+    let (is_negated, mut list) = match list.strip_prefix(b"!") {
+        Some(rest) => (true, rest),
+        None => (false, list),
+    };
+    let mut ranges = Vec::new();
+    loop {
+        list = match list {
+            [] => return Token::Set { ranges, is_negated },
+            [from, b'-', to, rest @ ..] => {
+                ranges.push((*from.min(to), *from.max(to)));
+                rest
+            }
+            [one, rest @ ..] => {
+                ranges.push((*one, *one));
+                rest
+            }
+        };
+    }
+}
+
+/// Follows all ways at once: `reached[n]` says that the tokens so far can match the first `n` bytes.
+fn part_matches(tokens: &[Token], part: &[u8]) -> bool {
+    let mut reached = vec![false; part.len() + 1];
+    reached[0] = true;
+    for token in tokens {
+        let mut next = vec![false; part.len() + 1];
+        for from in (0..=part.len()).filter(|from| reached[*from]) {
+            match token {
+                Token::Rest => {
+                    next[from..].fill(true);
+                    break;
+                }
+                Token::OneOf(texts) => {
+                    for text in texts.iter().filter(|text| part[from..].starts_with(text)) {
+                        next[from + text.len()] = true;
+                    }
+                }
+                one => {
+                    if part.get(from).is_some_and(|byte| is_one(one, *byte)) {
+                        next[from + 1] = true;
+                    }
+                }
+            }
+        }
+        reached = next;
+    }
+    reached[part.len()]
+}
+
+fn is_one(token: &Token, byte: u8) -> bool {
+    match token {
+        Token::Is(known) => *known == byte,
+        Token::Set { ranges, is_negated } => {
+            ranges.iter().any(|(from, to)| (*from..=*to).contains(&byte)) != *is_negated
+        }
+        Token::Any => true,
+        Token::Rest | Token::OneOf(_) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rules of the specification, one after the other, with the addresses that each matches and does not.
+    #[test]
+    fn patterns_match_as_osc_1_0_says() {
+        let table: [(&str, &[&str], &[&str]); 20] = [
+            ("/a/b", &["/a/b"], &["/a", "/a/b/c", "/a/c", "/A/b", "a/b", ""]),
+            ("/?", &["/a", "/1"], &["/ab", "/", "/a/b"]),
+            ("/*", &["/a", "/abc", "/"], &["/a/b"]),
+            ("/a*c", &["/ac", "/abc", "/abcbc"], &["/ab", "/a/c"]),
+            ("/*/x", &["/a/x", "/abc/x"], &["/x", "/a/b/x", "/a/y"]),
+            ("/*a*", &["/a", "/bab", "/aa"], &["/b"]),
+            ("/[abc]", &["/a", "/c"], &["/d", "/ab", "/"]),
+            ("/[a-c]", &["/a", "/b", "/c"], &["/d", "/-"]),
+            ("/fader[1-46]", &["/fader1", "/fader4", "/fader6"], &["/fader5", "/fader"]),
+            ("/[!a-c]", &["/d", "/-"], &["/a", "/b", "/", "/dd"]),
+            // "!" and "-" have no special meaning elsewhere.
+            ("/[a!]", &["/a", "/!"], &["/b"]),
+            ("/[a-]", &["/a", "/-"], &["/b"]),
+            ("/a!-", &["/a!-"], &["/a"]),
+            ("/{foo,bar}", &["/foo", "/bar"], &["/foobar", "/foo,bar", "/"]),
+            ("/{a,ab}c", &["/ac", "/abc"], &["/c", "/aabc"]),
+            ("/{,x}y", &["/y", "/xy"], &["/x"]),
+            ("/{pan,gain}/[0-9]?", &["/pan/1a", "/gain/00"], &["/pan/1", "/tone/10"]),
+            ("/eddy/*", &["/eddy/speed"], &["/eddy/center/x", "/eddy"]),
+            ("/eddy/center/[xy]", &["/eddy/center/x"], &["/eddy/center/z", "/eddy/center"]),
+            ("/[]a", &[], &["/a", "/ba"]),
+        ];
+        for (pattern, wanted, others) in table {
+            let read = Pattern::parse(pattern).unwrap_or_else(|| panic!("{pattern}"));
+            for address in wanted {
+                assert!(read.matches(address), "{pattern} does not match {address}");
+            }
+            for address in others {
+                assert!(!read.matches(address), "{pattern} matches {address}");
+            }
+        }
+        for bad in ["", "a", "/[a", "/a]", "/{a", "/a}", "/[a/b]", "/{a/b}", "/{[a]}", "/a b", "/ä", "/a#", "/a,b"] {
+            assert_eq!(Pattern::parse(bad), None, "{bad}");
+        }
+        assert!(is_pattern("/a*") && is_pattern("/{a}") && !is_pattern("/a/b-c!"));
+    }
+
+    #[test]
+    fn a_pattern_stands_for_the_addresses_that_it_matches() {
+        let event = |path: &str, argument, value| ControlEvent {
+            source: ControlAddress::Osc { path: path.into(), argument },
+            value,
+        };
+        let known = || ["/1/a", "/1/b", "/2/a"].map(str::to_owned).to_vec();
+        let sent = vec![event("/9", 0, 0.1), event("/1/*", 1, 0.2), event("/x*", 0, 0.3), event("/[12]/a", 0, 0.4)];
+        let wanted = [
+            event("/9", 0, 0.1),
+            event("/1/a", 1, 0.2),
+            event("/1/b", 1, 0.2),
+            event("/1/a", 0, 0.4),
+            event("/2/a", 0, 0.4),
+        ];
+        assert_eq!(dispatched(sent, known), wanted);
+        let plain = vec![event("/1/a", 0, 1.0)];
+        assert_eq!(dispatched(plain.clone(), || unreachable!("there is no pattern")), plain);
+        // Of more different patterns than the limit the first ones are followed, each as often as it comes.
+        let number = |n: usize| event(&format!("/1/{{a,{n}}}"), 0, n as f64);
+        let many: Vec<ControlEvent> = (0..limits::OSC_PATTERNS + 5).chain([0]).map(number).collect();
+        let values: Vec<f64> = dispatched(many, known).iter().map(|event| event.value).collect();
+        assert_eq!((values.len(), values.last()), (limits::OSC_PATTERNS + 1, Some(&0.0)));
+    }
+
+    /// These take exponential time where one way is tried after the other.
+    #[test]
+    fn a_pattern_made_to_take_long_takes_little() {
+        let pattern = Pattern::parse(&format!("/{}b", "*a".repeat(120))).unwrap();
+        let address = format!("/{}", "a".repeat(250));
+        let begun = std::time::Instant::now();
+        assert!(!pattern.matches(&address));
+        let lists = Pattern::parse(&format!("/{}", "{a,aa}".repeat(40))).unwrap();
+        assert!(lists.matches(&address[..61]) && !lists.matches(&address[..100]));
+        assert!(begun.elapsed() < std::time::Duration::from_secs(5));
+    }
+}

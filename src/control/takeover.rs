@@ -1,0 +1,134 @@
+//! Soft takeover: a knob whose position differs from the value that it moves takes over when it passes the value.
+//!
+//! A knob stays where a hand has left it, and a value is also moved by the mouse, by undo and by opening a project. If the knob
+//! moved the value at once it would jump. So until the knob meets the value, its movements are only noted. The musical keyboards
+//! and mixers that do so call it soft takeover or pickup.
+
+/// The side of the value on which a knob is that does not move it yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waits {
+    /// The knob is to be turned up.
+    Below,
+    /// The knob is to be turned down.
+    Above,
+}
+
+/// The value that a knob is to move, and a movement of the knob.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement {
+    /// The position of the knob, from 0 to 1.
+    pub knob: f64,
+    /// The place of the value in the range of its slider, from 0 to 1.
+    pub slider: f64,
+    /// The value.
+    pub value: f64,
+    /// The value that the knob's position stands for.
+    pub target: f64,
+}
+
+/// The state of a knob and the value that it moves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Takeover {
+    /// The knob's position before.
+    knob: Option<f64>,
+    /// The value that the knob has set. Another one by now: something else has moved it.
+    held: Option<f64>,
+    waits: Option<Waits>,
+    /// The next movement takes over wherever the knob is.
+    is_learned: bool,
+}
+
+/// The distance at which a knob of 7 bits counts as being there: one step. A fast turn may also leave out steps, but it passes the
+/// value.
+const NEAR: f64 = 1.0 / 127.0;
+
+impl Takeover {
+    /// A knob that a hand has just chosen for the value: it moves the value at once.
+    pub fn learned() -> Self {
+        Self { is_learned: true, ..Self::default() }
+    }
+
+    /// Returns the side on which the knob waits, as its last movement left it. `None`: it moves the value.
+    pub fn waits(&self) -> Option<Waits> {
+        self.waits
+    }
+
+    /// Takes a movement of the knob. Returns whether it moves the value.
+    pub fn moves(&mut self, movement: Movement) -> bool {
+        let Movement { knob, slider, value, target } = movement;
+        let before = self.knob.replace(knob);
+        let is_held = self.held.is_some_and(|held| held == value);
+        let has_passed = before.is_some_and(|before| (before - slider) * (knob - slider) <= 0.0);
+        let is_there = target == value || (knob - slider).abs() <= NEAR;
+        if std::mem::take(&mut self.is_learned) || is_held || has_passed || is_there {
+            (self.held, self.waits) = (Some(target), None);
+            return true;
+        }
+        (self.held, self.waits) = (None, Some(if knob < slider { Waits::Below } else { Waits::Above }));
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A slider from 0 to 1 and a knob of 7 bits.
+    struct Slider {
+        value: f64,
+        takeover: Takeover,
+    }
+
+    impl Slider {
+        fn at(value: f64) -> Self {
+            Self { value, takeover: Takeover::default() }
+        }
+
+        fn turn(&mut self, step: u8) -> (f64, Option<Waits>) {
+            let knob = f64::from(step) / 127.0;
+            let movement = Movement { knob, slider: self.value, value: self.value, target: knob };
+            if self.takeover.moves(movement) {
+                self.value = knob;
+            }
+            (self.value, self.takeover.waits())
+        }
+    }
+
+    #[test]
+    fn a_knob_takes_over_where_it_passes_the_value() {
+        let mut slider = Slider::at(0.5);
+        assert_eq!(slider.turn(10), (0.5, Some(Waits::Below)));
+        assert_eq!(slider.turn(40), (0.5, Some(Waits::Below)));
+        assert_eq!(slider.turn(100), (100.0 / 127.0, None), "a fast turn over the value");
+        assert_eq!(slider.turn(3), (3.0 / 127.0, None), "and from then on every movement");
+        // From above, one step after the other.
+        let mut slider = Slider::at(0.5);
+        assert_eq!(slider.turn(70), (0.5, Some(Waits::Above)));
+        for step in (66..70).rev() {
+            assert_eq!(slider.turn(step), (0.5, Some(Waits::Above)), "{step}");
+        }
+        assert_eq!(slider.turn(64), (64.0 / 127.0, None), "one step away");
+    }
+
+    #[test]
+    fn a_value_that_something_else_has_moved_is_waited_for_again() {
+        let mut slider = Slider { value: 0.25, takeover: Takeover::learned() };
+        assert_eq!(slider.turn(127), (1.0, None), "a hand has just chosen it");
+        slider.value = 0.25;
+        assert_eq!(slider.turn(126), (0.25, Some(Waits::Above)));
+        assert_eq!(slider.turn(0), (0.0, None));
+        // An end of the range is reached.
+        let mut slider = Slider::at(1.0);
+        assert_eq!(slider.turn(90).1, Some(Waits::Below));
+        assert_eq!(slider.turn(127), (1.0, None));
+        assert_eq!(slider.turn(100), (100.0 / 127.0, None));
+    }
+
+    #[test]
+    fn steps_of_an_integer_are_where_they_are_rounded_to() {
+        let mut takeover = Takeover::default();
+        let at = |knob: f64| Movement { knob, slider: 0.5, value: 5.0, target: (1.0 + 8.0 * knob).round() };
+        assert!(!takeover.moves(at(0.2)));
+        assert!(takeover.moves(at(0.45)), "it stands for 5 as well");
+    }
+}

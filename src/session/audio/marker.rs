@@ -1,0 +1,135 @@
+//! A file that says that the sound device is being opened. Where one is found at the next start, a sound driver ended the
+//! program then, and it is not opened again before a person asks for it.
+
+use eddy_audio::host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+/// The name in the state folder.
+const FILE: &str = "opening-sound.txt";
+/// The file's content for the system's default device.
+const DEFAULT: &str = "default";
+
+/// The file, as the thread that opens devices and the session know it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct OutputMarker {
+    /// `None`: nothing is remembered between two starts.
+    file: Option<PathBuf>,
+    is_written: Arc<AtomicBool>,
+}
+
+/// The device that was being opened when the program ended; `None` is the system's default one.
+pub(super) type OpenedBefore = Option<String>;
+
+impl OutputMarker {
+    pub fn new(state_dir: Option<&Path>) -> Self {
+        Self { file: state_dir.map(|dir| dir.join(FILE)), is_written: Arc::default() }
+    }
+
+    /// Returns the device that the program was opening when it ended, if it did.
+    pub fn found(&self) -> Option<OpenedBefore> {
+        let text = fs::read_to_string(self.file.as_ref()?).ok()?;
+        let name = text.trim_end_matches('\n');
+        Some((name != DEFAULT).then(|| name.to_owned()))
+    }
+
+    fn set(&self, device: Option<&str>) {
+        let Some(file) = &self.file else { return };
+        let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
+        match folder.and_then(|()| fs::write(file, format!("{}\n", device.unwrap_or(DEFAULT)))) {
+            Ok(()) => self.is_written.store(true, Ordering::Release),
+            // The sound is played all the same: only the next start knows less.
+            Err(e) => log::warn!("cannot write {}: {e}", file.display()),
+        }
+    }
+
+    /// The device that was opened in this run plays, or was refused.
+    pub fn clear(&self) {
+        if self.is_written.swap(false, Ordering::AcqRel) {
+            self.remove();
+        }
+    }
+
+    /// Forgets what was found.
+    pub fn remove(&self) {
+        if let Some(file) = &self.file
+            && let Err(e) = fs::remove_file(file)
+            && e.kind() != std::io::ErrorKind::NotFound
+        {
+            log::warn!("cannot remove {}, the marker of a sound device: {e}", file.display());
+        }
+    }
+}
+
+/// A machine's sound whose outputs leave the marker while they are opened.
+#[derive(Debug)]
+pub(super) struct MarkedHost {
+    pub host: Arc<dyn AudioHost>,
+    pub marker: OutputMarker,
+}
+
+impl AudioHost for MarkedHost {
+    fn output(&self) -> Box<dyn AudioOut> {
+        Box::new(MarkedOut { out: self.host.output(), marker: self.marker.clone() })
+    }
+
+    fn input(&self) -> Box<dyn AudioIn> {
+        self.host.input()
+    }
+}
+
+struct MarkedOut {
+    out: Box<dyn AudioOut>,
+    marker: OutputMarker,
+}
+
+impl AudioOut for MarkedOut {
+    fn names(&mut self) -> Vec<String> {
+        self.out.names()
+    }
+
+    fn open(
+        &mut self,
+        name: Option<&str>,
+        fill: &mut dyn FnMut(Format) -> Fill,
+        events: Events,
+    ) -> Result<Opened, DeviceError> {
+        self.marker.set(name);
+        let opened = self.out.open(name, fill, events);
+        // One that is open may still end the program when it plays: the session waits a moment.
+        if opened.is_err() {
+            self.marker.clear();
+        }
+        opened
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_is_marked_until_all_is_well() {
+        let dir = tempfile::tempdir().unwrap();
+        let state = dir.path().join("state");
+        let marker = OutputMarker::new(Some(&state));
+        assert_eq!(marker.found(), None);
+        marker.set(None);
+        assert_eq!(OutputMarker::new(Some(&state)).found(), Some(None));
+        marker.set(Some("Loud speakers"));
+        let next = OutputMarker::new(Some(&state));
+        assert_eq!(next.found(), Some(Some("Loud speakers".into())));
+        next.clear();
+        assert!(next.found().is_some(), "it is of another run");
+        next.remove();
+        assert_eq!(next.found(), None);
+        marker.clear();
+        OutputMarker::new(None).set(None);
+    }
+}
