@@ -109,7 +109,7 @@ pub fn template() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{control::midi::MidiChoice, gui::settings::Theme};
+    use crate::{control::midi::MidiChoice, film::Format, gui::settings::Theme, session::FilmForm};
     use std::time::Duration;
 
     #[test]
@@ -118,7 +118,7 @@ mod tests {
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
              code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
              audio-output = \"Speakers\"\naudio-input = \"\"\n\
-             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n",
+             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\nrecorder = \"--frames 0-9 --format gif\"\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -139,6 +139,7 @@ mod tests {
             osc_address: "0.0.0.0".parse().unwrap(),
             midi: MidiChoice::Named("Knobs".into()),
             gamepads: true,
+            recorder: FilmForm { range: "0-9".into(), format: Format::Gif, ..FilmForm::default() },
         };
         assert_eq!(settings, wanted);
         let text =
@@ -147,7 +148,7 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
-                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads";
+                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),

@@ -8,7 +8,7 @@ mod microphone;
 mod view;
 
 use microphone::reads_it;
-pub use view::{ChannelSound, MicrophoneView, OutputView, sounds};
+pub use view::{MicrophoneView, OutputView};
 
 use crate::{
     Session,
@@ -18,7 +18,7 @@ use eddy_audio::{
     Desired, DeviceState, Line, Scene, Sound, Source, Spectrum, Track, host::AudioHost, microphone::Microphone,
     player::Player,
 };
-use eddy_project::{Input, InputKind, Project};
+use eddy_media::ChannelSound;
 use std::{sync::Arc, time::Instant};
 
 /// Speeds at which sound is played. Slower and faster it is none that anybody would want to hear.
