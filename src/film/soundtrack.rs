@@ -8,13 +8,16 @@ use eddy_playback::offline::{Offline, OfflineError};
 use eddy_project::{PassId, Project};
 use std::{ops::Range, sync::Arc};
 
+/// Samples that are mixed at once: ten seconds.
+const PIECE: usize = 10 * SAMPLE_RATE as usize;
+
 /// Returns whether anything of a project can be heard.
 pub fn has_sound(project: &Project, media: &MediaSet) -> bool {
     project.pass(&PassId::Sound).is_some() || !sounds(project, media).is_empty()
 }
 
 /// Returns the samples of a film; `None` where nothing is heard. `open` sets up the sound pass, if there is one, and
-/// `goes_on` is asked before each of its blocks.
+/// `goes_on` is asked before each of its blocks and each part that is mixed.
 pub fn soundtrack<E: From<OfflineError>>(
     (project, media): (&Project, &MediaSet),
     film: &FilmTime,
@@ -46,7 +49,14 @@ pub fn soundtrack<E: From<OfflineError>>(
         }
         sources.push(Source::Track(Arc::new(track)));
     }
-    Ok(Some(faded(Scene { sources }.mixed(samples.start, samples.end + fade), fade as usize)))
+    let scene = Scene { sources };
+    let mut mixed = Vec::new();
+    let end = samples.end + fade;
+    for start in (samples.start..end).step_by(PIECE) {
+        goes_on()?;
+        mixed.extend(scene.mixed(start, end.min(start + PIECE as u64)));
+    }
+    Ok(Some(faded(mixed, fade as usize)))
 }
 
 /// Mixes the last `fade` samples into the first ones.

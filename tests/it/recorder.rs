@@ -139,9 +139,12 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
     // Ticks ten times as often as frames are due.
     let mut ticks = 0;
     while frames(&stage.session) < 20 {
-        now += Duration::from_micros(3_333);
+        // The clock of this test stands still while the encoder has no room.
+        if !matches!(stage.session.film(), Some(FilmView::Live(live)) if live.waits) {
+            now += Duration::from_micros(3_333);
+            ticks += 1;
+        }
         stage.session.tick(now);
-        ticks += 1;
         assert!(ticks < 100_000);
         if frames(&stage.session) == 5 {
             stage.session.apply(Command::MouseDown { x: 20.0, y: 10.0 });
@@ -176,7 +179,8 @@ fn a_film_that_is_cancelled_leaves_nothing() {
     let mut formats = vec![Format::Png, Format::Y4m];
     formats.extend(has_ffmpeg().then_some([Format::Mp4, Format::Gif]).into_iter().flatten());
     for format in formats {
-        let order = range(&stage, &form("0-49999", "30", format));
+        let long = FilmForm { with_sound: false, ..form("0-49999", "30", format) };
+        let order = range(&stage, &long);
         stage.session.apply(Command::MakeFilm(order));
         stage.until(
             "some frames",

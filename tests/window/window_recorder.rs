@@ -23,13 +23,29 @@ fn project(home: &Path) -> PathBuf {
     folder_of(home.join("hand"), &[("image.glsl", HAND)])
 }
 
-fn open<'a>(display: &'a Display, home: &Path, folder: &Path, environment: &[(&str, &str)]) -> Window<'a> {
+/// Opens the project and the panel. `has_ffmpeg`: the window finds ffmpeg in the folder where it looks for programs.
+fn open<'a>(display: &'a Display, home: &Path, folder: &Path, has_ffmpeg: bool) -> Window<'a> {
+    let programs = home.join("no-programs");
+    fs::create_dir_all(&programs).unwrap();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    for program in ["ffmpeg", "ffprobe"].iter().filter(|_| has_ffmpeg) {
+        let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|path| path.is_file());
+        std::os::unix::fs::symlink(found.unwrap(), programs.join(program)).unwrap();
+    }
     let arguments = [folder.to_str().unwrap()];
-    let mut window = Window::open_as(display, home, Some("1300x1000"), environment, &arguments);
+    let mut window = Window::open_as(display, home, Some("1300x1000"), &[], &arguments);
     window.compiled();
     window.keys(&["alt+shift+r"]);
     window.shows("film:range");
     window
+}
+
+/// Types over what a field holds, once it has the keyboard.
+fn fill(window: &mut Window, field: &str, text: &str) {
+    window.click_on(field);
+    window.wait_until("the field", "focus", |e| e["widget"] == field);
+    window.enter(text);
+    window.wait_until("the end of typing", "focus", |e| e["widget"] != field);
 }
 
 fn becomes(window: &mut Window, state: &str) -> Value {
@@ -62,12 +78,12 @@ fn a_gif_and_a_film_are_rendered_while_one_goes_on_typing() {
         return;
     }
     let folder = project(home.path());
-    let mut window = open(&display, home.path(), &folder, &[]);
+    let mut window = open(&display, home.path(), &folder, true);
     display.shot("recorder-idle.png");
     window.click_on("film:preset:WebGif");
-    window.fill("film:range", "0-11");
-    window.fill("film:size", "");
-    window.fill("film:size", "96x54");
+    fill(&mut window, "film:range", "0-11");
+    fill(&mut window, "film:size", "");
+    fill(&mut window, "film:size", "96x54");
     display.shot("recorder-gif.png");
     window.click_on("film:range-exactly");
     let gif = done(&mut window);
@@ -77,9 +93,9 @@ fn a_gif_and_a_film_are_rendered_while_one_goes_on_typing() {
     // A longer film, by the keyboard's way into the list of formats; the text is edited meanwhile.
     window.click_on("film:format");
     window.click_on("film:format:0");
-    window.fill("film:range", "0s-10s");
-    window.fill("film:rate", "30");
-    window.fill("film:size", "640x360");
+    fill(&mut window, "film:range", "0s-10s");
+    fill(&mut window, "film:rate", "30");
+    fill(&mut window, "film:size", "640x360");
     window.click_on("film:range-exactly");
     window.wait_until("some frames", "film", |e| e["state"] == "drawing" && e["frames"].as_u64() > Some(5));
     display.shot("recorder-running.png");
@@ -108,9 +124,9 @@ fn what_one_does_is_a_film_of_the_hand() {
         return;
     }
     let folder = project(home.path());
-    let mut window = open(&display, home.path(), &folder, &[]);
-    window.fill("film:size", "320x180");
-    window.fill("film:rate", "20");
+    let mut window = open(&display, home.path(), &folder, true);
+    fill(&mut window, "film:size", "320x180");
+    fill(&mut window, "film:rate", "20");
     window.click_on("film:live");
     window.wait_until("some frames", "film", |e| e["state"] == "live" && e["frames"].as_u64() > Some(5));
     let began = Instant::now();
@@ -158,7 +174,7 @@ fn a_film_that_is_cancelled_or_closed_over_leaves_no_file() {
         return;
     }
     let folder = project(home.path());
-    let mut window = open(&display, home.path(), &folder, &[]);
+    let mut window = open(&display, home.path(), &folder, true);
     let nothing = names(&folder);
     let empties = |folder: &Path| {
         let end = Instant::now() + Duration::from_secs(20);
@@ -167,8 +183,8 @@ fn a_film_that_is_cancelled_or_closed_over_leaves_no_file() {
             std::thread::sleep(Duration::from_millis(20));
         }
     };
-    window.fill("film:range", "0-99999");
-    window.fill("film:size", "320x180");
+    fill(&mut window, "film:range", "0-99999");
+    fill(&mut window, "film:size", "320x180");
     window.click_on("film:range-exactly");
     window.wait_until("some frames", "film", |e| e["state"] == "drawing" && e["frames"].as_u64() > Some(5));
     window.click_on("film:cancel");
@@ -197,16 +213,14 @@ fn mistakes_and_a_missing_ffmpeg_are_said_beside_the_fields() {
     let Some((display, home)) = Display::of_size_with_home(1300, 1000) else { return };
     let folder = project(home.path());
     fs::write(folder.join("there.mp4"), "mine").unwrap();
-    let nowhere = tempfile::tempdir().unwrap();
-    let path = nowhere.path().to_str().unwrap();
-    let mut window = open(&display, home.path(), &folder, &[("PATH", path)]);
+    let mut window = open(&display, home.path(), &folder, false);
     window.shows("film:error:format");
     window.shows("film:look-again");
-    window.fill("film:range", "9-2");
+    fill(&mut window, "film:range", "9-2");
     window.shows("film:error:range");
-    window.fill("film:size", "1920");
+    fill(&mut window, "film:size", "1920");
     window.shows("film:error:size");
-    window.fill("film:file", "there");
+    fill(&mut window, "film:file", "there");
     window.shows("film:error:file");
     window.shows("film:replace");
     display.shot("recorder-errors.png");
@@ -215,10 +229,10 @@ fn mistakes_and_a_missing_ffmpeg_are_said_beside_the_fields() {
     window.click_on("film:live");
     window.drain();
     assert!(film(&window).is_null(), "the buttons do nothing");
-    window.fill("film:range", "3");
+    fill(&mut window, "film:range", "3");
     window.hides("film:error:range");
-    window.fill("film:size", "32x18");
-    window.fill("film:file", "");
+    fill(&mut window, "film:size", "32x18");
+    fill(&mut window, "film:file", "");
     window.click_on("film:format");
     // Pictures need no ffmpeg.
     window.click_on("film:format:8");

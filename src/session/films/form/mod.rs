@@ -155,7 +155,6 @@ impl FilmForm {
                 errors.push((field, why));
             }
         };
-        let size = read_size(&self.size, facts);
         let fps = read_fps(&self.fps);
         let frames = match fps {
             Ok(fps) => FrameList::of_film(&self.range, fps).map(|list| list.numbers()),
@@ -168,11 +167,17 @@ impl FilmForm {
         });
         let quality = match self.quality.trim() {
             "" => Ok(None),
-            text => Quality::parse(text).map(Some).ok_or_else(|| "low, medium, high, lossless or a number".to_owned()),
+            text => {
+                Quality::parse(text).map(Some).ok_or_else(|| "write low, medium, high, lossless or a number".to_owned())
+            }
         };
         let quality_given = quality.clone().ok().flatten();
         let style = |codec, quality| Style { codec, quality, ..Style::new(self.format) };
         let encoding = style(self.codec, quality_given).resolve();
+        let size = read_size(&self.size, facts).map(|size| match &encoding {
+            Ok(encoding) if self.size.trim().is_empty() => fitting(encoding, size),
+            _ => size,
+        });
         // The first choice that is wrong by itself is the one that is told of.
         let field = match (style(self.codec, None).resolve(), quality_given) {
             (Err(_), _) if self.codec.is_some() => FilmField::Codec,
@@ -193,7 +198,7 @@ impl FilmForm {
             _ if self.format.is_still() => Err("a loop is for films, and this format holds single pictures".to_owned()),
             text => match text.trim_end_matches('s').trim().parse::<f64>() {
                 Ok(secs) if secs.is_finite() && secs >= 0.0 => Ok(Some(secs)),
-                _ => Err("seconds, as in 1 or 0.5".to_owned()),
+                _ => Err("write seconds, as in 1 or 0.5".to_owned()),
             },
         };
         let too_long = match (&fade, &frames, &stepped) {
@@ -208,14 +213,18 @@ impl FilmForm {
         keep(FilmField::Quality, quality.map(drop));
         keep(field, encoding.clone().map(drop));
         keep(FilmField::Fade, fade.clone().map(drop).and(too_long));
-        if let (Ok(encoding), Ok(size)) = (&encoding, &size) {
-            keep(FilmField::Size, check_size(encoding, *size).map_err(|error| error.to_string()));
+        if let Ok(encoding) = &encoding {
+            // What is missing of ffmpeg is said whatever the size is.
+            let at = size.clone().unwrap_or(facts.shown);
+            if size.is_ok() {
+                keep(FilmField::Size, check_size(encoding, at).map_err(|error| error.to_string()));
+            }
             let needs_ffmpeg = matches!(encoding, Encoding::Film(film) if film.needs_ffmpeg());
             match &facts.encoders {
                 Some(Err(why)) if needs_ffmpeg => keep(FilmField::Format, Err(why.clone())),
                 Some(Ok(there)) if needs_ffmpeg => {
                     let field = if self.codec.is_some() { FilmField::Codec } else { FilmField::Format };
-                    keep(field, check_encoders(encoding, *size, there).map_err(|error| error.to_string()));
+                    keep(field, check_encoders(encoding, at, there).map_err(|error| error.to_string()));
                 }
                 _ => {}
             }
@@ -361,13 +370,19 @@ fn read_size(text: &str, facts: &FilmFacts) -> Result<(u32, u32), String> {
         Some([0, _] | [_, 0]) => Err("width and height are at least 1".into()),
         Some(&[width, height]) if width > most || height > most => Err(format!("this GPU draws at most {most}x{most}")),
         Some(&[width, height]) => Ok((width, height)),
-        _ => Err("width and height, as in 1920x1080".into()),
+        _ => Err("write width and height, as in 1920x1080".into()),
     }
+}
+
+/// Returns the size of the window's picture, or one that is a pixel smaller where the encoding takes even sides alone.
+fn fitting(encoding: &Encoding, size: (u32, u32)) -> (u32, u32) {
+    let even = |side: u32| (side & !1).max(2);
+    if check_size(encoding, size).is_ok() { size } else { (even(size.0), even(size.1)) }
 }
 
 fn read_fps(text: &str) -> Result<f64, String> {
     let fps = text.trim().parse::<f64>().ok().filter(|fps| fps.is_finite() && *fps > 0.0);
-    let fps = fps.ok_or("frames per second, as in 60 or 29.97")?;
+    let fps = fps.ok_or("write frames per second, as in 60 or 29.97")?;
     Rate::of(fps).map(|_| fps).ok_or_else(|| FilmError::Rate(fps).to_string())
 }
 

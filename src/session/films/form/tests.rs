@@ -67,6 +67,15 @@ fn what_is_wrong_is_said_at_its_field_and_stops_only_what_depends_on_it() {
 }
 
 #[test]
+fn the_size_of_the_window_is_made_even_where_the_codec_needs_it() {
+    let facts = FilmFacts { shown: (645, 363), ..facts(std::path::Path::new("/nowhere")) };
+    let size = |format| form(|f| (f.format, f.fps) = (format, "20".into())).check(&facts, false).range.unwrap().size;
+    assert_eq!((size(Format::Mp4), size(Format::Gif)), ((644, 362), (645, 363)));
+    let typed = form(|f| f.size = "645x363".into()).check(&facts, false);
+    assert!(typed.error(FilmField::Size).is_some(), "what is typed is what is meant");
+}
+
+#[test]
 fn a_step_makes_a_rate_and_a_film_of_unknown_length_needs_a_format_for_it() {
     let checked = check(&form(|f| (f.format, f.range) = (Format::Gif, "0-59:3".into())));
     let order = checked.range.expect("20 frames per second");
