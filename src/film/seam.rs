@@ -34,7 +34,7 @@ pub struct Shown {
     pub pass: PassId,
     /// The target of a pass that has several, or the face of a cubemap.
     pub layer: usize,
-    /// How many times as wide and high it is drawn.
+    /// It is drawn so many times as wide and high.
     pub factor: u32,
 }
 

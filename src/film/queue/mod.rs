@@ -225,7 +225,7 @@ impl Cancel {
 struct StagedFile {
     staged: Staged,
     path: PathBuf,
-    /// What is there may be replaced.
+    /// A file that is there may be replaced.
     replaces: bool,
 }
 

@@ -1,6 +1,6 @@
 //! The panel that makes films: the choices, what is wrong with them, two buttons, and how far a film is.
 //!
-//! What the choices come to is said by the session ([`FilmForm`]); here they are shown and typed.
+//! The session says what the choices come to ([`FilmForm`]); here they are shown and typed.
 
 mod fields;
 mod panel;

@@ -31,7 +31,7 @@ pub enum FilmPlace {
     /// A file, or a folder for pictures.
     Named {
         path: PathBuf,
-        /// What is there may be replaced.
+        /// A file that is there may be replaced.
         replaces: bool,
     },
 }
@@ -66,7 +66,7 @@ pub struct FilmDone {
     pub frames: u32,
     /// Seconds that the film lasts.
     pub secs: f64,
-    /// What else there is to say of it.
+    /// A further sentence about it.
     pub note: Option<String>,
 }
 
