@@ -44,7 +44,10 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path, has_ffmpeg: bool) 
 fn fill(window: &mut Window, field: &str, text: &str) {
     window.click_on(field);
     window.wait_until("the field", "focus", |e| e["widget"] == field);
-    window.enter(text);
+    match text {
+        "" => window.keys(&["ctrl+a", "BackSpace", "Return"]),
+        text => window.enter(text),
+    }
     window.wait_until("the end of typing", "focus", |e| e["widget"] != field);
 }
 

@@ -132,17 +132,19 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
     if session.closes_after_film() {
         ui.label("Eddy closes when the film is complete.");
     }
-    ui.horizontal_wrapped(|ui| {
-        if matches!(film, FilmView::Live(_)) {
-            let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
-            if out.clicked("film:stop", &stop) {
-                out.ask(Command::StopFilm);
+    if film.is_busy() {
+        ui.horizontal_wrapped(|ui| {
+            if matches!(film, FilmView::Live(_)) {
+                let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
+                if out.clicked("film:stop", &stop) {
+                    out.ask(Command::StopFilm);
+                }
             }
-        }
-        if film.is_busy() && cancel(ui, out) {
-            out.ask(Command::CancelFilm);
-        }
-    });
+            if cancel(ui, out) {
+                out.ask(Command::CancelFilm);
+            }
+        });
+    }
     ui.separator();
 }
 
