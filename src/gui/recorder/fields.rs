@@ -201,7 +201,7 @@ fn below(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 fn hint(ui: &mut Ui, text: &str) {
     let color = theme::of(ui).weak;
     let galley = ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(12.0), color);
-    if galley.size().x < ui.available_width() {
+    if galley.size().x < ui.available_size_before_wrap().x {
         ui.label(RichText::new(text).size(12.0).color(color));
     }
 }
