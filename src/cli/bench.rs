@@ -3,13 +3,13 @@
 
 use super::{
     args::BenchArgs,
-    machine::{Machine, Trouble, median, open},
+    machine::{Machine, Trouble, open},
     report::{Printer, Report},
 };
 use crate::{
     engine::{CostClock, PassRole},
     graph::{FramePlan, PassFacts},
-    playback::{offline::Offline, script::ScriptedInputs},
+    playback::{median, offline::Offline, script::ScriptedInputs},
     project::{PassId, Project},
 };
 use serde::Serialize;

@@ -329,12 +329,6 @@ pub fn millis_since(began: Instant) -> f64 {
     began.elapsed().as_nanos() as f64 / 1e6
 }
 
-/// The middle one, the upper of two; `None` of none.
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -347,12 +341,5 @@ mod tests {
         assert_eq!((done, report.status), (None, Status::Error));
         assert_eq!(report.diagnostics[0].message, "this is a bug in Eddy: by design");
         assert_eq!(machine.attempt(&mut Report::new("y"), |_, _| Ok(7)), Some(7));
-    }
-
-    #[test]
-    fn the_median_is_the_middle() {
-        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(vec![2.0, 1.0]), Some(2.0));
-        assert_eq!(median(vec![]), None);
     }
 }

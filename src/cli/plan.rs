@@ -3,11 +3,11 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    machine::{Machine, Trouble, median, open_measured},
+    machine::{Machine, Trouble, open_measured},
     report::{Printer, Report},
     targets::Targets,
 };
-use crate::playback::{offline::Offline, script::ScriptedInputs, shard::Shard};
+use crate::playback::{median, offline::Offline, script::ScriptedInputs, shard::Shard};
 use serde::Serialize;
 use std::io;
 

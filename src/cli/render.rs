@@ -3,27 +3,28 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    looped::Seam,
-    machine::{Machine, Trouble, median, open_measured},
+    machine::{Machine, Trouble, open_measured, open_sound_of},
     measured::{self, Measured, Measures},
     progress::CallProgress,
     report::{Printer, Report},
-    soundtrack::{self, FilmTime},
     targets::Targets,
 };
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::Pixels,
-    film::{Encoding, Film, FilmError, Mean, Output, Shape, Still, Stills, shrunk},
+    film::{
+        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmTime, Mean, Output, Seam, Shape, Shown,
+        Still, Writer, shrunk,
+    },
     media::MediaSet,
     playback::{
+        frames::steps,
+        median,
         offline::{Offline, OfflineError},
-        recording::Recording,
-        scene::{LONGEST, Scene, SceneInputs},
+        scene::RunSource,
         script::ScriptedInputs,
     },
     project::{self, PassId, Project},
-    video::Tools,
 };
 use serde::Serialize;
 use std::{io, path::PathBuf};
@@ -159,26 +160,25 @@ impl Job<'_> {
         }
         let source = self.source(&project, &offline, inputs)?;
         let mut seam = match args.looped {
-            Some(secs) if targets.writes() => {
-                Some(Seam::open(machine, report, args, (secs, targets.rate), &missing, inputs)?)
-            }
+            Some(secs) if targets.writes() => Some(self.seam(machine, report, secs, &missing, inputs)?),
             _ => None,
         };
-        let mut writer = Writer::Nothing;
+        let shown =
+            Shown { pass: picture.pass.clone(), layer: args.face.unwrap_or(picture.target), factor: args.factor() };
+        let mut writer = None;
         let (mut millis, mut written) = (Vec::new(), Vec::new());
-        let steps = if jumps { wanted.len() as u32 } else { frames - begin };
-        let progress = self.progress.begin(&report.title(), self.part.len(), steps);
-        for frame in begin..frames {
-            let is_wanted = wanted.binary_search(&frame).is_ok();
-            if jumps && !is_wanted {
+        let draws = if jumps { wanted.len() as u32 } else { frames - begin };
+        let progress = self.progress.begin(&report.title(), self.part.len(), draws);
+        for step in steps(begin..frames, &wanted, jumps) {
+            let (frame, is_wanted) = (step.frame, step.is_wanted);
+            if step.is_skipped {
                 offline.skip()?;
                 continue;
             }
-            let layer = args.face.unwrap_or(picture.target);
             let drawn = match args.shutter.filter(|_| is_wanted && targets.writes()) {
                 None => offline.draw()?,
                 Some(shutter) => offline.draw_parts(args.samples, shutter / args.run.fps, |offline| {
-                    mean.add(&offline.read(&picture.pass, layer)?);
+                    mean.add(&offline.read(&shown.pass, shown.layer)?);
                     Ok::<_, OfflineError>(())
                 })?,
             };
@@ -196,19 +196,22 @@ impl Job<'_> {
                 continue;
             }
             let pixels = match args.shutter {
-                None => offline.read(&picture.pass, layer)?,
-                Some(_) => mean.take(),
+                None => shown.read(&mut offline)?,
+                Some(_) if shown.factor == 1 => mean.take(),
+                Some(_) => shrunk(&mean.take(), shown.factor),
             };
-            let pixels = if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) };
             let pixels = match &mut seam {
-                Some(seam) => seam.join(pixels, args)?,
+                Some(seam) => seam.join(pixels, &shown)?,
                 None => pixels,
             };
-            if let Writer::Nothing = writer {
-                let opened = (&project, &media);
-                writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
-            }
-            match self.write(&mut writer, report, (frame, source.as_ref()), pixels, &mut written) {
+            let writer = match &mut writer {
+                Some(writer) => writer,
+                None => {
+                    let opened = (&project, &media);
+                    writer.insert(self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?)
+                }
+            };
+            match self.write(writer, report, (frame, source.as_ref()), pixels, &mut written) {
                 // Whoever reads standard output has seen enough.
                 Err(Trouble::Other(error)) if matches!(error.downcast_ref(), Some(FilmError::Closed)) => {
                     return Ok(Drawn::default());
@@ -216,11 +219,11 @@ impl Job<'_> {
                 other => other?,
             }
         }
-        writer
-            .finish()
-            .or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
-        if let Some(seam) = seam {
-            seam.report(report);
+        let finished = writer.map_or(Ok(()), Writer::finish);
+        finished.or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
+        if let Some((jumps, what)) = seam.and_then(Seam::verdict) {
+            let severity = if jumps { Severity::Warning } else { Severity::Note };
+            report.diagnose(&[Diagnostic::new(severity, None, what)], &SourceMap::default(), None);
         }
         // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
         if millis.len() > 1 {
@@ -257,14 +260,14 @@ impl Job<'_> {
         project: &Project,
         offline: &Offline,
         inputs: &ScriptedInputs,
-    ) -> Result<Option<PictureSource>, Trouble> {
+    ) -> Result<Option<RunSource>, Trouble> {
         let Job { args, targets, .. } = self;
         let has_place = matches!(targets.encoding, Encoding::Still(Still::Png { .. } | Still::Exr));
         let is_plain = args.factor() == 1 && args.shutter.is_none() && args.looped.is_none();
         if args.no_project || !has_place || !is_plain || !targets.writes() {
             return Ok(None);
         }
-        Ok(Some(PictureSource {
+        Ok(Some(RunSource {
             project: project.clone(),
             pass: args.pass.pass.clone(),
             device: offline.engine()?.gpu().describe(),
@@ -285,55 +288,100 @@ impl Job<'_> {
         frames: &[u32],
     ) -> Result<Writer, Trouble> {
         let Job { args, targets, .. } = self;
-        let (width, height) = (pixels.width, pixels.height);
-        let pipe = || -> Box<dyn io::Write + Send> { Box::new(io::stdout()) };
-        let film = match &targets.encoding {
-            Encoding::Film(film) => film,
-            Encoding::Still(still) => {
+        let texels = match &targets.encoding {
+            Encoding::Film(_) => Default::default(),
+            Encoding::Still(_) => {
                 let layer = args.face.unwrap_or(args.pass.target);
-                let texels = offline.engine()?.format(&args.pass.pass, layer).unwrap_or_default();
-                let pipe = targets.is_pipe().then(pipe);
-                let stills = Stills::start(*still, texels, (width, height), pipe).map_err(failed)?;
-                return Ok(Writer::Stills(stills));
+                offline.engine()?.format(&args.pass.pass, layer).unwrap_or_default()
             }
         };
         let count = frames.len() as u32;
-        let shape = Shape { width, height, rate: targets.rate, frames: count };
-        let sound = if film.holds_sound() && !args.style.no_audio {
-            let fade_secs = args.looped.unwrap_or_default();
-            let time = FilmTime { first: frames[0], fps: args.run.fps, count, rate: targets.rate, fade_secs };
-            soundtrack::make(machine, report, (project, media), &args.run, inputs.clone(), &time)?
-        } else {
-            None
-        };
-        let output = match targets.path(self.index, &report.sweep, frames[0]) {
-            Some(path) => {
+        let shape = Shape { width: pixels.width, height: pixels.height, rate: targets.rate, frames: Some(count) };
+        let mut sound = None;
+        let to = match &targets.encoding {
+            _ if targets.is_pipe() => Destination::Pipe(Box::new(io::stdout())),
+            Encoding::Still(_) => Destination::Pictures,
+            Encoding::Film(film) => {
+                sound = self.sound(machine, report, (project, media), film, frames, inputs)?;
+                let path = targets.path(self.index, &report.sweep, frames[0]).unwrap_or_default();
                 targets.check(&path)?;
-                Output::File(path)
+                Destination::Film(Output::File(path))
             }
-            None => Output::Pipe(pipe()),
         };
-        Ok(Writer::Film(Film::start(film, shape, sound.as_deref(), output, &Tools::default()).map_err(failed)?))
+        let cancel = Cancel::default();
+        Writer::start(&targets.encoding, shape, texels, sound.as_deref(), to, &cancel).map_err(failed)
+    }
+
+    /// Returns the sound of a film of these frames, if it has any.
+    fn sound(
+        &self,
+        machine: &mut Machine,
+        report: &mut Report,
+        (project, media): (&Project, &MediaSet),
+        film: &FilmEncoding,
+        frames: &[u32],
+        inputs: &ScriptedInputs,
+    ) -> Result<Option<Vec<[i16; 2]>>, Trouble> {
+        let Job { args, targets, .. } = self;
+        if !film.holds_sound() || args.style.no_audio || !film::has_sound(project, media) {
+            return Ok(None);
+        }
+        if args.run.replay.is_some() {
+            note(report, "the film has no sound, as the times of a recording are not evenly spaced".into());
+            return Ok(None);
+        }
+        let time = FilmTime {
+            first: frames[0],
+            fps: args.run.fps,
+            count: frames.len() as u32,
+            rate: targets.rate,
+            fade_secs: args.looped.unwrap_or_default(),
+        };
+        let open = || open_sound_of(machine, report, (project, media), &args.run, inputs.clone());
+        film::soundtrack((project, media), &time, open, || Ok(()))
+    }
+
+    /// Begins with the joint of a film of these frames, which fades for so many seconds.
+    fn seam(
+        &self,
+        machine: &mut Machine,
+        report: &Report,
+        secs: f64,
+        frames: &[u32],
+        inputs: &ScriptedInputs,
+    ) -> Result<Seam, Trouble> {
+        let args = self.args;
+        let fade = Seam::fade_frames(secs, self.targets.rate, frames.len() as u32);
+        let fade = fade.map_err(|why| anyhow::anyhow!("--loop {secs}: {why}"))?;
+        let open = || {
+            // What there is to say of the project was said when it was opened first.
+            let mut quiet = Report::swept(&report.project, &report.sweep);
+            let wanted = (&args.pass.pass, &|_: &_| Vec::new() as Vec<_>);
+            let spec = &report.project;
+            let (wanted, beside) = wanted;
+            let opened = open_measured(machine, &mut quiet, spec, &args.drawn(), (wanted, beside), inputs.clone());
+            opened.map(|(_, offline, _)| offline)
+        };
+        Seam::open(fade, frames, open, || Ok(()))
     }
 
     fn write(
         &self,
         writer: &mut Writer,
         report: &Report,
-        (frame, source): (u32, Option<&PictureSource>),
+        (frame, source): (u32, Option<&RunSource>),
         pixels: Pixels,
         written: &mut Vec<PathBuf>,
     ) -> Result<(), Trouble> {
         let path = self.targets.path(self.index, &report.sweep, frame);
-        match (writer, &path) {
-            (Writer::Nothing, _) => return Ok(()),
-            (Writer::Film(film), _) => film.push(pixels).map_err(failed)?,
-            (Writer::Stills(stills), Some(path)) => {
-                self.targets.check(path)?;
-                stills.push(path.clone(), pixels, source.map(|source| source.scene(frame))).map_err(failed)?;
-            }
-            (Writer::Stills(stills), None) => stills.pipe(pixels).map_err(failed)?,
+        let scene = match writer {
+            Writer::Stills(_) => source.map(|source| source.scene(frame)),
+            Writer::Film(_) => None,
+        };
+        if let (Writer::Stills(_), Some(path)) = (&*writer, &path) {
+            self.targets.check(path)?;
         }
+        writer.push(path.clone(), pixels, scene).map_err(failed)?;
         written.extend(path.filter(|path| written.last() != Some(path)));
         Ok(())
     }
@@ -351,57 +399,6 @@ fn note_state(report: &mut Report, first: u32) {
 
 fn note(report: &mut Report, what: String) {
     report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
-}
-
-/// Holds what a picture is drawn from.
-struct PictureSource {
-    project: Project,
-    pass: PassId,
-    device: String,
-    has_state: bool,
-    size: (u32, u32),
-    inputs: ScriptedInputs,
-}
-
-impl PictureSource {
-    fn scene(&self, frame: u32) -> Scene {
-        let inputs = match (self.inputs.script(), self.inputs.recording()) {
-            (Some(script), _) => SceneInputs::Script(script),
-            (None, recording) => {
-                let end = frame as usize + 1;
-                let begin = if self.has_state && end <= LONGEST { 0 } else { end - 1 };
-                let project = self.project.name.clone();
-                let frames = recording.and_then(|recording| recording.frames.get(begin..end)).unwrap_or_default();
-                SceneInputs::Recording(Recording { project, frames: frames.to_vec() })
-            }
-        };
-        Scene {
-            eddy: env!("CARGO_PKG_VERSION").into(),
-            device: self.device.clone(),
-            pass: self.pass.clone(),
-            frame,
-            size: self.size,
-            project: self.project.clone(),
-            inputs,
-        }
-    }
-}
-
-/// The writer of a project's pictures.
-enum Writer {
-    Nothing,
-    Stills(Stills),
-    Film(Film),
-}
-
-impl Writer {
-    fn finish(self) -> Result<(), FilmError> {
-        match self {
-            Writer::Nothing => Ok(()),
-            Writer::Stills(stills) => stills.finish(),
-            Writer::Film(film) => film.finish(),
-        }
-    }
 }
 
 /// Says why frames of a project with a state have no motion blur.

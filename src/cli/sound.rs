@@ -3,7 +3,7 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, Trouble, median, millis_since, open_sound},
+    machine::{Machine, Trouble, millis_since, open_sound},
     progress::CallProgress,
     report::{Printer, Report},
     targets::{check_folder, check_within, stems, tells_case_apart},
@@ -11,7 +11,7 @@ use super::{
 use crate::{
     audio::{SAMPLE_RATE, flac, wav},
     engine::{BLOCK_FRAMES, SOUND_FRAMES},
-    playback::script::ScriptedInputs,
+    playback::{median, script::ScriptedInputs},
     project::{self, PassId},
 };
 use anyhow::Context;

@@ -29,7 +29,8 @@ impl<W: Write> Apng<W> {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(if depth == 8 { png::BitDepth::Eight } else { png::BitDepth::Sixteen });
         // For ever.
-        let animated = encoder.set_animated(shape.frames, 0);
+        let frames = shape.frames.ok_or(FilmError::NoLength { format: "apng" })?;
+        let animated = encoder.set_animated(frames, 0);
         let (seconds, parts) = (shape.rate.denominator as u16, shape.rate.numerator as u16);
         let header =
             animated.and_then(|()| encoder.set_frame_delay(seconds, parts)).and_then(|()| encoder.write_header());

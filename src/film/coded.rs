@@ -190,13 +190,13 @@ impl Coded {
     }
 
     /// Fails for a size that the encoder does not take.
-    fn check_size(self, shape: Shape) -> Result<(), FilmError> {
+    pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), FilmError> {
         let PixelFormat::Yuv(format) = self.pixels else { return Ok(()) };
         let (across, down) = format.halves();
-        let is_odd = (across && shape.width % 2 == 1) || (down && shape.height % 2 == 1);
+        let is_odd = (across && width % 2 == 1) || (down && height % 2 == 1);
         let what = || format!("{} with {} chroma", self.codec.title(), format.chroma.title());
         if is_odd {
-            return Err(FilmError::OddSize { what: what(), width: shape.width, height: shape.height });
+            return Err(FilmError::OddSize { what: what(), width, height });
         }
         Ok(())
     }
@@ -221,7 +221,7 @@ impl CodedFilm {
         to: &Path,
         (tools, stop): (&Tools, &Stop),
     ) -> Result<CodedFilm, FilmError> {
-        coded.check_size(shape)?;
+        coded.check_size(shape.width, shape.height)?;
         let size = (shape.width, shape.height);
         // Where there is no choice, ffmpeg says itself that it lacks the encoder; listing them takes a tenth of a second.
         let encoder = match coded.candidates(size) {

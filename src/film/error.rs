@@ -19,6 +19,8 @@ pub enum FilmError {
     Io { path: PathBuf, source: io::Error },
     #[error("cannot write to standard output: {0}")]
     Pipe(io::Error),
+    #[error("a film is written to one file, and none was named")]
+    NoFile,
     /// Whoever reads the pipe has seen enough.
     #[error("the pipe was closed")]
     Closed,
@@ -37,6 +39,10 @@ pub enum FilmError {
     GifRate(f64),
     #[error("a film of more than 6 hours cannot have sound: leave the sound out, or write it in parts")]
     LongSound,
+    #[error(
+        "a file of {format} says at its start how many frames it has, which is not known yet: choose gif, webm, mp4 or png"
+    )]
+    NoLength { format: &'static str },
     #[error("cannot start a thread for encoding: {0}")]
     Thread(io::Error),
     #[error("the film was stopped")]

@@ -4,26 +4,35 @@
 //! takes frames in their order, [`Stills`] takes pictures with their paths. Both encode on a thread of their own behind a
 //! bounded queue, so that drawing goes on meanwhile and memory does not grow. Files are written beside their place and take it
 //! when they are complete. H.264 and the like are encoded by ffmpeg (`eddy_video::Encoder`); PNG, APNG, EXR, npy, Y4M and raw
-//! frames are written here. Knows no front end and reads no clock.
+//! frames are written here. The sound of a film ([`soundtrack`]) and the joint of a loop ([`Seam`]) are made of further runs
+//! of the project. Knows no front end and reads no clock.
 
 mod apng;
 mod coded;
 mod error;
 mod gif;
 mod mean;
+mod names;
 mod pipe;
 mod queue;
 mod rate;
 mod rgb;
+mod seam;
+mod soundtrack;
 mod still;
 mod style;
 mod values;
+mod writer;
 mod yuv;
 
 pub use error::FilmError;
 pub use mean::{Mean, shrunk};
-pub use queue::{Film, Output, Shape, Stills};
+pub use names::picture_name;
+pub use queue::{Cancel, Film, Output, Shape, Stills};
 pub use rate::Rate;
+pub use seam::{Seam, Shown};
+pub use soundtrack::{FilmTime, has_sound, soundtrack};
 pub use still::Still;
-pub use style::{Encoding, FilmEncoding, Style, check_tools};
+pub use style::{Encoding, FilmEncoding, Style, check_encoders, check_size, check_tools};
 pub use values::{Chroma, Codec, ColorRange, Format, Quality};
+pub use writer::{Destination, Writer};

@@ -100,9 +100,21 @@ pub fn check_tools(encoding: &Encoding, size: (u32, u32), tools: &Tools) -> Resu
     if !film.needs_ffmpeg() {
         return Ok(());
     }
-    let encoders = tools.encoders()?;
-    match film {
-        FilmEncoding::Coded(coded) => coded.encoder(&encoders, size).map(drop),
+    check_encoders(encoding, size, &tools.encoders()?)
+}
+
+/// Does the same where the encoders of ffmpeg are known.
+pub fn check_encoders(encoding: &Encoding, size: (u32, u32), there: &[String]) -> Result<(), FilmError> {
+    match encoding {
+        Encoding::Film(FilmEncoding::Coded(coded)) => coded.encoder(there, size).map(drop),
+        _ => Ok(()),
+    }
+}
+
+/// Fails for pictures of a size that the encoding does not take.
+pub fn check_size(encoding: &Encoding, (width, height): (u32, u32)) -> Result<(), FilmError> {
+    match encoding {
+        Encoding::Film(FilmEncoding::Coded(coded)) => coded.check_size(width, height),
         _ => Ok(()),
     }
 }
@@ -210,13 +222,14 @@ impl Style {
         })
     }
 
-    /// Returns the codecs that a format holds, the default first.
-    fn codecs(format: Format) -> &'static [Codec] {
+    /// Returns the codecs that a format of films holds, the default first; none for other formats.
+    pub fn codecs(format: Format) -> &'static [Codec] {
         match format {
             Format::Webm => &[Codec::Vp9, Codec::Av1],
             Format::Mp4 => &[Codec::H264, Codec::H265, Codec::Av1, Codec::Vp9],
             Format::Mov => &[Codec::ProRes, Codec::H264, Codec::H265, Codec::Ffv1],
-            _ => &[Codec::Ffv1, Codec::H264, Codec::H265, Codec::Av1, Codec::Vp9, Codec::ProRes],
+            Format::Mkv => &[Codec::Ffv1, Codec::H264, Codec::H265, Codec::Av1, Codec::Vp9, Codec::ProRes],
+            _ => &[],
         }
     }
 }

@@ -2,13 +2,18 @@
 //!
 //! A kind of export is a row of [`ROWS`]; what it does is its action's.
 
-use super::{actions::Action, ui_output::UiOutput};
+use super::{actions::Action, dock::Panel, ui_output::UiOutput};
 use crate::session::Session;
 use egui::{Button, Ui};
 
 /// A row of the menu: its title, its action, and what it does. `None` is a line between two groups.
 const ROWS: &[Option<(&str, Action, &str)>] = &[
     Some(("Screenshot (PNG)", Action::Screenshot, "Save the shown pass as a PNG at its own resolution")),
+    Some((
+        "Film, GIF or image sequence…",
+        Action::Panel(Panel::Recorder),
+        "Open the Recorder panel, which records what you do or renders a range of frames",
+    )),
     Some(("Float texels (.npy)", Action::SaveTexels, "Save the shown pass as it is stored: 32-bit floats, for NumPy")),
     None,
     Some((

@@ -47,6 +47,7 @@ mod probe;
 mod problems;
 mod questions;
 mod recent;
+mod recorder;
 mod replay;
 mod report;
 mod resolution;

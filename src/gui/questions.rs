@@ -29,6 +29,7 @@ pub fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
             Question::Export { file, exists, lost } => {
                 export(ui, file, *exists, lost, (window.height() - 230.0).max(60.0), out);
             }
+            Question::Film { is_live } => film(ui, *is_live, out),
             Question::Recover(recovered) => recover(ui, recovered, (window.height() - 260.0).max(60.0), out),
         }
     });
@@ -97,6 +98,7 @@ fn name_of(answer: &Answer) -> &'static str {
         Answer::Overwrite => "overwrite",
         Answer::Export => "export",
         Answer::Recover => "recover",
+        Answer::Finish => "finish",
     }
 }
 
@@ -170,6 +172,17 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
     } else {
         answers(ui, &[("Export", Answer::Export), ("Cancel", Answer::Cancel)], out);
     }
+}
+
+fn film(ui: &mut Ui, is_live: bool, out: &mut UiOutput) {
+    ui.heading("A film is not complete yet");
+    ui.label(match is_live {
+        true => "You are recording what you do. Stop and save it before the window closes?",
+        false => "Frames of a film are still being drawn or encoded. Eddy can close when the file is complete.",
+    });
+    let finish = if is_live { "Save, then close" } else { "Close when complete" };
+    let list = [(finish, Answer::Finish), ("Discard the film", Answer::Discard), ("Cancel", Answer::Cancel)];
+    answers(ui, &list, out);
 }
 
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut UiOutput) {

@@ -100,6 +100,7 @@ impl SettingsPage {
         let is_shown = |key: &Key| match key.control {
             Control::Device { .. } => session.output_view().is_some(),
             Control::Midi => controls.has_midi,
+            Control::Recorder => false,
             _ if key.name == GAMEPADS => controls.has_gamepads,
             _ => true,
         };
@@ -237,6 +238,7 @@ impl SettingsPage {
                 Control::Font => self.font(ui, key, settings.code_font.as_deref().unwrap_or_default(), out),
                 Control::Address => self.address(ui, key, settings.osc_address, out),
                 Control::Midi => midi(ui, key, &settings.midi, &session.controls_view(), out),
+                Control::Recorder => {}
             }
             if !key.is_usual(settings) {
                 let reset = ui.add(Button::new("Reset").frame(false)).on_hover_text(format!("Default: {}", key.usual));

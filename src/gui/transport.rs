@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     project::Tab,
-    session::{Command, Session},
+    session::{Command, FilmView, Session},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
@@ -50,6 +50,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) ->
         button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
         button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
+        film(ui, session, out);
         devices::light(ui, session, out);
         devices::network_light(ui, session, out);
         sound_bar::show(ui, session, ui.available_width() - BEHIND, out);
@@ -117,6 +118,30 @@ fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     accessible::name(&button, egui::Role::Button, "Stop recording input");
     if out.clicked("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record))) {
         out.act(Action::Record);
+    }
+}
+
+/// While a film is made: how far it is, on a button that ends a recording, or opens the panel.
+fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+    let Some(film) = session.film().filter(FilmView::is_busy) else { return };
+    let p = theme::of(ui);
+    let is_live = matches!(film, FilmView::Live(_));
+    let (text, color) = match &film {
+        FilmView::Live(live) => (format!("● {:.0} s", live.secs), p.error),
+        _ => (format!("{:.0} %", film.part().unwrap_or_default() * 100.0), p.text),
+    };
+    let button = Button::new(RichText::new(text).monospace().size(12.0).color(color));
+    let button = ui.add(button.min_size(vec2(RECORDING, 24.0)));
+    let (name, what) = match is_live {
+        true => ("Stop recording the film", "click to stop and save"),
+        false => ("Progress of the film", "click to open the Recorder panel"),
+    };
+    accessible::name(&button, egui::Role::Button, name);
+    if out.clicked("button:film", &button.on_hover_text(format!("{}; {what}", film.words()))) {
+        match is_live {
+            true => out.ask(Command::StopFilm),
+            false => out.act(Action::Panel(Panel::Recorder)),
+        }
     }
 }
 

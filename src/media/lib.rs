@@ -13,6 +13,7 @@ mod halve;
 pub mod keyboard;
 mod load;
 pub mod mesh;
+mod music;
 mod npy;
 mod played;
 mod site;
@@ -24,6 +25,7 @@ pub use gamepads::Gamepads;
 pub use gather::{files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;
+pub use music::{ChannelSound, sounds};
 pub use npy::{bytes as npy_bytes, header as npy_header};
 pub use sound::begin_of_sound;
 

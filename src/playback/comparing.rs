@@ -223,8 +223,8 @@ fn take_turns(
     Ok(turns)
 }
 
-/// The first of what an author has to mend, with its place.
-fn first_error(error: &BuildError) -> String {
+/// Returns the first of what an author has to mend, with its place.
+pub fn first_error(error: &BuildError) -> String {
     match error {
         BuildError::Engine(error) => error.to_string(),
         BuildError::Diagnostics { diagnostics, sources } => {

@@ -40,6 +40,42 @@ impl FrameList {
         }
     }
 
+    /// Reads frames as a person writes them for a film with so many frames per second: a number of them from frame 0 on
+    /// (`600`), a list as [`FrameList::parse`] reads it, or a time: `10s`, `2.5s-10s`, `0s-10s:2`. A time's end is not a part
+    /// of it, so that `0s-1s` has as many frames as a second.
+    pub fn of_film(text: &str, fps: f64) -> Result<FrameList, String> {
+        let text = text.trim();
+        if !text.contains('s') {
+            return match Frames::parse(text)? {
+                Frames::List(list) => Ok(list),
+                Frames::Count(count) => FrameList::parse(&format!("0-{}", count - 1)),
+            };
+        }
+        let form = || format!("\"{text}\" is not a time: write it as in 10s or 2.5s-10s");
+        let (range, step) = match text.split_once(':') {
+            Some((range, step)) => (range, format!(":{step}")),
+            None => (text, String::new()),
+        };
+        let secs = |text: &str| {
+            let number = text.trim().strip_suffix('s').and_then(|text| text.trim().parse::<f64>().ok());
+            number.filter(|secs| secs.is_finite() && *secs >= 0.0).ok_or_else(form)
+        };
+        let (from, to) = match range.split_once('-') {
+            Some((from, to)) => (secs(from)?, secs(to)?),
+            None => (0.0, secs(range)?),
+        };
+        // What lies within a thousandth of a frame is that frame: 0.1 s of 30 frames per second are 3.
+        let first_at = |secs: f64| (secs * fps - 1e-3).ceil().max(0.0);
+        let (first, end) = (first_at(from), first_at(to));
+        if end <= first {
+            return Err(format!("{text}: there is no frame in that time; the end comes after the start"));
+        }
+        if end > f64::from(END) {
+            return Err(format!("{text}: numbers of frames are below {END}"));
+        }
+        FrameList::parse(&format!("{}-{}{step}", first as u32, end as u32 - 1))
+    }
+
     /// Returns whether a part of it was written as a range.
     pub fn has_range(&self) -> bool {
         self.has_range
@@ -67,6 +103,35 @@ impl FrameList {
         numbers.dedup();
         numbers
     }
+}
+
+/// Returns the distance of a film's frames, which are rising. Err: they are not evenly spaced.
+pub fn film_step(frames: &[u32]) -> Result<u32, String> {
+    let step = frames.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
+    match frames.windows(2).all(|pair| pair[1] - pair[0] == step) {
+        true => Ok(step),
+        false => {
+            Err("a film shows each frame for the same time: write its frames as one range, as in 0-599 or 0-599:2"
+                .into())
+        }
+    }
+}
+
+/// A frame of a run on its way to those that are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step {
+    pub frame: u32,
+    pub is_wanted: bool,
+    /// It need not be drawn: no later frame depends on it.
+    pub is_skipped: bool,
+}
+
+/// Returns the frames of a run up to the last one. `wanted` is rising; `jumps`: no frame depends on another.
+pub fn steps(range: std::ops::Range<u32>, wanted: &[u32], jumps: bool) -> impl Iterator<Item = Step> {
+    range.map(move |frame| {
+        let is_wanted = wanted.binary_search(&frame).is_ok();
+        Step { frame, is_wanted, is_skipped: jumps && !is_wanted }
+    })
 }
 
 /// The frames that are asked for as a number of them, or one by one.
@@ -144,6 +209,43 @@ mod tests {
             assert_eq!(Frames::parse(list), Ok(Frames::List(FrameList::parse(list).unwrap())), "{list}");
         }
         assert!(Frames::parse("0").unwrap_err().contains("0-0"));
+    }
+
+    #[test]
+    fn a_films_frames_are_a_number_a_list_or_a_time() {
+        let of = |text: &str, fps: f64| FrameList::of_film(text, fps).map(|list| list.numbers());
+        assert_eq!(of("3", 60.0), Ok(vec![0, 1, 2]));
+        assert_eq!(of("2-4", 60.0), Ok(vec![2, 3, 4]));
+        assert_eq!(of("0.1s", 30.0), Ok(vec![0, 1, 2]));
+        assert_eq!(of("1s - 1.5s", 4.0), Ok(vec![4, 5]));
+        assert_eq!(of("0s-1s:2", 4.0), Ok(vec![0, 2]));
+        assert_eq!(of("10s", 60.0).map(|frames| frames.len()), Ok(600));
+        assert_eq!(of("1s", 29.97).map(|frames| frames.len()), Ok(30), "the last one begins within the second");
+        for (text, says) in [
+            ("s", "2.5s-10s"),
+            ("5s-", "2.5s-10s"),
+            ("-5s", "2.5s-10s"),
+            ("1s-2", "2.5s-10s"),
+            ("infs", "2.5s-10s"),
+            ("2s-1s", "no frame"),
+            ("0s", "no frame"),
+            ("1e12s", "below"),
+            ("99999999s", "below"),
+            ("0s-1s:0", "at least 1"),
+            ("0", "at least 1"),
+        ] {
+            let message = of(text, 60.0).expect_err(text);
+            assert!(message.contains(says), "{text}: {message}");
+        }
+    }
+
+    #[test]
+    fn a_run_skips_what_nobody_needs() {
+        let of = |jumps| steps(0..4, &[1, 3], jumps).map(|s| (s.frame, s.is_wanted, s.is_skipped)).collect::<Vec<_>>();
+        assert_eq!(of(true), [(0, false, true), (1, true, false), (2, false, true), (3, true, false)]);
+        assert!(of(false).iter().all(|step| !step.2));
+        assert_eq!((film_step(&[3, 5, 7]), film_step(&[4])), (Ok(2), Ok(1)));
+        assert!(film_step(&[1, 2, 4]).is_err());
     }
 
     #[test]

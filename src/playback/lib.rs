@@ -22,3 +22,19 @@ pub mod scene;
 pub mod script;
 pub mod shard;
 pub mod trial;
+
+/// Returns the middle one of values, the upper of two; `None` of none.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_median_is_the_middle() {
+        assert_eq!(super::median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(super::median(vec![2.0, 1.0]), Some(2.0));
+        assert_eq!(super::median(vec![]), None);
+    }
+}

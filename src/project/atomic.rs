@@ -112,6 +112,14 @@ impl Staged {
         let file = complete(self.file, &self.path)?;
         take_place(file, &self.path)
     }
+
+    /// Does the same where nothing is in the place. Fails if something is.
+    pub fn commit_new(self) -> io::Result<()> {
+        let file = complete(self.file, &self.path)?;
+        file.persist_noclobber(&self.path).map_err(|e| e.error)?;
+        sync_folder(&self.path);
+        Ok(())
+    }
 }
 
 /// Returns where a symbolic link leads, so that the link stays one.

@@ -3,6 +3,7 @@
 
 use super::{
     buffers::BufferWatch,
+    films::FilmOrder,
     playback::TimeRange,
     probe::{ProbeLook, ProbePlace},
     view::Level,
@@ -195,6 +196,15 @@ pub enum Command {
     /// Begins anew at frame 0 and records the inputs of every frame; the second time, ends that and writes them beside
     /// the pictures, for `eddy render --replay`.
     Record,
+    /// Makes a film: of a range of frames, drawn beside the picture, or of what is drawn from now on. See
+    /// [`Session::film`](super::Session::film).
+    MakeFilm(Box<FilmOrder>),
+    /// Ends a recording of what is drawn, and completes its file.
+    StopFilm,
+    /// Ends whatever film is made, and leaves nothing of it.
+    CancelFilm,
+    /// Looks which encoders ffmpeg has: see [`Session::film_facts`](super::Session::film_facts).
+    FindEncoders,
     /// Plays the input of such a file in the open project, from frame 0 on: see
     /// [`Session::replay`](super::Session::replay). A file that cannot be played is told of in a notice.
     PlayRecording(PathBuf),
@@ -280,6 +290,12 @@ pub enum Question {
     /// each thing. Answers: Export, which keeps a copy of what is replaced for [`KEPT_DAYS`](super::KEPT_DAYS) days, and
     /// Cancel.
     Export { file: PathBuf, exists: bool, lost: Vec<String> },
+    /// A film is not complete yet, and the window is to be closed. Answers: Finish, which closes it then, Discard, which
+    /// leaves nothing of the film, and Cancel.
+    Film {
+        /// It is recorded, and not drawn offline.
+        is_live: bool,
+    },
     /// An Eddy that ended early left unsaved work behind. Answers: Recover, Discard, Cancel, which leaves it for later.
     Recover(Box<Recovered>),
 }
@@ -341,6 +357,8 @@ pub enum Answer {
     Overwrite,
     Export,
     Recover,
+    /// Completes the film first.
+    Finish,
 }
 
 /// One line of a diff.

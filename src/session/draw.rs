@@ -32,7 +32,10 @@ impl Session {
             }
             let frame = self.next_frame(&mut has_run);
             let again = frame.is_none() && self.take_again();
-            let tasks = self.due_tasks(frame.is_some() || again);
+            let mut tasks = self.due_tasks(frame.is_some() || again);
+            if frame.is_some() {
+                self.request_film_frame(&mut tasks);
+            }
             if frame.is_none() && !again && tasks.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
@@ -49,16 +52,17 @@ impl Session {
         if is_other_coming || !self.drawing.has_program() || self.halting.is_halted() {
             return None;
         }
-        let is_step = self.playback.take_step();
+        let is_step = self.films.has_room() && self.playback.take_step();
         if self.playback.is_replaying() {
             return self.next_replayed(is_step);
         }
         // The first frame of a new program does not wait for the next tick.
-        let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way();
+        let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way() && self.films.may_draw(self.now);
         *has_run |= !is_step && self.playback.is_running();
         let is_new = is_step || self.playback.is_running();
         let mut inputs = self.playback.next_frame(self.now, is_step, may_run)?;
         inputs.microphone = self.audio.spectrum(is_new);
+        self.films.note_frame(is_new, self.now);
         self.take_values_back();
         Some(inputs)
     }
@@ -120,6 +124,7 @@ impl Session {
             self.travelled(travelled);
         }
         self.take_outputs(has_frame);
+        self.feed_film();
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);

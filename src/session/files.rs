@@ -71,6 +71,7 @@ impl Session {
             }
             PendingAction::Keep(project) => self.replace(Documents::restored(*project, template::project())),
             PendingAction::Recover(file) => self.recover(&file),
+            PendingAction::Close if self.asks_about_film() => {}
             PendingAction::Close => {
                 self.end_recording();
                 self.keep_time();
@@ -226,7 +227,12 @@ impl Session {
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
             (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
             (Question::Export { file, exists, .. }, Answer::Export) => self.write_json(&file, exists),
-            (Question::Export { .. }, Answer::Cancel) => {}
+            (Question::Export { .. } | Question::Film { .. }, Answer::Cancel) => {}
+            (Question::Film { .. }, Answer::Finish) => self.close_after_film(),
+            (Question::Film { .. }, Answer::Discard) => {
+                self.cancel_film();
+                self.unless_unsaved(PendingAction::Close);
+            }
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was put.

@@ -25,6 +25,7 @@ mod draw;
 mod drawing;
 mod export;
 mod files;
+mod films;
 mod frames;
 mod halt;
 mod imports;
@@ -58,7 +59,7 @@ mod uniforms;
 pub mod view;
 
 pub use analysis::TabAnalysis;
-pub use audio::{ChannelSound, MicrophoneView, OutputView, sounds};
+pub use audio::{MicrophoneView, OutputView};
 pub use audit::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
 pub use controls::ControlsView;
@@ -68,6 +69,10 @@ pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};
 pub use eddy_control::Waits;
 pub use export::directive_errors;
+pub use films::{
+    CheckedForm, FilmDone, FilmFacts, FilmField, FilmForm, FilmOrder, FilmPlace, FilmPreset, FilmProgress, FilmStage,
+    FilmView, LiveView,
+};
 pub use options::{SessionError, SessionOptions};
 pub use pass_history::PassStep;
 pub use playback::{Reach, ReplayView, TimeRange};

@@ -19,6 +19,7 @@ impl Session {
     /// Another project takes the place of this one, from where its time stood when it was open last.
     pub(super) fn replace(&mut self, documents: Documents) {
         self.end_recording();
+        self.stop_film();
         self.keep_time();
         self.drawing.restart();
         self.documents = documents;

@@ -15,6 +15,7 @@ use super::{
     disk::DiskSync,
     documents::Documents,
     drawing::{self, Drawing},
+    films::Films,
     halt::HaltControl,
     last_pictures::LastPictures,
     nonfinite::Searching,
@@ -63,6 +64,7 @@ pub struct Session {
     /// The first NaN is looked for.
     pub(super) searching: Searching,
     pub(super) comparing: Comparing,
+    pub(super) films: Films,
     pub(super) sounding: Sounding,
     pub(super) notices: Notices,
     /// Counts the projects that have taken the place of another.
@@ -136,6 +138,7 @@ impl Session {
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
         let searching = Searching::new(wake.clone()).map_err(SessionError::Thread)?;
         let comparing = Comparing::new(wake.clone()).map_err(SessionError::Thread)?;
+        let films = Films::new(&wake).map_err(SessionError::Thread)?;
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             analyst,
@@ -161,6 +164,7 @@ impl Session {
             auditing,
             searching,
             comparing,
+            films,
             sounding,
             notices: Notices::default(),
             projects_opened: 0,

@@ -272,6 +272,7 @@ impl Session {
             }
         };
         self.end_recording();
+        self.cut_film("a recording of input is played");
         self.playback.stop_replay();
         let here = self.project().name.clone();
         if !recording.project.is_empty() && recording.project != here {

@@ -55,6 +55,8 @@ pub enum About {
     Question,
     /// A picture, a recording or numbers that were to be written.
     Capture,
+    /// A film that is made.
+    Film,
     CustomUniform,
     PassEdit,
     Audit,

@@ -79,6 +79,7 @@ mod probes;
 mod random_floats;
 mod random_programs;
 mod ranges;
+mod recorder;
 mod recovery;
 mod reload;
 mod reopened_pictures;

@@ -24,6 +24,7 @@ mod window_lab;
 mod window_layout;
 mod window_measures;
 mod window_passes;
+mod window_recorder;
 mod window_replay;
 mod window_resolution;
 mod window_save;

@@ -1,7 +1,7 @@
 //! The frames that a call is about, from `--frames` and `--at`.
 
 use super::RenderArgs;
-use crate::playback::frames::{FrameList, Frames};
+use crate::playback::frames::{FrameList, Frames, film_step};
 
 /// The frames that are asked for.
 #[derive(Debug, PartialEq, Eq)]
@@ -52,7 +52,7 @@ pub fn of(args: &RenderArgs, is_film: bool) -> Result<Asked, String> {
     let last = asked.at.last().copied().unwrap_or_default();
     args.run.within_recording(asked.drawn.unwrap_or_default().max(last + 1))?;
     if is_film {
-        asked.step = step(&asked.at)?;
+        asked.step = film_step(&asked.at)?;
     }
     Ok(asked)
 }
@@ -63,17 +63,5 @@ fn frames_of(at: Vec<u32>, count: u32, is_film: bool) -> Vec<u32> {
         false => at,
         true if is_film => (0..count).collect(),
         true => vec![count - 1],
-    }
-}
-
-/// Returns the distance of a film's frames.
-fn step(at: &[u32]) -> Result<u32, String> {
-    let step = at.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
-    match at.windows(2).all(|pair| pair[1] - pair[0] == step) {
-        true => Ok(step),
-        false => {
-            Err("a film shows each frame for the same time: write its frames as one range, as in 0-599 or 0-599:2"
-                .into())
-        }
     }
 }

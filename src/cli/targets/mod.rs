@@ -24,9 +24,6 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Digits of a frame's number in a name, more where the last frame needs more.
-const LEAST_DIGITS: usize = 4;
-
 /// The files that one call writes.
 #[derive(Debug, PartialEq)]
 pub struct Targets {
@@ -157,12 +154,6 @@ impl Targets {
         self.place == Output::Pipe
     }
 
-    /// Returns how many digits a frame's number has in a name: as many as the last one needs, so that names in their
-    /// order are frames in theirs. They do not depend on the shard.
-    fn digits(&self) -> usize {
-        self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
-    }
-
     /// Fails where a file of a folder is a link out of it: nothing is written through such a link.
     pub fn check(&self, path: &Path) -> anyhow::Result<()> {
         if let Output::Folder(folder, _) = &self.place { check_within(folder, path) } else { Ok(()) }
@@ -179,7 +170,8 @@ impl Targets {
                 swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
                 Some(folder.join(match self.is_numbered && self.format.is_still() {
                     false => format!("{stem}.{extension}"),
-                    true => format!("{stem}_{frame:0digits$}.{extension}", digits = self.digits()),
+                    // They do not depend on the shard.
+                    true => film::picture_name(&stem, frame, self.at.last().copied().unwrap_or_default(), extension),
                 }))
             }
         }

@@ -13,7 +13,11 @@ use std::{
     io::{BufWriter, Cursor, Write},
     panic::resume_unwind,
     path::{Path, PathBuf},
-    sync::mpsc::{Receiver, SyncSender, sync_channel},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
+    },
     thread::{Builder, JoinHandle},
 };
 
@@ -26,12 +30,15 @@ pub struct Shape {
     pub width: u32,
     pub height: u32,
     pub rate: Rate,
-    pub frames: u32,
+    /// `None` where nobody knows yet.
+    pub frames: Option<u32>,
 }
 
 /// The place that a film is written to.
 pub enum Output {
     File(PathBuf),
+    /// A place where nothing is. What comes there meanwhile is not replaced.
+    NewFile(PathBuf),
     /// Standard output, or anything else that takes bytes.
     Pipe(Box<dyn Write + Send>),
 }
@@ -40,7 +47,7 @@ pub enum Output {
 pub(super) trait Sink: Send {
     fn frame(&mut self, pixels: &Pixels) -> Result<(), FilmError>;
 
-    /// Completes the file that [`Output::File`] is staged as.
+    /// Completes the file that is staged.
     fn finish(&mut self) -> Result<(), FilmError>;
 }
 
@@ -72,6 +79,16 @@ impl<T: Send + 'static> Queue<T> {
             Some(jobs) if jobs.send(job).is_ok() => Ok(()),
             // It has ended, and says why.
             _ => self.end().and(Err(FilmError::Stopped)),
+        }
+    }
+
+    /// Returns the job where the queue is full.
+    fn try_push(&mut self, job: Job<T>) -> Result<Option<Job<T>>, FilmError> {
+        match self.jobs.as_ref().map(|jobs| jobs.try_send(job)) {
+            Some(Ok(())) => Ok(None),
+            Some(Err(TrySendError::Full(job))) => Ok(Some(job)),
+            // It has ended, and says why.
+            Some(Err(TrySendError::Disconnected(_))) | None => self.end().and(Err(FilmError::Stopped)),
         }
     }
 
@@ -110,7 +127,7 @@ pub struct Film {
     queue: Queue<Pixels>,
     shape: Shape,
     pushed: u32,
-    stop: Stop,
+    cancel: Cancel,
 }
 
 impl Film {
@@ -122,28 +139,53 @@ impl Film {
         output: Output,
         tools: &Tools,
     ) -> Result<Film, FilmError> {
-        let stop = Stop::default();
-        let (sink, staged) = sink(encoding, shape, sound, output, (tools, &stop))?;
-        let work = move |jobs: Receiver<Job<Pixels>>| encode(&jobs, sink, staged, shape);
+        Self::start_with(encoding, shape, sound, output, (tools, &Cancel::default()))
+    }
+
+    /// Does the same for a film that somebody else may cancel.
+    pub fn start_with(
+        encoding: &FilmEncoding,
+        shape: Shape,
+        sound: Option<&[[i16; 2]]>,
+        output: Output,
+        (tools, cancel): (&Tools, &Cancel),
+    ) -> Result<Film, FilmError> {
+        let (sink, staged) = sink(encoding, shape, sound, output, (tools, &cancel.stop))?;
+        let heard = cancel.clone();
+        let work = move |jobs: Receiver<Job<Pixels>>| encode(&jobs, sink, staged, shape, &heard);
         let queue = Queue::start(capacity(shape.width, shape.height), work)?;
-        Ok(Film { queue, shape, pushed: 0, stop })
+        Ok(Film { queue, shape, pushed: 0, cancel: cancel.clone() })
     }
 
     /// Adds the next frame, and waits while too many are waiting to be encoded.
     pub fn push(&mut self, frame: Pixels) -> Result<(), FilmError> {
-        let (of, film) = ((frame.width, frame.height), (self.shape.width, self.shape.height));
-        if of != film {
-            return Err(FilmError::Size { of, film });
-        }
+        self.check_size(&frame)?;
         self.queue.push(Job::Next(frame))?;
         self.pushed += 1;
         Ok(())
     }
 
+    /// Adds the next frame, or gives it back where too many are waiting to be encoded.
+    pub fn try_push(&mut self, frame: Pixels) -> Result<Option<Pixels>, FilmError> {
+        self.check_size(&frame)?;
+        match self.queue.try_push(Job::Next(frame))? {
+            Some(Job::Next(frame)) => Ok(Some(frame)),
+            _ => {
+                self.pushed += 1;
+                Ok(None)
+            }
+        }
+    }
+
+    fn check_size(&self, frame: &Pixels) -> Result<(), FilmError> {
+        let (of, film) = ((frame.width, frame.height), (self.shape.width, self.shape.height));
+        if of == film { Ok(()) } else { Err(FilmError::Size { of, film }) }
+    }
+
     /// Waits until the file is complete and has taken its place.
     pub fn finish(mut self) -> Result<(), FilmError> {
-        if self.pushed != self.shape.frames {
-            return Err(FilmError::Frames { got: self.pushed, wanted: self.shape.frames });
+        if let Some(wanted) = self.shape.frames.filter(|wanted| *wanted != self.pushed) {
+            return Err(FilmError::Frames { got: self.pushed, wanted });
         }
         self.queue.finish()
     }
@@ -152,12 +194,47 @@ impl Film {
 impl Drop for Film {
     fn drop(&mut self) {
         // Otherwise its thread might wait for the encoder.
+        self.cancel.stop.stop();
+    }
+}
+
+/// Ends films from another thread. Every clone ends the same ones.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel {
+    is_cancelled: Arc<AtomicBool>,
+    stop: Stop,
+}
+
+impl Cancel {
+    /// Nothing is left of a film that is not complete yet.
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
         self.stop.stop();
+    }
+
+    pub fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    fn check(&self) -> Result<(), FilmError> {
+        if self.is_cancelled() { Err(FilmError::Stopped) } else { Ok(()) }
     }
 }
 
 /// A file that is staged, with its place.
-type StagedFile = Option<(Staged, PathBuf)>;
+struct StagedFile {
+    staged: Staged,
+    path: PathBuf,
+    /// A file that is there may be replaced.
+    replaces: bool,
+}
+
+impl StagedFile {
+    fn commit(self) -> Result<(), FilmError> {
+        let committed = if self.replaces { self.staged.commit() } else { self.staged.commit_new() };
+        committed.map_err(FilmError::io(&self.path))
+    }
+}
 
 fn sink(
     encoding: &FilmEncoding,
@@ -165,10 +242,11 @@ fn sink(
     sound: Option<&[[i16; 2]]>,
     output: Output,
     with: (&Tools, &Stop),
-) -> Result<(Box<dyn Sink>, StagedFile), FilmError> {
-    let path = match output {
+) -> Result<(Box<dyn Sink>, Option<StagedFile>), FilmError> {
+    let (path, replaces) = match output {
         Output::Pipe(pipe) => return Ok((plain(encoding, shape, pipe, FilmError::pipe)?, None)),
-        Output::File(path) => path,
+        Output::File(path) => (path, true),
+        Output::NewFile(path) => (path, false),
     };
     let mut staged = Staged::new(&path).map_err(FilmError::io(&path))?;
     let sink: Box<dyn Sink> = match encoding {
@@ -182,7 +260,7 @@ fn sink(
             plain(encoding, shape, BufWriter::new(file), FilmError::Pipe)?
         }
     };
-    Ok((sink, Some((staged, path))))
+    Ok((sink, Some(StagedFile { staged, path, replaces })))
 }
 
 /// Returns a writer of a film that needs no program.
@@ -218,31 +296,31 @@ fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
 fn encode(
     jobs: &Receiver<Job<Pixels>>,
     mut sink: Box<dyn Sink>,
-    staged: StagedFile,
+    staged: Option<StagedFile>,
     shape: Shape,
+    cancel: &Cancel,
 ) -> Result<(), FilmError> {
-    let path = staged.as_ref().map(|(_, path)| path.clone());
+    let path = staged.as_ref().map(|staged| staged.path.clone());
     // Errors of files name them.
     let named = |error: FilmError| match (error, &path) {
         (FilmError::Pipe(source), Some(path)) => FilmError::Io { path: path.clone(), source },
         (error, _) => error,
     };
-    for _ in 0..shape.frames {
+    let mut frames = 0;
+    loop {
+        cancel.check()?;
         match jobs.recv() {
+            Ok(Job::Next(_)) if shape.frames == Some(frames) => return Err(FilmError::Stopped),
             Ok(Job::Next(pixels)) => sink.frame(&pixels).map_err(named)?,
+            Ok(Job::Finish) if shape.frames.is_none_or(|wanted| wanted == frames) => break,
             Ok(Job::Finish) | Err(_) => return Err(FilmError::Stopped),
         }
-    }
-    match jobs.recv() {
-        Ok(Job::Finish) => {}
-        Ok(Job::Next(_)) | Err(_) => return Err(FilmError::Stopped),
+        frames += 1;
     }
     sink.finish().map_err(named)?;
     drop(sink);
-    match staged {
-        Some((staged, path)) => staged.commit().map_err(FilmError::io(&path)),
-        None => Ok(()),
-    }
+    cancel.check()?;
+    staged.map_or(Ok(()), StagedFile::commit)
 }
 
 /// Pictures that are written one by one, each to a place of its own.
@@ -293,6 +371,14 @@ impl Stills {
     /// Writes a picture whole or not at all: what was there stays until then. An error may be that of an earlier picture.
     pub fn push(&mut self, path: PathBuf, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
         self.queue.push(Job::Next((Place::File(path, scene.map(Box::new)), pixels)))
+    }
+
+    /// Does the same, or gives the picture back where too many are waiting.
+    pub fn try_push(&mut self, path: PathBuf, pixels: Pixels) -> Result<Option<Pixels>, FilmError> {
+        match self.queue.try_push(Job::Next((Place::File(path, None), pixels)))? {
+            Some(Job::Next((_, pixels))) => Ok(Some(pixels)),
+            _ => Ok(None),
+        }
     }
 
     /// Writes a picture to the pipe.

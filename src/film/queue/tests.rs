@@ -11,7 +11,7 @@ fn picture(value: f32) -> Pixels {
 
 fn start(format: Format, frames: u32, output: Output) -> Film {
     let Ok(Encoding::Film(encoding)) = Style::new(format).resolve() else { panic!("{format:?}") };
-    let shape = Shape { width: 2, height: 2, rate: Rate::of(30.0).unwrap(), frames };
+    let shape = Shape { width: 2, height: 2, rate: Rate::of(30.0).unwrap(), frames: Some(frames) };
     Film::start(&encoding, shape, None, output, &Tools::default()).unwrap()
 }
 

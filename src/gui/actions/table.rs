@@ -268,6 +268,14 @@ pub const ACTIONS: &[Entry] = &[
     .found_by("plot chart metrics graph"),
     row(Action::Panel(Panel::Sound), "sound", "Panel: Sound (waveform and spectrum)", &[], Group::Window)
         .found_by("audio music waveform spectrum samples"),
+    row(
+        Action::Panel(Panel::Recorder),
+        "recorder",
+        "Panel: Recorder (films, GIFs and image sequences)",
+        &["Shift+Alt+R"],
+        Group::Window,
+    )
+    .found_by("record video movie gif mp4 webm render export capture screen sequence"),
     row(Action::UsualLayout, "usual-layout", "Reset layout", &[], Group::Window)
         .found_by("default windows workspace panels"),
     layout(LayoutAction::Resize(Side::Left), "panel-narrower", "Make panel narrower", &["Ctrl+Shift+Alt+Left"]),

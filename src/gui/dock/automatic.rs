@@ -80,7 +80,7 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
-    let is_large = [Panel::Buffers, Panel::Compare, Panel::Lab].iter().any(is_open);
+    let is_large = [Panel::Buffers, Panel::Compare, Panel::Lab, Panel::Recorder].iter().any(is_open);
     let part = if is_large { BELOW_CODE_LARGE } else { BELOW_CODE };
     let shared = Panel::all().filter(|panel| panel.is_below_code()).chain([Panel::Lab]);
     let below = in_one_place(shared.filter(is_open), fronts);

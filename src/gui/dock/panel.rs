@@ -27,6 +27,7 @@ pub enum Panel {
     Compare,
     Measurements,
     Sound,
+    Recorder,
 }
 
 /// Says of a panel what it is called and where it is before anybody moves it.
@@ -57,7 +58,7 @@ const fn row(panel: Panel, name: &'static str, title: &'static str, is_open: boo
 }
 
 /// A row for each panel, in the order of the enum, which is that of the View menu.
-const PANELS: [Entry; 11] = [
+const PANELS: [Entry; 12] = [
     row(Panel::Picture, "picture", "Picture", true, DefaultPlace::Own),
     row(Panel::Code, "code", "Code", true, DefaultPlace::Own),
     row(Panel::Uniforms, "uniforms", "Uniforms", true, DefaultPlace::BelowPicture),
@@ -69,6 +70,7 @@ const PANELS: [Entry; 11] = [
     row(Panel::Compare, "compare", "Compare", false, DefaultPlace::BelowCode),
     row(Panel::Measurements, "measurements", "Measurements", false, DefaultPlace::BelowCode),
     row(Panel::Sound, "sound", "Sound", false, DefaultPlace::BelowCode),
+    row(Panel::Recorder, "recorder", "Recorder", false, DefaultPlace::BelowCode),
 ];
 
 impl Panel {

@@ -109,7 +109,7 @@ pub fn template() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{control::midi::MidiChoice, gui::settings::Theme};
+    use crate::{control::midi::MidiChoice, gui::settings::Theme, session::FilmForm};
     use std::time::Duration;
 
     #[test]
@@ -118,7 +118,8 @@ mod tests {
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
              code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
              audio-output = \"Speakers\"\naudio-input = \"\"\n\
-             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n",
+             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n\
+             recorder = \"--frames 0-9 --format gif\"\n",
         );
         assert_eq!(mistakes, []);
         let wanted = Settings {
@@ -126,19 +127,19 @@ mod tests {
             zoom: 2.0,
             code_size: 15.5,
             code_font: Some("/a/b.ttf".into()),
-            compile_on_save: false,
             word_wrap: true,
             frame_timeout: Duration::from_millis(500),
             project_in_images: false,
             volume: 0.25,
             mute: true,
             audio_output: Some("Speakers".into()),
-            audio_input: None,
             osc: true,
             osc_port: 8000,
             osc_address: "0.0.0.0".parse().unwrap(),
             midi: MidiChoice::Named("Knobs".into()),
             gamepads: true,
+            recorder: FilmForm::of_options("--frames 0-9 --format gif").unwrap(),
+            ..Settings::default()
         };
         assert_eq!(settings, wanted);
         let text =
@@ -147,7 +148,7 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
         let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
-                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads";
+                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
         let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
         let wanted = [
             (2, "unknown setting \"them\"; did you mean \"theme\"?"),
@@ -159,8 +160,7 @@ mod tests {
         assert_eq!(found, wanted);
         let (_, mistakes) = read("zoom = 1\ntheme = \n");
         assert_eq!((mistakes.len(), mistakes[0].line), (1, 2), "{mistakes:?}");
-        let (_, mistakes) = read("frame-timeout = -1");
-        assert_eq!(mistakes.len(), 1);
+        assert_eq!(read("frame-timeout = -1").1.len(), 1);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The settings there are: what each is called, what it may be, and what it is at first.
 
-use crate::control::midi::MidiChoice;
+use crate::{control::midi::MidiChoice, session::FilmForm};
 use std::{
     net::{IpAddr, Ipv4Addr, SocketAddr},
     time::Duration,
@@ -67,6 +67,8 @@ pub struct Settings {
     pub osc_address: IpAddr,
     pub midi: MidiChoice,
     pub gamepads: bool,
+    /// The choices of the Recorder panel.
+    pub recorder: FilmForm,
 }
 
 impl Settings {
@@ -107,6 +109,7 @@ impl Default for Settings {
             osc_address: Ipv4Addr::LOCALHOST.into(),
             midi: MidiChoice::Off,
             gamepads: false,
+            recorder: FilmForm::default(),
         }
     }
 }
@@ -133,6 +136,7 @@ pub enum Change {
     OscAddress(IpAddr),
     Midi(MidiChoice),
     Gamepads(bool),
+    Recorder(FilmForm),
 }
 
 impl Change {
@@ -158,6 +162,7 @@ impl Change {
             Change::OscPort(port) => ("osc-port", i64::from(*port).into()),
             Change::OscAddress(address) => ("osc-address", address.to_string().into()),
             Change::Gamepads(on) => (GAMEPADS, (*on).into()),
+            Change::Recorder(form) => ("recorder", form.options().into()),
             Change::Midi(choice) => {
                 let name: &str = match choice {
                     MidiChoice::Off => OFF,
@@ -188,6 +193,7 @@ impl Change {
             Change::OscAddress(address) => settings.osc_address = *address,
             Change::Midi(choice) => settings.midi.clone_from(choice),
             Change::Gamepads(on) => settings.gamepads = *on,
+            Change::Recorder(form) => settings.recorder.clone_from(form),
         }
     }
 }
@@ -213,6 +219,8 @@ pub enum Control {
     Address,
     /// The devices of MIDI.
     Midi,
+    /// The Recorder panel, and nothing on the page of settings.
+    Recorder,
 }
 
 pub struct Number {
@@ -460,6 +468,19 @@ pub const KEYS: &[Key] = &[
         usual: "false",
         read: |value| switch(value).map(Change::Gamepads),
     },
+    Key {
+        name: "recorder",
+        title: "Recorder",
+        help: "The choices of the Recorder panel",
+        control: Control::Recorder,
+        about: "Choices of the Recorder panel, as options of eddy render",
+        usual: "\"--frames 10s --fps 60 --format mp4\"",
+        read: |value| {
+            let text =
+                value.as_str().ok_or("must be options of eddy render: \"--frames 10s --fps 60 --format mp4\"")?;
+            FilmForm::of_options(text).map(Change::Recorder)
+        },
+    },
 ];
 
 /// Says what an address must be.
@@ -491,6 +512,7 @@ impl Key {
             Control::Device { get, change, .. } => change(get(settings).map(str::to_owned)),
             Control::Address => Change::OscAddress(settings.osc_address),
             Control::Midi => Change::Midi(settings.midi.clone()),
+            Control::Recorder => Change::Recorder(settings.recorder.clone()),
         }
     }
 }
@@ -530,6 +552,7 @@ mod tests {
                     .into_iter()
                     .map(Change::Midi)
                     .collect(),
+                Control::Recorder => vec![Change::Recorder(FilmForm { fps: "25".into(), ..FilmForm::default() })],
             };
             for change in changes {
                 let (name, value) = change.written();

@@ -21,6 +21,7 @@ use super::{
     lab::Lab,
     palette::Palette,
     questions,
+    recorder::Recorder,
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
     settings_page::{Overridden, SettingsPage},
     thumbnails::Thumbnails,
@@ -49,6 +50,7 @@ pub struct Shell {
     files: Files,
     browser: Browser,
     lab: Lab,
+    recorder: Recorder,
     kept: OfProject,
     /// The projects that had taken the place of another when `kept` was made.
     kept_of: u64,
@@ -107,6 +109,7 @@ impl Shell {
             files: Files::new(wake.clone()),
             browser: Browser::default(),
             lab: Lab::new(&gpu, wake.clone()),
+            recorder: Recorder::default(),
             kept: OfProject::new(wake.clone()),
             kept_of: 0,
             dock: Dock::new(),

@@ -10,14 +10,16 @@ use crate::{
         compare, costs, custom_uniforms,
         dock::{Contents, Heights, Panel},
         lab::Lab,
-        measures, sound, theme,
+        measures,
+        recorder::{self, Recorder},
+        sound, theme,
         thumbnails::Thumbnails,
         toasts, top_bar, trace, transport,
         ui_output::{ShellCommand, UiOutput},
         viewport::{Viewport, ViewportMode},
     },
     project::Origin,
-    session::{Command, Session},
+    session::{Command, FilmForm, Session},
 };
 use egui::{CentralPanel, Frame, Id, Margin, Order, Rect, Ui, vec2};
 
@@ -51,9 +53,25 @@ impl Shell {
             toasts::panel(ui, session, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
-        let Self { viewport, code, lab, kept, thumbnails, live, dock, .. } = self;
+        let Self { viewport, code, lab, kept, recorder, settings, thumbnails, live, dock, .. } = self;
+        let choices = &settings.settings().recorder;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            dock.show(ui, &mut Shown { viewport, code, lab, kept, thumbnails, live, under_picture, session, out });
+            dock.show(
+                ui,
+                &mut Shown {
+                    viewport,
+                    code,
+                    lab,
+                    kept,
+                    recorder,
+                    choices,
+                    thumbnails,
+                    live,
+                    under_picture,
+                    session,
+                    out,
+                },
+            );
         });
         // Who closes the panel is done with the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
@@ -124,6 +142,9 @@ struct Shown<'a> {
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
     kept: &'a mut OfProject,
+    recorder: &'a mut Recorder,
+    /// The recorder's choices of last time.
+    choices: &'a FilmForm,
     /// The place of the picture under the pointer, as the newest frame had it.
     under_picture: Option<[f32; 2]>,
     thumbnails: &'a mut Thumbnails,
@@ -134,7 +155,7 @@ struct Shown<'a> {
 
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
-        let Self { code, lab, kept, thumbnails, live, under_picture, session, out, .. } = self;
+        let Self { code, lab, kept, recorder, choices, thumbnails, live, under_picture, session, out, .. } = self;
         let margin = Margin { left: 8, right: 6, top: 2, bottom: 4 };
         match panel {
             Panel::Picture => return self.picture(ui),
@@ -150,6 +171,7 @@ impl Contents for Shown<'_> {
             Panel::Compare => within(ui, margin, |ui| compare::show(&mut kept.compare, ui, session, out)),
             Panel::Measurements => within(ui, margin, |ui| measures::show(&mut kept.measurements, ui, session, out)),
             Panel::Sound => within(ui, margin, |ui| sound::show(&mut kept.sound, ui, session, out)),
+            Panel::Recorder => within(ui, margin, |ui| recorder::show(recorder, ui, choices, session, out)),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }
         false

@@ -2,7 +2,10 @@
 
 use super::Shell;
 use crate::{
-    gui::{buffers, compare, costs, dock::Panel, error_map, halt, measures, probe, problems, report::Report, theme},
+    gui::{
+        buffers, compare, costs, dock::Panel, error_map, halt, measures, probe, problems, recorder, report::Report,
+        theme,
+    },
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -63,6 +66,7 @@ impl Shell {
                 "frames": replay.as_ref().map(|replay| replay.frames),
             }),
         );
+        report.say_if_new("film", recorder::report(session));
         report.say_if_new("halt", json!({ "kind": session.halt().map(halt::kind) }));
         let question =
             session.question().map(|q| format!("{q:?}").split([' ', '(']).next().unwrap_or_default().to_lowercase());

@@ -3,6 +3,10 @@
 //! Owns the text chunk of a PNG file that holds them, `iTXt` with the keyword `eddy`, compressed (PNG specification, third
 //! edition, section 11.3.3.4), and the attribute `eddy` of an OpenEXR file, a string: the same in base64. No path of the machine is in it. Files that channels read are named, not carried.
 
+mod source;
+
+pub use source::RunSource;
+
 use crate::{
     recording::{RecordedFrame, Recording, base64},
     run::Frame,

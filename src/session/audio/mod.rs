@@ -10,7 +10,7 @@ mod view;
 
 use marker::{MarkedHost, OpenedBefore, OutputMarker};
 use microphone::reads_it;
-pub use view::{ChannelSound, MicrophoneView, OutputView, sounds};
+pub use view::{MicrophoneView, OutputView};
 
 use crate::{
     Session,
@@ -20,7 +20,8 @@ use eddy_audio::{
     Desired, DeviceState, Line, Scene, Sound, Source, Spectrum, Track, host::AudioHost, microphone::Microphone,
     player::Player,
 };
-use eddy_project::{Input, InputKind, Project};
+use eddy_media::ChannelSound;
+use eddy_project::{InputKind, Project};
 use std::{
     path::Path,
     sync::Arc,

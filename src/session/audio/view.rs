@@ -1,32 +1,9 @@
 //! A front end shows these of what is heard and recorded.
 
-use super::{Audio, DeviceState, Input, InputKind, Project, Sound, Source};
+use super::{Audio, DeviceState, Sound, Source};
 use crate::Session;
-use eddy_media::MediaSet;
 use eddy_project::Media;
 use std::sync::Arc;
-
-/// The music of a channel.
-#[derive(Clone, Debug)]
-pub struct ChannelSound {
-    pub media: Media,
-    pub sound: Arc<Sound>,
-}
-
-/// Returns the music that the channels of a project name, each once.
-pub fn sounds(project: &Project, media: &MediaSet) -> Vec<ChannelSound> {
-    let mut found: Vec<ChannelSound> = Vec::new();
-    let channels = project.passes.iter().filter(|pass| pass.id.is_picture()).flat_map(|pass| &pass.channels);
-    for channel in channels.flatten() {
-        let Input::Media { kind: InputKind::Music, media: name } = &channel.input else { continue };
-        if let Some(sound) = media.sound(name)
-            && found.iter().all(|known| known.media != *name)
-        {
-            found.push(ChannelSound { media: name.clone(), sound: sound.clone() });
-        }
-    }
-    found
-}
 
 /// Shows what is heard.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! The compile worker reads a project's media and builds its program.
 
 use crate::{
-    audio::{ChannelSound, sounds},
     disk::stamps::{Stamp, Stamps},
     drawing::Device,
     options::SessionOptions,
@@ -12,7 +11,7 @@ use crate::{
 use eddy_background::Control;
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
-use eddy_media::{self as media, MediaSet};
+use eddy_media::{self as media, ChannelSound, MediaSet, sounds};
 use eddy_project::{self as project, Channel, Included, MeshSource, Normals, Pass, PassId, Project};
 use eddy_video::{Camera, Pace};
 use std::{

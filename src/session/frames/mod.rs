@@ -31,6 +31,7 @@ impl Session {
         self.take_audited();
         self.changed |= self.searching.background.poll() | self.comparing.background.poll();
         self.tick_sound();
+        self.tick_film();
         self.fit_canvas();
         self.keep_unsaved();
         self.hear();
@@ -107,8 +108,16 @@ impl Session {
         let is_next_due = is_next_due && !self.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
         let (drawing, sound) = (self.drawing_deadline(), self.sound_deadline());
-        let deadlines = [self.compile.edits.deadline(), self.disk.deadline(), drawing, sound, resumes];
-        let next = is_next_due.then_some(self.now).or(replayed);
+        let deadlines = [
+            self.compile.edits.deadline(),
+            self.disk.deadline(),
+            drawing,
+            sound,
+            resumes,
+            self.films.deadline(self.now),
+        ];
+        let due = self.films.due().map_or(self.now, |due| due.max(self.now));
+        let next = is_next_due.then_some(due).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 

@@ -92,6 +92,7 @@ impl Session {
 
     /// The device was lost, or the thread that draws has stumbled.
     pub(crate) fn engine_is_gone(&mut self, why: &str) {
+        self.film_lost_device();
         let is_again = self.halting.device_is_lost(self.now, self.compile.edited_at);
         if is_again {
             self.playback.clock.pause();
@@ -255,7 +256,8 @@ impl Session {
     /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
     /// process ends them.
     pub fn end(&mut self) -> bool {
-        let has_lost = !self.comparing.background.end(FAREWELL) | self.sounding.end(FAREWELL);
+        let has_lost =
+            !self.comparing.background.end(FAREWELL) | self.sounding.end(FAREWELL) | self.films.end(FAREWELL);
         !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0 || has_lost
     }
 }
@@ -265,6 +267,7 @@ impl Drop for Session {
     fn drop(&mut self) {
         self.comparing.background.end(FAREWELL);
         self.sounding.end(FAREWELL);
+        self.films.end(FAREWELL);
         if !self.drawing.rest(FAREWELL) {
             self.compile.leave();
             return;

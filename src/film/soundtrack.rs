@@ -1,62 +1,62 @@
 //! The sound of a film: the music of its channels and its sound pass, for exactly the time of its frames.
 
-use super::{
-    args::RunArgs,
-    machine::{Machine, Trouble, open_sound_of},
-    report::Report,
-};
-use crate::{
-    audio::{SAMPLE_RATE, Scene, Source, Track},
-    diag::{Diagnostic, Severity, SourceMap},
-    engine::{BLOCK_FRAMES, SOUND_FRAMES},
-    film::Rate,
-    media::MediaSet,
-    playback::script::ScriptedInputs,
-    project::{PassId, Project},
-    session,
-};
+use super::Rate;
+use eddy_audio::{SAMPLE_RATE, Scene, Source, Track};
+use eddy_engine::{BLOCK_FRAMES, SOUND_FRAMES};
+use eddy_media::{MediaSet, sounds};
+use eddy_playback::offline::{Offline, OfflineError};
+use eddy_project::{PassId, Project};
 use std::{ops::Range, sync::Arc};
 
-/// Returns the samples of `count` frames of a film from the time of `first` on; `None` where nothing is heard.
-pub fn make(
-    machine: &mut Machine,
-    report: &mut Report,
+/// Samples that are mixed at once: ten seconds.
+const PIECE: usize = 10 * SAMPLE_RATE as usize;
+
+/// Returns whether anything of a project can be heard.
+pub fn has_sound(project: &Project, media: &MediaSet) -> bool {
+    project.pass(&PassId::Sound).is_some() || !sounds(project, media).is_empty()
+}
+
+/// Returns the samples of a film; `None` where nothing is heard. `open` sets up the sound pass, if there is one, and
+/// `goes_on` is asked before each of its blocks and each part that is mixed.
+pub fn soundtrack<E: From<OfflineError>>(
     (project, media): (&Project, &MediaSet),
-    run: &RunArgs,
-    inputs: ScriptedInputs,
     film: &FilmTime,
-) -> Result<Option<Vec<[i16; 2]>>, Trouble> {
+    open: impl FnOnce() -> Result<Offline, E>,
+    mut goes_on: impl FnMut() -> Result<(), E>,
+) -> Result<Option<Vec<[i16; 2]>>, E> {
+    if !has_sound(project, media) {
+        return Ok(None);
+    }
     let mut sources: Vec<Source> = Vec::new();
-    for music in session::sounds(project, media) {
+    for music in sounds(project, media) {
         let source = Source::Loop(music.sound);
         if !sources.iter().any(|known| known.is(&source)) {
             sources.push(source);
         }
     }
-    let has_pass = project.pass(&PassId::Sound).is_some();
-    if sources.is_empty() && !has_pass {
-        return Ok(None);
-    }
-    if run.replay.is_some() {
-        let note = "the film has no sound, as the times of a recording are not evenly spaced";
-        report.diagnose(&[Diagnostic::new(Severity::Note, None, note)], &SourceMap::default(), None);
-        return Ok(None);
-    }
     let samples = film.samples();
     let fade = (film.fade_secs * f64::from(SAMPLE_RATE)).round() as u64;
-    if has_pass {
+    if project.pass(&PassId::Sound).is_some() {
         let track = Track::new(SOUND_FRAMES as usize, BLOCK_FRAMES as usize);
         let end = (samples.end + fade).min(u64::from(SOUND_FRAMES));
         if samples.start < end {
-            let mut offline = open_sound_of(machine, report, (project, media), run, inputs)?;
+            let mut offline = open()?;
             let block = |sample: u64| (sample / u64::from(BLOCK_FRAMES)) as u32;
             for number in block(samples.start)..=block(end - 1) {
+                goes_on()?;
                 track.write(number as usize, offline.draw_sound(number)?);
             }
         }
         sources.push(Source::Track(Arc::new(track)));
     }
-    Ok(Some(faded(Scene { sources }.mixed(samples.start, samples.end + fade), fade as usize)))
+    let scene = Scene { sources };
+    let mut mixed = Vec::new();
+    let end = samples.end + fade;
+    for start in (samples.start..end).step_by(PIECE) {
+        goes_on()?;
+        mixed.extend(scene.mixed(start, end.min(start + PIECE as u64)));
+    }
+    Ok(Some(faded(mixed, fade as usize)))
 }
 
 /// Mixes the last `fade` samples into the first ones.

@@ -1,19 +1,15 @@
-//! `--loop`: a film whose end goes over into its beginning.
+//! A film whose end goes over into its beginning.
 //!
 //! The first frames are faded with those that would follow the last one: the first frame is the one after the last, and at the end
 //! of the fade the film's own frames remain. A second engine draws the frames after the last one, so that none is kept.
 
-use super::{
-    args::RenderArgs,
-    machine::{Machine, Trouble, median, open_measured},
-    report::Report,
+use super::{Rate, shrunk};
+use eddy_engine::Pixels;
+use eddy_playback::{
+    median,
+    offline::{Offline, OfflineError},
 };
-use crate::{
-    diag::{Diagnostic, Severity, SourceMap},
-    engine::Pixels,
-    film::{Rate, shrunk},
-    playback::{offline::Offline, script::ScriptedInputs},
-};
+use eddy_project::PassId;
 
 /// The joint of a film, while its frames are drawn.
 pub struct Seam {
@@ -32,45 +28,53 @@ pub struct Seam {
     distances: Vec<f64>,
 }
 
+/// The picture of a run that a film shows.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    pub pass: PassId,
+    /// The target of a pass that has several, or the face of a cubemap.
+    pub layer: usize,
+    /// It is drawn so many times as wide and high.
+    pub factor: u32,
+}
+
+impl Shown {
+    /// Reads the newest frame's picture.
+    pub fn read(&self, offline: &mut Offline) -> Result<Pixels, OfflineError> {
+        let pixels = offline.read(&self.pass, self.layer)?;
+        Ok(if self.factor == 1 { pixels } else { shrunk(&pixels, self.factor) })
+    }
+}
+
 impl Seam {
-    /// Begins with no frame of a film of these frames, which are evenly spaced.
-    pub fn open(
-        machine: &mut Machine,
-        report: &Report,
-        args: &RenderArgs,
-        (secs, rate): (f64, Rate),
-        frames: &[u32],
-        inputs: &ScriptedInputs,
-    ) -> Result<Seam, Trouble> {
-        let count = frames.len() as u32;
+    /// Returns how many frames are faded. Err: the fade is longer than the film.
+    pub fn fade_frames(secs: f64, rate: Rate, count: u32) -> Result<u32, String> {
         let fade = (secs * rate.per_second()).round() as u32;
         if fade > count {
             let length = f64::from(count) / rate.per_second();
-            return Err(anyhow::anyhow!(
-                "--loop {secs}: the film is {length:.2} s long, and the fade cannot be longer"
-            )
-            .into());
+            return Err(format!("the film is {length:.2} s long, and the fade cannot be longer"));
         }
+        Ok(fade)
+    }
+
+    /// Begins with no frame of a film of these frames, which are evenly spaced. `open` sets up a second run of the project,
+    /// and `goes_on` is asked before each frame that comes before the film's end.
+    pub fn open<E: From<OfflineError>>(
+        fade: u32,
+        frames: &[u32],
+        open: impl FnOnce() -> Result<Offline, E>,
+        mut goes_on: impl FnMut() -> Result<(), E>,
+    ) -> Result<Seam, E> {
         let step = frames.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
         let mut seam =
             Seam { later: None, jumps: true, fade, step, done: 0, first: None, last: None, distances: Vec::new() };
         if fade > 0 {
-            // What there is to say of the project was said when it was opened first.
-            let mut quiet = Report::swept(&report.project, &report.sweep);
-            let wanted = (&args.pass.pass, &|_: &_| Vec::new() as Vec<_>);
-            let opened = open_measured(
-                machine,
-                &mut quiet,
-                &report.project,
-                &args.drawn(),
-                (wanted.0, wanted.1),
-                inputs.clone(),
-            );
-            let (_, offline, _) = opened?;
-            seam.jumps = !offline.has_state()?;
+            let offline = open()?;
+            seam.jumps = !offline.has_state().map_err(OfflineError::from)?;
             seam.later = Some(offline);
-            let before = u64::from(frames[0]) + u64::from(count) * u64::from(step);
+            let before = u64::from(frames[0]) + frames.len() as u64 * u64::from(step);
             for _ in 0..before {
+                goes_on()?;
                 seam.pass_over()?;
             }
         }
@@ -78,7 +82,7 @@ impl Seam {
     }
 
     /// Goes on by a frame of the run that is not shown.
-    fn pass_over(&mut self) -> Result<(), Trouble> {
+    fn pass_over(&mut self) -> Result<(), OfflineError> {
         let Some(later) = &mut self.later else { return Ok(()) };
         if self.jumps {
             later.skip()?;
@@ -89,14 +93,13 @@ impl Seam {
     }
 
     /// Returns the next frame of the film, of which `own` is the picture.
-    pub fn join(&mut self, own: Pixels, args: &RenderArgs) -> Result<Pixels, Trouble> {
+    pub fn join(&mut self, own: Pixels, shown: &Shown) -> Result<Pixels, OfflineError> {
         let mut frame = own;
         if self.done < self.fade
             && let Some(later) = &mut self.later
         {
             later.draw()?;
-            let next = later.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
-            let next = if args.factor() == 1 { next } else { shrunk(&next, args.factor()) };
+            let next = shown.read(later)?;
             let part = self.done as f32 / self.fade as f32;
             fade(&mut frame, &next, part);
             for _ in 1..self.step {
@@ -112,22 +115,22 @@ impl Seam {
         Ok(frame)
     }
 
-    /// Says how far the last frame is from the first one, now that all are there.
-    pub fn report(self, report: &mut Report) {
-        let (Some(first), Some(last), Some(usual)) = (self.first, self.last, median(self.distances)) else { return };
-        let seam = distance(&last, &first);
-        let (severity, verdict) = if seam > 2.0 * usual + 1.0 / 255.0 {
-            (Severity::Warning, "the film jumps where it begins again")
-        } else {
-            (Severity::Note, "the film has no visible seam")
+    /// Says how far the last frame is from the first one, now that all are there, and whether the film jumps there. `None`
+    /// for a film of one frame.
+    pub fn verdict(self) -> Option<(bool, String)> {
+        let (Some(first), Some(last), Some(usual)) = (self.first, self.last, median(self.distances)) else {
+            return None;
         };
+        let seam = distance(&last, &first);
+        let jumps = seam > 2.0 * usual + 1.0 / 255.0;
+        let verdict = if jumps { "the film jumps where it begins again" } else { "the film has no visible seam" };
         let what = format!(
             "{verdict}: its last frame is {:.2} of 255 from its first one, neighbours are {:.2} apart (means of all pixels, \
              median of all pairs)",
             seam * 255.0,
             usual * 255.0
         );
-        report.diagnose(&[Diagnostic::new(severity, None, what)], &SourceMap::default(), None);
+        Some((jumps, what))
     }
 }
 

@@ -1,0 +1,76 @@
+//! The writer of a run's pictures, whatever is made of them.
+
+use super::{Cancel, Encoding, Film, FilmError, Output, Shape, Stills};
+use eddy_engine::Pixels;
+use eddy_playback::scene::Scene;
+use eddy_texture::TexelFormat;
+use eddy_video::Tools;
+use std::{io::Write, path::PathBuf};
+
+/// Writes pictures one by one, or all of them into a film.
+pub enum Writer {
+    Stills(Stills),
+    Film(Film),
+}
+
+/// Says where a writer writes to.
+pub enum Destination {
+    /// Pictures go to the files that they are pushed with.
+    Pictures,
+    /// All bytes go to a pipe.
+    Pipe(Box<dyn Write + Send>),
+    /// A film goes to a file.
+    Film(Output),
+}
+
+impl Writer {
+    /// Begins to write pictures of `texels`. `sound` is that of a film.
+    pub fn start(
+        encoding: &Encoding,
+        shape: Shape,
+        texels: TexelFormat,
+        sound: Option<&[[i16; 2]]>,
+        to: Destination,
+        cancel: &Cancel,
+    ) -> Result<Writer, FilmError> {
+        let (film, output) = match (encoding, to) {
+            (Encoding::Still(still), to) => {
+                let pipe = match to {
+                    Destination::Pipe(pipe) => Some(pipe),
+                    Destination::Pictures | Destination::Film(_) => None,
+                };
+                return Ok(Writer::Stills(Stills::start(*still, texels, (shape.width, shape.height), pipe)?));
+            }
+            (Encoding::Film(film), Destination::Pipe(pipe)) => (film, Output::Pipe(pipe)),
+            (Encoding::Film(film), Destination::Film(output)) => (film, output),
+            (Encoding::Film(_), Destination::Pictures) => return Err(FilmError::NoFile),
+        };
+        Film::start_with(film, shape, sound, output, (&Tools::default(), cancel)).map(Writer::Film)
+    }
+
+    /// Writes a picture, and waits while too many are waiting. `path` and `scene` are for pictures that are files of their
+    /// own; without a path they go to the pipe.
+    pub fn push(&mut self, path: Option<PathBuf>, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
+        match (self, path) {
+            (Writer::Film(film), _) => film.push(pixels),
+            (Writer::Stills(stills), Some(path)) => stills.push(path, pixels, scene),
+            (Writer::Stills(stills), None) => stills.pipe(pixels),
+        }
+    }
+
+    /// Writes a picture to a file, or gives it back where too many are waiting.
+    pub fn try_push(&mut self, path: PathBuf, pixels: Pixels) -> Result<Option<Pixels>, FilmError> {
+        match self {
+            Writer::Film(film) => film.try_push(pixels),
+            Writer::Stills(stills) => stills.try_push(path, pixels),
+        }
+    }
+
+    /// Waits until everything is written.
+    pub fn finish(self) -> Result<(), FilmError> {
+        match self {
+            Writer::Stills(stills) => stills.finish(),
+            Writer::Film(film) => film.finish(),
+        }
+    }
+}

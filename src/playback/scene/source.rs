@@ -1,0 +1,43 @@
+//! Pictures of an offline run hold what they were drawn from.
+
+use super::{LONGEST, Scene, SceneInputs};
+use crate::{recording::Recording, script::ScriptedInputs};
+use eddy_project::{PassId, Project};
+
+/// Holds what the pictures of an offline run are drawn from.
+#[derive(Clone, Debug)]
+pub struct RunSource {
+    pub project: Project,
+    pub pass: PassId,
+    /// The device that draws.
+    pub device: String,
+    /// Frames depend on those before.
+    pub has_state: bool,
+    pub size: (u32, u32),
+    pub inputs: ScriptedInputs,
+}
+
+impl RunSource {
+    /// Returns the scene of the picture of a frame.
+    pub fn scene(&self, frame: u32) -> Scene {
+        let inputs = match (self.inputs.script(), self.inputs.recording()) {
+            (Some(script), _) => SceneInputs::Script(script),
+            (None, recording) => {
+                let end = frame as usize + 1;
+                let begin = if self.has_state && end <= LONGEST { 0 } else { end - 1 };
+                let project = self.project.name.clone();
+                let frames = recording.and_then(|recording| recording.frames.get(begin..end)).unwrap_or_default();
+                SceneInputs::Recording(Recording { project, frames: frames.to_vec() })
+            }
+        };
+        Scene {
+            eddy: env!("CARGO_PKG_VERSION").into(),
+            device: self.device.clone(),
+            pass: self.pass.clone(),
+            frame,
+            size: self.size,
+            project: self.project.clone(),
+            inputs,
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Films that leave the window: of what it draws while somebody plays, and of a range of frames that is drawn exactly.
+//!
+//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]), the thread that draws a range and
+//! completes files ([`work`]), and the files' places ([`target`]). One film is made at a time.
+
+mod form;
+mod live;
+mod order;
+mod target;
+mod words;
+mod work;
+
+pub use form::{CheckedForm, FilmFacts, FilmField, FilmForm, FilmPreset};
+pub use order::{FilmDone, FilmOrder, FilmPlace, FilmProgress, FilmStage, FilmView, LiveView};
+
+use super::{
+    Session,
+    canvas::CanvasSize,
+    command::{PendingAction, Question},
+    drawing::Tasks,
+    view::{About, Level},
+};
+use eddy_background::{Background, Status, Wake};
+use eddy_film::{Cancel, FilmError};
+use eddy_playback::capture;
+use eddy_video::Tools;
+use live::Live;
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+use target::Target;
+use work::{RangeJob, Work};
+
+/// The film that is made, and the newest one that was.
+pub(super) struct Films {
+    live: Option<Live>,
+    work: Background<Work, FilmProgress, FilmDone>,
+    /// Ends the encoder of the work.
+    cancel: Cancel,
+    /// Looks which encoders ffmpeg has.
+    tools: Background<(), (), Vec<String>>,
+    encoders: Option<Result<Vec<String>, String>>,
+    ended: Option<Ended>,
+    /// The window closes when the film is complete.
+    closes: bool,
+}
+
+enum Ended {
+    Done(FilmDone),
+    Failed(String),
+    Cancelled,
+}
+
+impl Films {
+    pub fn new(wake: &Wake) -> std::io::Result<Self> {
+        let look = |(), _: &_| Tools::default().encoders().map_err(|error| FilmError::from(error).to_string());
+        Ok(Self {
+            live: None,
+            work: Background::new("film", "the film", wake.clone(), work::work())?,
+            cancel: Cancel::default(),
+            tools: Background::new("encoders", "the look for encoders", wake.clone(), look)?,
+            encoders: None,
+            ended: None,
+            closes: false,
+        })
+    }
+
+    /// A film is not complete yet.
+    pub fn is_busy(&self) -> bool {
+        self.live.is_some() || self.work.is_under_way()
+    }
+
+    pub fn is_live(&self) -> bool {
+        self.live.is_some()
+    }
+
+    /// The next frame of the running picture may be drawn.
+    pub fn may_draw(&self, now: Instant) -> bool {
+        self.live.as_ref().is_none_or(|live| live.may_draw(now))
+    }
+
+    /// No frame waits for the encoder.
+    pub fn has_room(&self) -> bool {
+        self.live.as_ref().is_none_or(Live::has_room)
+    }
+
+    /// Returns when the next frame is due; `None`: as soon as it can be drawn.
+    pub fn due(&self) -> Option<Instant> {
+        self.live.as_ref()?.pace.due()
+    }
+
+    /// Returns when to look again.
+    pub fn deadline(&self, now: Instant) -> Option<Instant> {
+        self.live.as_ref()?.deadline(now)
+    }
+
+    /// The next frame is one of running time, or a step of it.
+    pub fn note_frame(&mut self, is_new: bool, now: Instant) {
+        if let Some(live) = &mut self.live {
+            live.note(is_new, now);
+        }
+    }
+
+    /// Cancels everything, and waits for the end, but not for long. Returns whether the thread does not come back.
+    pub fn end(&mut self, patience: Duration) -> bool {
+        self.cancel.cancel();
+        self.live = None;
+        self.tools.leave();
+        !self.work.end(patience)
+    }
+}
+
+impl Session {
+    /// Returns the film that is made, or the newest one that was; `None` where there was none.
+    pub fn film(&self) -> Option<FilmView<'_>> {
+        let films = &self.films;
+        if let Some(live) = &films.live {
+            let frames = live.frames();
+            return Some(FilmView::Live(LiveView {
+                frames,
+                secs: f64::from(frames) / live.order.rate.per_second(),
+                speed: live.pace.speed(),
+                waits: !live.has_room(),
+                is_paused: !self.playback.is_running(),
+            }));
+        }
+        if let Some(Status::UnderWay(progress)) = films.work.status() {
+            return Some(FilmView::UnderWay(progress));
+        }
+        Some(match films.ended.as_ref()? {
+            Ended::Done(done) => FilmView::Done(done),
+            Ended::Failed(why) => FilmView::Failed(why),
+            Ended::Cancelled => FilmView::Cancelled,
+        })
+    }
+
+    /// The window closes when the film is complete.
+    pub fn closes_after_film(&self) -> bool {
+        self.films.closes
+    }
+
+    /// Returns what the choices for a film are checked against.
+    pub fn film_facts(&self) -> FilmFacts {
+        FilmFacts {
+            shown: self.drawing.size(),
+            most_side: self.gpu().device.limits().max_texture_dimension_2d,
+            folder: capture::folder_for(self.project(), &self.options.pictures),
+            encoders: self.films.encoders.clone(),
+        }
+    }
+
+    /// The encoders of ffmpeg are being looked for.
+    pub fn looks_for_encoders(&self) -> bool {
+        self.films.tools.is_busy()
+    }
+
+    pub(super) fn find_encoders(&mut self) {
+        if !self.films.tools.is_busy() {
+            self.films.tools.start(());
+        }
+    }
+
+    /// Begins a film.
+    pub(super) fn begin_film(&mut self, order: FilmOrder) {
+        self.settled(About::Film);
+        if self.films.is_busy() {
+            return self.notice_about(About::Film, Level::Warning, "a film is being made: stop or cancel it first");
+        }
+        match self.film_target(&order) {
+            Err(why) => self.notice_about(About::Film, Level::Error, why),
+            Ok(target) if order.frames.is_some() => self.draw_range(order, target),
+            Ok(target) => self.record_film(order, target),
+        }
+    }
+
+    fn film_target(&self, order: &FilmOrder) -> Result<Target, String> {
+        let project = self.project();
+        let stem = capture::stem_for(project, &self.picture.shown);
+        match &order.place {
+            FilmPlace::Numbered => {
+                Target::numbered(&capture::folder_for(project, &self.options.pictures), &stem, order.format)
+            }
+            FilmPlace::Named { path, replaces } => Ok(Target::named(path.clone(), &stem, order.format, *replaces)),
+        }
+    }
+
+    /// Draws a range of the project as it is now, beside the picture.
+    fn draw_range(&mut self, order: FilmOrder, target: Target) {
+        if self.halting.is_held() {
+            let text = "nothing of this project is drawn before you play it: play it, then render it";
+            return self.notice_about(About::Film, Level::Warning, text);
+        }
+        let gpu = match self.drawing.device().wait() {
+            Ok(gpu) => gpu,
+            Err(error) => return self.notice_about(About::Film, Level::Error, error.to_string()),
+        };
+        self.settle_includes();
+        let media_dir = self.options.media_dir.clone();
+        self.films.cancel = Cancel::default();
+        self.films.ended = None;
+        self.films.work.start(Work::Range(Box::new(RangeJob {
+            gpu,
+            project: self.documents.current().clone(),
+            pass: self.picture.shown.clone(),
+            trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
+            media_dir,
+            with_project: self.watched.captures.with_project,
+            order,
+            target,
+            cancel: self.films.cancel.clone(),
+        })));
+    }
+
+    /// Begins to record what is drawn, at the film's size and rate.
+    fn record_film(&mut self, order: FilmOrder, target: Target) {
+        self.end_replay("a film is recorded");
+        let before = (self.canvas.asked, self.playback.clock.fixed_rate());
+        if order.size != self.drawing.size() || self.canvas.asked.fixed.is_none() {
+            self.ask_size(CanvasSize { fixed: Some(order.size), ..self.canvas.asked });
+        }
+        self.playback.clock.set_fixed_rate(Some(order.fps));
+        self.films.ended = None;
+        self.films.live = Some(Live::new(order, target, before));
+        self.play();
+    }
+
+    /// Ends a recording, whose film is completed.
+    pub(super) fn stop_film(&mut self) {
+        let Some(live) = self.end_live() else { return };
+        if live.frames() == 0 {
+            self.films.ended = Some(Ended::Failed("no frame was drawn while it was recorded".into()));
+            return;
+        }
+        self.films.cancel = live.cancel.clone();
+        self.films.work.start(Work::Finish(Box::new(live.finish())));
+    }
+
+    /// Takes the recording away, and gives the picture back its size and its time.
+    fn end_live(&mut self) -> Option<Live> {
+        let live = self.films.live.take()?;
+        let (size, rate) = live.before;
+        // A person may have chosen others meanwhile.
+        if self.canvas.asked.fixed == Some(live.order.size) {
+            self.ask_size(size);
+        }
+        if self.playback.clock.fixed_rate() == Some(live.order.fps) {
+            self.playback.clock.set_fixed_rate(rate);
+        }
+        self.changed = true;
+        Some(live)
+    }
+
+    /// Ends whatever film is made, and leaves nothing of it.
+    pub(super) fn cancel_film(&mut self) {
+        self.films.closes = false;
+        if !self.films.is_busy() {
+            return;
+        }
+        self.films.cancel.cancel();
+        self.films.work.cancel();
+        if let Some(live) = self.end_live() {
+            live.cancel.cancel();
+            self.films.work.start(Work::Discard(Box::new(live.finish())));
+            self.films.work.cancel();
+        }
+        self.films.ended = Some(Ended::Cancelled);
+    }
+
+    /// Ends a recording whose frames do not come any more. What is there is completed.
+    pub(super) fn cut_film(&mut self, why: &str) {
+        if self.films.is_live() {
+            self.notice_about(About::Film, Level::Warning, format!("the film ends here: {why}"));
+            self.stop_film();
+        }
+    }
+
+    /// The device that drew is gone, and with it a frame that was to come.
+    pub(super) fn film_lost_device(&mut self) {
+        if self.films.live.as_mut().is_some_and(Live::lose_frame) {
+            self.cut_film("the GPU did not give back a frame");
+        }
+    }
+
+    /// Adds the read-back of a frame that belongs to a film.
+    pub(super) fn request_film_frame(&mut self, tasks: &mut Tasks) {
+        let pass = self.pictured();
+        if let Some(live) = &mut self.films.live {
+            live.request(pass, tasks);
+        }
+    }
+
+    /// Hands frames that were read to the encoder.
+    pub(super) fn feed_film(&mut self) {
+        let is_running = self.playback.is_running();
+        let Some(live) = &mut self.films.live else { return };
+        if !is_running {
+            live.pace.rest();
+        }
+        let before = live.frames();
+        let fed = live.feed();
+        self.changed |= self.films.live.as_ref().is_some_and(|live| live.frames() != before);
+        if let Err(why) = fed {
+            match self.films.live.as_ref().map_or(0, Live::frames) {
+                0 => {
+                    self.cancel_film();
+                    self.film_failed(why);
+                }
+                _ => self.cut_film(&why),
+            }
+        }
+    }
+
+    fn film_failed(&mut self, why: String) {
+        self.notice_about(About::Film, Level::Error, format!("no film was written: {why}"));
+        self.films.ended = Some(Ended::Failed(why));
+    }
+
+    /// Takes what the threads have done.
+    pub(super) fn tick_film(&mut self) {
+        self.feed_film();
+        if let Some(found) = self.films.tools.take() {
+            self.films.encoders = Some(found);
+            self.changed = true;
+        }
+        self.changed |= self.films.work.poll();
+        let Some(result) = self.films.work.take() else { return };
+        self.changed = true;
+        let closes = std::mem::take(&mut self.films.closes);
+        match result {
+            Ok(done) => {
+                let frames = if done.frames == 1 { "1 frame".to_owned() } else { format!("{} frames", done.frames) };
+                let text = format!("saved {}: {frames}, {:.2} s", done.path.display(), done.secs);
+                self.notice_with_path(About::Film, Level::Info, text, done.path.clone());
+                self.films.ended = Some(Ended::Done(done));
+                if closes {
+                    self.unless_unsaved(PendingAction::Close);
+                }
+            }
+            Err(why) => self.film_failed(why),
+        }
+    }
+
+    /// Puts the question what becomes of a film that is not complete. Returns whether there is one.
+    pub(super) fn asks_about_film(&mut self) -> bool {
+        let is_busy = self.films.is_busy();
+        if is_busy {
+            self.ask(Question::Film { is_live: self.films.is_live() });
+        }
+        is_busy
+    }
+
+    /// Closes the window when the film is complete.
+    pub(super) fn close_after_film(&mut self) {
+        self.stop_film();
+        if self.films.is_busy() {
+            self.films.closes = true;
+        } else {
+            self.unless_unsaved(PendingAction::Close);
+        }
+    }
+}
