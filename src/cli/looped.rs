@@ -7,11 +7,12 @@ use super::{
     args::RenderArgs,
     machine::{Machine, Trouble, median, open_measured},
     report::Report,
+    tiles,
 };
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::Pixels,
-    film::{Rate, shrunk},
+    film::Rate,
     playback::{offline::Offline, script::ScriptedInputs},
 };
 
@@ -95,8 +96,7 @@ impl Seam {
             && let Some(later) = &mut self.later
         {
             later.draw()?;
-            let next = later.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
-            let next = if args.factor() == 1 { next } else { shrunk(&next, args.factor()) };
+            let next = tiles::whole(later, args, None)?;
             let part = self.done as f32 / self.fade as f32;
             fade(&mut frame, &next, part);
             for _ in 1..self.step {

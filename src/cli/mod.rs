@@ -16,6 +16,7 @@ mod library;
 mod looped;
 mod machine;
 mod measured;
+mod memory;
 mod nonfinite;
 mod plan;
 mod precision;
@@ -32,6 +33,7 @@ mod stability;
 mod sweep;
 mod targets;
 mod text_place;
+mod tiles;
 mod trace;
 
 use crate::playback::trial;

@@ -4,16 +4,17 @@ use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
     looped::Seam,
-    machine::{Machine, Trouble, median, open_measured},
+    machine::{Machine, Trouble, median, millis_since, open_measured},
     measured::{self, Measured, Measures},
     progress::CallProgress,
     report::{Printer, Report},
     soundtrack::{self, FilmTime},
     targets::Targets,
+    tiles,
 };
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
-    engine::Pixels,
+    engine::{FrameInputs, Pixels},
     film::{Encoding, Film, FilmError, Mean, Output, Shape, Still, Stills, shrunk},
     media::MediaSet,
     playback::{
@@ -26,7 +27,7 @@ use crate::{
     video::Tools,
 };
 use serde::Serialize;
-use std::{io, path::PathBuf};
+use std::{io, path::PathBuf, time::Instant};
 
 /// The report, and what was measured.
 #[derive(Serialize)]
@@ -175,14 +176,24 @@ impl Job<'_> {
                 continue;
             }
             let layer = args.face.unwrap_or(picture.target);
-            let drawn = match args.shutter.filter(|_| is_wanted && targets.writes()) {
-                None => offline.draw()?,
-                Some(shutter) => offline.draw_parts(args.samples, shutter / args.run.fps, |offline| {
-                    mean.add(&offline.read(&picture.pass, layer)?);
-                    Ok::<_, OfflineError>(())
-                })?,
+            // The inputs of a frame whose parts are drawn for each strip of its picture.
+            let mut parts = None;
+            let took = match args.shutter.filter(|_| is_wanted && targets.writes()) {
+                None => offline.draw()?.millis,
+                Some(shutter) => {
+                    let inputs = offline.next_inputs()?;
+                    let secs = shutter / args.run.fps;
+                    let drawn = offline.draw_parts_of(&inputs, args.samples, secs, |offline| {
+                        if offline.tiling().is_none() {
+                            mean.add(&offline.read(&picture.pass, layer)?);
+                        }
+                        Ok::<_, OfflineError>(())
+                    })?;
+                    parts = Some(inputs).filter(|_| offline.tiling().is_some());
+                    drawn.millis
+                }
             };
-            millis.push(drawn.millis);
+            millis.push(took);
             report.frames += 1;
             progress.step();
             if let Some(checkpoints) = &checkpoints {
@@ -193,13 +204,34 @@ impl Job<'_> {
             }
             measures.take(&project, &mut offline, frame, report)?;
             if missing.binary_search(&frame).is_err() || !targets.writes() {
+                if !targets.writes() && checkpoints.is_none() && offline.tiling().is_some() {
+                    let began = Instant::now();
+                    tiles::draw_all(&mut offline)?;
+                    add_to_last(&mut millis, began);
+                }
+                continue;
+            }
+            let began = Instant::now();
+            if let (Encoding::Still(still), Some(_)) = (&targets.encoding, offline.tiling()) {
+                let scene = source.as_ref().map(|source| source.scene(frame));
+                match self.write_strips(report, &mut offline, parts.as_ref(), (*still, frame, scene)) {
+                    Ok(path) => written.extend(path),
+                    Err(error) if is_closed(&error) => return Ok(Drawn::default()),
+                    Err(error) => return Err(error),
+                }
+                add_to_last(&mut millis, began);
                 continue;
             }
             let pixels = match args.shutter {
-                None => offline.read(&picture.pass, layer)?,
-                Some(_) => mean.take(),
+                Some(_) if parts.is_none() => {
+                    let pixels = mean.take();
+                    if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) }
+                }
+                _ => tiles::whole(&mut offline, args, parts.as_ref())?,
             };
-            let pixels = if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) };
+            if offline.tiling().is_some() {
+                add_to_last(&mut millis, began);
+            }
             let pixels = match &mut seam {
                 Some(seam) => seam.join(pixels, args)?,
                 None => pixels,
@@ -209,10 +241,7 @@ impl Job<'_> {
                 writer = self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?;
             }
             match self.write(&mut writer, report, (frame, source.as_ref()), pixels, &mut written) {
-                // Whoever reads standard output has seen enough.
-                Err(Trouble::Other(error)) if matches!(error.downcast_ref(), Some(FilmError::Closed)) => {
-                    return Ok(Drawn::default());
-                }
+                Err(error) if is_closed(&error) => return Ok(Drawn::default()),
                 other => other?,
             }
         }
@@ -316,6 +345,26 @@ impl Job<'_> {
         Ok(Writer::Film(Film::start(film, shape, sound.as_deref(), output, &Tools::default()).map_err(failed)?))
     }
 
+    /// Draws a picture in tiles and writes it meanwhile. Returns its file.
+    fn write_strips(
+        &self,
+        report: &Report,
+        offline: &mut Offline,
+        parts: Option<&FrameInputs>,
+        (still, frame, scene): (Still, u32, Option<Scene>),
+    ) -> Result<Option<PathBuf>, Trouble> {
+        let path = self.targets.path(self.index, &report.sweep, frame);
+        let output = match &path {
+            None => Output::Pipe(Box::new(io::stdout())),
+            Some(path) => {
+                self.targets.check(path)?;
+                Output::File(path.clone())
+            }
+        };
+        tiles::write(offline, self.args, parts, still, output, scene)?;
+        Ok(path)
+    }
+
     fn write(
         &self,
         writer: &mut Writer,
@@ -336,6 +385,18 @@ impl Job<'_> {
         }
         written.extend(path.filter(|path| written.last() != Some(path)));
         Ok(())
+    }
+}
+
+/// Whoever reads standard output has seen enough.
+fn is_closed(error: &Trouble) -> bool {
+    matches!(error, Trouble::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
+}
+
+/// Adds the time since a moment to that of the newest frame.
+fn add_to_last(millis: &mut [f64], began: Instant) {
+    if let Some(last) = millis.last_mut() {
+        *last += millis_since(began);
     }
 }
 

@@ -21,4 +21,5 @@ pub mod run;
 pub mod scene;
 pub mod script;
 pub mod shard;
+pub mod tiles;
 pub mod trial;

@@ -95,6 +95,7 @@ mod sound_devices;
 #[cfg(all(feature = "audio", target_os = "linux"))]
 mod sound_server;
 mod thumbnails;
+mod tiles;
 mod time_travel;
 mod uniform_values;
 mod uniforms;

@@ -1,5 +1,6 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
+use crate::cli::tiles::Tiles;
 use super::values::{fps, recording, seconds, size, webcam};
 use crate::{
     glsl::opt::PassSet,
@@ -58,6 +59,9 @@ pub struct RunArgs {
     pub compile_timeout: Option<Duration>,
     #[command(flatten)]
     pub without_pass: WithoutPass,
+    /// Not an option: `eddy render` sets it.
+    #[arg(skip)]
+    pub tiles: Tiles,
 }
 
 impl RunArgs {
