@@ -37,7 +37,7 @@ pub struct BuildOptions {
     /// Compiles large programs elsewhere first, where the driver compiles on the processor. A program whose value is
     /// probed is not tried.
     pub trial: Option<Trial>,
-    /// The width and height, both even, of the target that the first wanted pass is drawn into tile by tile, by
+    /// The width and height, multiples of 4, of the target that the first wanted pass is drawn into tile by tile, by
     /// [`Engine::draw_tile`](super::Engine::draw_tile); `None`: its target is as large as its picture.
     pub tile: Option<(u32, u32)>,
 }

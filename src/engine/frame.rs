@@ -163,8 +163,8 @@ impl Running {
         self.uniforms.write(gpu);
         let (mut y, width) = (0, size.0);
         while y < size.1 {
-            // Of whole quads.
-            let height = rows().max(1).next_multiple_of(2).min(size.1 - y);
+            // Of whole blocks of the pixels that a device shades together.
+            let height = rows().max(1).next_multiple_of(4).min(size.1 - y);
             let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a tile") };
             let mut encoder = gpu.device.create_command_encoder(&descriptor);
             self.encode(shared, &mut encoder, tiled.draw, Some(Region { x: 0, y, width, height }));

@@ -145,7 +145,8 @@ impl Engine {
     }
 
     /// Draws and reads a tile of the pass that is drawn in tiles ([`BuildOptions::tile`](super::BuildOptions::tile)), of the
-    /// newest frame: the pixels from `x`, `y` on, both even. A tile that does not lie in the picture is cut. Before each
+    /// newest frame: the pixels from `x`, `y` on, which are multiples of 4, so that the
+    /// pixels that a device shades together are those of one piece. A tile that does not lie in the picture is cut. Before each
     /// part of it, `rows` says how many rows are drawn at once. Waits for the device.
     pub fn draw_tile(&mut self, (x, y): (u32, u32), rows: &mut dyn FnMut() -> u32) -> Result<Pixels, EngineError> {
         let none = || EngineError::NoSuchPass("in tiles".into());

@@ -192,8 +192,8 @@ impl Offline {
         })
     }
 
-    /// Draws the next frame `parts` times, at times that begin with its own and are spread evenly over `secs`, and hands each
-    /// to `each`. Of a project with a state, each part counts as a frame.
+    /// Draws the next frame `parts` times, in the middles of as many parts of `secs`, which begin at its own time, and hands each
+    /// to `each`. So the mean of what moves evenly is where it is in the middle of that time: see the study `shutter`. Of a project with a state, each part counts as a frame.
     pub fn draw_parts<E: From<OfflineError>>(
         &mut self,
         parts: u32,
@@ -215,7 +215,7 @@ impl Offline {
         let number = inputs.frame;
         let (mut stats, mut cpu_millis, mut millis) = (FrameStats::default(), 0.0, 0.0);
         for part in 0..parts.max(1) {
-            let late = secs * f64::from(part) / f64::from(parts.max(1));
+            let late = secs * (f64::from(part) + 0.5) / f64::from(parts.max(1));
             let mut inputs = inputs.clone();
             inputs.time_secs += late;
             inputs.date[3] += late as f32;

@@ -12,6 +12,10 @@ use std::{
 /// Pixels across and up of a tile, where nobody asks for others.
 const TILE: u32 = 2048;
 
+/// Edges of tiles have places that are multiples of this. Derivatives are taken in quads of 2x2 pixels, and Mesa's llvmpipe
+/// shades blocks of 4x4, whose quads share mip levels of cubemaps.
+const GRAIN: u32 = 4;
+
 /// Bytes of a texel as it is read.
 const TEXEL_BYTES: u64 = 16;
 
@@ -21,24 +25,25 @@ const DRAW: Duration = Duration::from_millis(100);
 /// Rows of a first draw.
 const FIRST_ROWS: u32 = 64;
 
-/// The tiles and strips of a picture. Every edge has an even place, so that the quads of 2x2 pixels that derivatives are
-/// taken in are those of the whole picture.
+/// The tiles and strips of a picture. The blocks of pixels that a device shades together are those of the whole picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiling {
-    /// Pixels along each side of a tile, even.
+    /// Pixels along each side of a tile.
     side: u32,
     /// Rows of a strip are a multiple of this.
     unit: u32,
 }
 
 impl Tiling {
-    /// `side`: pixels along each side of a tile; odd ones are rounded up. No tile has more than `limit`, as no texture of
-    /// the device has. Strips consist of whole blocks of `factor` rows.
+    /// `side`: pixels along each side of a tile, rounded up to a multiple of 4. No tile has more than `limit`, as no texture
+    /// of the device has. Strips consist of whole blocks of `factor` rows.
     pub fn new(side: Option<u32>, limit: u32, factor: u32) -> Tiling {
-        let most = (limit / 2 * 2).max(2);
-        let side = side.unwrap_or(TILE).clamp(2, most).next_multiple_of(2).min(most);
+        let most = (limit / GRAIN * GRAIN).max(GRAIN);
+        let side = side.unwrap_or(TILE).clamp(GRAIN, most).next_multiple_of(GRAIN).min(most);
         let factor = factor.max(1);
-        Tiling { side, unit: if factor.is_multiple_of(2) { factor } else { factor * 2 } }
+        // The least common multiple.
+        let times = (1..).find(|n| (factor * n).is_multiple_of(GRAIN)).unwrap_or(GRAIN);
+        Tiling { side, unit: factor * times }
     }
 
     /// Returns the size of the largest tile of a picture of this width.
@@ -91,7 +96,7 @@ impl Pace {
         if time < DRAW / 2 {
             self.rows = (self.rows * 2).min(1 << 20);
         } else if time > 2 * DRAW {
-            self.rows = (self.rows / 2).max(2);
+            self.rows = (self.rows / 2).max(GRAIN);
         }
     }
 
@@ -138,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_are_of_whole_quads_and_blocks_and_no_larger_than_they_may_be() {
+    fn strips_are_of_whole_blocks_and_no_larger_than_they_may_be() {
         for (side, factor, size) in [
             (None, 1, (16_384, 16_384)),
             (Some(7), 3, (101, 99)),
@@ -148,14 +153,14 @@ mod tests {
         ] {
             let tiling = Tiling::new(side, 16_384, factor);
             let (width, height) = tiling.tile(size.0);
-            assert!(width.is_multiple_of(2) && height.is_multiple_of(2) && width > 0 && height > 0, "{tiling:?}");
+            assert!(width.is_multiple_of(4) && height.is_multiple_of(4) && width > 0 && height > 0, "{tiling:?}");
             let strips = tiling.strips(size, false);
             assert_eq!((strips[0].start, strips[strips.len() - 1].end), (0, size.1));
             assert!(strips.windows(2).all(|pair| pair[0].end == pair[1].start));
             for strip in &strips {
-                assert!(strip.start.is_multiple_of(2) && strip.start.is_multiple_of(factor), "{strip:?} of {tiling:?}");
+                assert!(strip.start.is_multiple_of(4) && strip.start.is_multiple_of(factor), "{strip:?} of {tiling:?}");
                 let bytes = strip.len() as u64 * u64::from(size.0) * TEXEL_BYTES;
-                assert!(bytes <= STRIP_BYTES || strip.len() as u32 <= 2 * factor, "{strip:?} of {tiling:?}");
+                assert!(bytes <= STRIP_BYTES || strip.len() as u32 <= 4 * factor, "{strip:?} of {tiling:?}");
             }
             let reversed = tiling.strips(size, true);
             assert!(reversed.iter().eq(strips.iter().rev()));
@@ -165,7 +170,7 @@ mod tests {
     #[test]
     fn tiles_are_as_large_as_asked_for_and_as_the_device_has_them() {
         assert_eq!(Tiling::new(Some(7), 16_384, 1).tile(100), (8, 8));
-        assert_eq!(Tiling::new(Some(7), 5, 1).tile(100), (4, 4));
+        assert_eq!(Tiling::new(Some(9), 5, 1).tile(100), (4, 4));
         assert_eq!(Tiling::new(None, 16_384, 1).tile(16_384), (2048, 256));
     }
 
@@ -177,6 +182,6 @@ mod tests {
         pace.took(DRAW);
         assert_eq!(pace.rows, 2 * FIRST_ROWS);
         (0..20).for_each(|_| pace.took(Duration::from_secs(9)));
-        assert_eq!(pace.rows, 2);
+        assert_eq!(pace.rows, GRAIN);
     }
 }

@@ -59,7 +59,7 @@ pub struct RenderArgs {
     /// larger picture
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=8), conflicts_with = "replay")]
     pub supersample: Option<u32>,
-    /// Draw the picture in tiles of SIZE pixels along each side, an even number, one after the other: for drivers that stop
+    /// Draw the picture in tiles of SIZE pixels along each side, a multiple of 4, one after the other: for drivers that stop
     /// long draws. Pictures of more than 33 megapixels are drawn in tiles anyway [default: 2048, or as memory allows]
     #[arg(long, value_name = "SIZE", value_parser = tile, conflicts_with = "no_skip")]
     pub tile: Option<u32>,

@@ -63,8 +63,8 @@ pub fn shutter(text: &str) -> Result<f64, String> {
 }
 
 pub fn tile(text: &str) -> Result<u32, String> {
-    let side = text.parse().ok().filter(|side: &u32| *side > 0 && side.is_multiple_of(2));
-    side.ok_or_else(|| "a tile has an even number of pixels along each side, as in 1024".into())
+    let side = text.parse().ok().filter(|side: &u32| *side > 0 && side.is_multiple_of(4));
+    side.ok_or_else(|| "the side of a tile is a multiple of 4 pixels, as in 1024".into())
 }
 
 pub fn shard(text: &str) -> Result<Shard, String> {

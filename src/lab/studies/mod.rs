@@ -22,7 +22,9 @@ pub mod poisson;
 mod precision;
 mod saw;
 mod silhouettes;
+pub mod shutter;
 pub mod ssr;
+pub mod supersampling;
 pub mod taa;
 pub mod torus;
 pub mod waves;
@@ -44,6 +46,8 @@ pub fn all() -> Vec<&'static Study> {
         &cavity::STUDY,
         &blur::STUDY,
         &bloom::STUDY,
+        &supersampling::STUDY,
+        &shutter::STUDY,
         &taa::STUDY,
         &ao::STUDY,
         &ssr::STUDY,
