@@ -23,7 +23,7 @@ use std::ops::Range;
 pub enum Tiles {
     #[default]
     Never,
-    /// Where its picture is too large to be drawn in one piece, or would take too much memory. Strips have whole blocks of
+    /// In tiles if its picture is too large to be drawn in one piece, or would take too much memory. Strips have whole blocks of
     /// this many rows.
     Large(u32),
     /// Always, with so many pixels along each side of a tile.

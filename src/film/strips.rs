@@ -29,7 +29,7 @@ pub struct StripWriter {
     queue: Queue<Pixels>,
 }
 
-/// What a picture is besides its texels.
+/// A picture besides its texels.
 struct Picture {
     still: Still,
     /// The format of the texels that are read.

@@ -25,13 +25,13 @@ pub fn setup(method: &str, parts: u32, n: u32) -> Setup {
     Setup::new("shutter", (n, n)).define("METHOD", name).define("PARTS", parts).restless()
 }
 
-/// What a method errs by.
+/// The errors of a method.
 #[derive(Clone, Debug)]
 pub struct Errors {
     pub norms: Norms,
     /// The root mean squares in the pictures of a disc, a bar, a soft spot and a spark.
     pub rms: [f64; 4],
-    /// How far the soft spot's trail is from where it should be, along its way, in pixels.
+    /// The distance of the soft spot's trail from where it should be, along its way, in pixels.
     pub shift: f64,
     /// The part of the spark's way, of the pixels that are lit for at least half as long as the most, that stays dark.
     pub gaps: f64,

@@ -39,13 +39,13 @@ pub(super) fn rms(values: &[f64], truth: &[f64]) -> f64 {
     (values.iter().zip(truth).map(|(v, t)| (v - t) * (v - t)).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// What a method errs by, of white over black.
+/// The errors of a method, of white over black.
 #[derive(Clone, Debug)]
 pub struct Errors {
     pub norms: Norms,
     /// The root mean squares in the pictures of edges, lines, the chessboard and the zone plate.
     pub rms: [f64; 4],
-    /// How much more light the thin lines have than they should, as a part of theirs.
+    /// The light that the thin lines have more than they should, as a part of theirs.
     pub lines_gain: f64,
     /// The largest error at the edges of squares.
     pub worst_edge: f64,
