@@ -307,7 +307,14 @@ fn build(
 ) -> Result<(), Trouble> {
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
-    let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe, trial, tile: offline.tile() };
+    let options = BuildOptions {
+        wanted,
+        skip: !run.no_skip,
+        without: run.without_pass.set(),
+        probe,
+        trial,
+        tile: offline.tile(),
+    };
     let (diagnostics, sources) = match offline.build(project, media, &options) {
         Err(BuildError::Diagnostics { diagnostics, sources }) => {
             report.diagnose(&diagnostics, &sources, Some(project));

@@ -78,7 +78,9 @@ pub fn way(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<Way, Trouble> 
         return refused("a picture in tiles cannot be measured; remove its --probe, --assert and //@probe comments");
     }
     if sides.0.max(sides.1) > TILED_SIDE {
-        return Err(anyhow::anyhow!("--size: a picture has at most {TILED_SIDE} pixels across or up").into());
+        let what =
+            format!("a picture of {}x{} pixels: it can have at most {TILED_SIDE} across or up", sides.0, sides.1);
+        return Err(anyhow::anyhow!(what).into());
     }
     let tiling = Tiling::new(side, limit, factor);
     Ok(if side.is_none() && !is_too_large { Way::Rather(tiling) } else { Way::Tiled(tiling) })

@@ -247,13 +247,7 @@ impl Running {
     }
 
     /// Encodes one draw, of all texels or of some; of a cube all faces.
-    fn encode(
-        &mut self,
-        shared: &Shared,
-        encoder: &mut wgpu::CommandEncoder,
-        index: usize,
-        part: Option<Region>,
-    ) {
+    fn encode(&mut self, shared: &Shared, encoder: &mut wgpu::CommandEncoder, index: usize, part: Option<Region>) {
         for layer in 0..self.program.plan.layers(index) {
             self.encode_layer(shared, encoder, (index, layer), part);
         }

@@ -3,7 +3,11 @@
 //! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
 //! the same.
 
-use crate::{recording::Change, script::ScriptedInputs, tiles::{Pace, Tiling}};
+use crate::{
+    recording::Change,
+    script::ScriptedInputs,
+    tiles::{Pace, Tiling},
+};
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
     BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,

@@ -35,8 +35,7 @@ fn a_supersampled_picture_is_the_one_that_is_measured() {
         let size = 64 * side;
         let small = shrunk(&Pixels { width: size, height: size, texels }, side);
         let measured = rig.after(&supersampling::setup("grid", side, 64, 1), 1, "field").unwrap();
-        let apart: Vec<f32> =
-            small.texels.iter().zip(measured.texels()).map(|(a, b)| (a[0] - b[0]).abs()).collect();
+        let apart: Vec<f32> = small.texels.iter().zip(measured.texels()).map(|(a, b)| (a[0] - b[0]).abs()).collect();
         // Other roundings of a place move a sample over an edge here and there.
         let off = apart.iter().filter(|apart| **apart > 1e-4).count();
         assert!(off < apart.len() / 200, "{side}: {off} of {} pixels", apart.len());

@@ -46,7 +46,9 @@ fn places_derivatives_and_mip_levels_are_those_of_one_piece() {
 fn presets_in_tiles_are_those_in_one_piece() {
     let Some(b) = Bench::with_gpu() else { return };
     // Derivatives and mip levels in Image, buffers of a size of their own, states, cubemaps, meshes in buffers.
-    for name in ["sky-spheres", "mip-fluid", "feedback", "bloom-sized", "gaussian-blur", "toon-outline", "ssao", "nocturne"] {
+    for name in
+        ["sky-spheres", "mip-fluid", "feedback", "bloom-sized", "gaussian-blur", "toon-outline", "ssao", "nocturne"]
+    {
         b.line(&format!("render {name} --size 101x67 --frames 3 --out whole.npy")).expect(0);
         for tile in [20, 64] {
             b.line(&format!("render {name} --size 101x67 --frames 3 --tile {tile} --out tiled.npy")).expect(0);
@@ -128,7 +130,10 @@ fn a_picture_is_larger_than_a_texture() {
 fn shards_and_checkpoints_work_alike() {
     let (Some(b), Some(width)) = (Bench::with_gpu(), too_wide()) else { return };
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nsize = [4, 4]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
-    b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + vec4(0.01, iTime, fragCoord);");
+    b.image(
+        "p/buffer_a.glsl",
+        "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + vec4(0.01, iTime, fragCoord);",
+    );
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(mod(fragCoord, 4.0)), 0) + fragCoord.x * 1e-6;");
     let draw = |more: &str| b.line(&format!("render p --size {width}x2 --format npy {more}")).expect(0);
     draw("--frames 0-5 --out serial");
@@ -156,16 +161,29 @@ fn what_cannot_be_drawn_in_tiles_says_why() {
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
     let large = format!("--size {width}x2");
     for (args, said) in [
-        ("holes.glsl --tile 8".to_owned(), vec!["Image cannot be drawn in tiles: it discards pixels", "give these pixels a colour"]),
-        (format!("holes.glsl {large}"), vec!["it discards pixels", &*format!("at most {limit}x{limit} pixels in one piece")]),
+        (
+            "holes.glsl --tile 8".to_owned(),
+            vec!["Image cannot be drawn in tiles: it discards pixels", "give these pixels a colour"],
+        ),
+        (
+            format!("holes.glsl {large}"),
+            vec!["it discards pixels", &*format!("at most {limit}x{limit} pixels in one piece")],
+        ),
         ("p --pass buffer_a --tile 8".into(), vec!["Buffer A cannot be drawn in tiles: it reads its own last picture"]),
-        (format!("p {large}"), vec!["Buffer A of", "and Image alone is drawn in tiles: give the pass a fixed size in eddy.toml"]),
+        (
+            format!("p {large}"),
+            vec!["Buffer A of", "and Image alone is drawn in tiles: give the pass a fixed size in eddy.toml"],
+        ),
         ("plain.glsl --tile 8 --probe max(image)".into(), vec!["--tile: a picture in tiles cannot be measured"]),
         (format!("plain.glsl {large} --no-skip"), vec!["--no-skip draws every pass in one piece"]),
-        ("plain.glsl --size 300000x1".into(), vec!["--size: a picture has at most 262144 pixels"]),
-        ("plain.glsl --size 262144x262144 --frames 2 --format y4m".into(), vec!["a frame of a film is encoded in one piece", "write png, exr or npy"]),
+        ("plain.glsl --size 300000x1".into(), vec!["a picture of 300000x1 pixels: it can have at most 262144 across"]),
+        (
+            "plain.glsl --size 262144x262144 --frames 2 --format y4m".into(),
+            vec!["a frame of a film is encoded in one piece", "write png, exr or npy"],
+        ),
     ] {
-        let run = b.line(&format!("render {args} --out out.npy").replace("--format y4m --out out.npy", "--out out.y4m"));
+        let run =
+            b.line(&format!("render {args} --out out.npy").replace("--format y4m --out out.npy", "--out out.y4m"));
         assert_ne!(run.code, Some(0), "{args}");
         for words in said {
             assert!(run.err.contains(words), "{args}: {}", run.err);

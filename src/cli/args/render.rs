@@ -2,7 +2,9 @@
 
 use super::{
     run::RunArgs,
-    values::{self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter, tile},
+    values::{
+        self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter, tile,
+    },
 };
 use crate::{
     cli::{progress, sweep::Sweep, tiles::Tiles},

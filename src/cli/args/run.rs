@@ -1,7 +1,7 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
-use crate::cli::tiles::Tiles;
 use super::values::{fps, recording, seconds, size, webcam};
+use crate::cli::tiles::Tiles;
 use crate::{
     glsl::opt::PassSet,
     playback::{

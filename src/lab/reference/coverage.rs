@@ -83,8 +83,8 @@ fn fresnel(k: f64, h: usize) -> Vec<P> {
 pub fn picture(n: usize) -> Vec<f64> {
     let h = n / 2;
     let side = h as f64;
-    let squares = [(0.27, 0.4), (0.73, 0.02)]
-        .map(|(x, angle)| rectangle([x * side, 0.5 * side], [0.16 * side; 2], angle));
+    let squares =
+        [(0.27, 0.4), (0.73, 0.02)].map(|(x, angle)| rectangle([x * side, 0.5 * side], [0.16 * side; 2], angle));
     let lines: Vec<Vec<P>> = (0..8)
         .map(|i| {
             let angle = 0.05 + PI / 4.0 * f64::from(i);
