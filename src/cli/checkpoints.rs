@@ -109,7 +109,9 @@ impl<'a> Checkpoints<'a> {
         let mut found = offline.engine()?.passes_with_state();
         found.sort();
         if found != passes {
-            offline.build(project, media, &options(vec![self.args.pass.pass.clone()]))?;
+            let tile = offline.tile();
+            let wanted = vec![self.args.pass.pass.clone()];
+            offline.build(project, media, &BuildOptions { tile, ..options(wanted) })?;
         }
         Ok(())
     }

@@ -4,7 +4,9 @@
 use super::{
     args::RunArgs,
     failure::error_chain,
+    memory,
     report::{Report, Status},
+    tiles::{self, Way},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
@@ -235,16 +237,64 @@ fn open_with(
     let cameras = camera(&mut media, &project, run.webcam.as_ref());
     report.diagnose(&cameras, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
-    let mut offline = Offline::new(&gpu, run.size, inputs)?;
-    offline.set_frame_limit(run.frame_timeout);
+    let way = tiles::way(run, &gpu, probe.is_some() || beside.contains(wanted))?;
+    let pass = wanted.title();
     let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
     // Nobody looks at the picture of a pass of which a value is asked for.
     let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
     let wanted = [wanted].into_iter().chain(beside).collect();
-    let built = build(&mut offline, (&project, &media), report, run, (wanted, probe));
+    let passes = (wanted, probe);
+    let mut offline = offline(&gpu, run, way, inputs.clone())?;
+    let mut built = build(&mut offline, (&project, &media), report, run, passes.clone());
+    if matches!(&built, Err(error) if error.is_undivided()) && matches!(way, Way::Rather(_)) {
+        offline = self::offline(&gpu, run, Way::Whole, inputs)?;
+        built = build(&mut offline, (&project, &media), report, run, passes);
+    }
     report.compile_ms = offline.build_millis();
-    built?;
+    built.map_err(|error| error.in_tiles(&pass, way, &gpu))?;
     Ok((project, offline, media))
+}
+
+/// Returns an engine for the pictures of a run.
+fn offline(gpu: &Gpu, run: &RunArgs, way: Way, inputs: ScriptedInputs) -> Result<Offline, Trouble> {
+    let available = memory::available();
+    let mut offline = match way.tiling() {
+        Some(tiling) => Offline::tiled(gpu, run.size, tiling, inputs)?,
+        None => {
+            memory::check_whole(run.size, gpu.is_cpu(), available)?;
+            Offline::new(gpu, run.size, inputs)?
+        }
+    };
+    offline.set_frame_limit(run.frame_timeout);
+    offline.set_memory_limit(available);
+    Ok(offline)
+}
+
+impl Trouble {
+    fn engine_error(&self) -> Option<&EngineError> {
+        if let Trouble::Other(error) = self { error.downcast_ref() } else { None }
+    }
+
+    /// A pass cannot be drawn in tiles.
+    fn is_undivided(&self) -> bool {
+        matches!(self.engine_error(), Some(EngineError::Undivided { .. }))
+    }
+
+    /// Says why the picture of `pass` had to be drawn in tiles, or another one could not be.
+    fn in_tiles(self, pass: &str, way: Way, gpu: &Gpu) -> Trouble {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let told = match self.engine_error() {
+            Some(error @ EngineError::Undivided { .. }) => {
+                anyhow::anyhow!("{error} (this device draws at most {limit}x{limit} pixels in one piece)")
+            }
+            Some(error @ EngineError::Gpu(GpuError::TooLarge { .. })) if way != Way::Whole => anyhow::anyhow!(
+                "{error}, and {pass} alone is drawn in tiles: give the pass a fixed size in eddy.toml, or choose a smaller \
+                 resolution"
+            ),
+            _ => return self,
+        };
+        told.into()
+    }
 }
 
 /// Compiles a project, its diagnostics going into the report.
@@ -257,7 +307,14 @@ fn build(
 ) -> Result<(), Trouble> {
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
-    let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe, trial };
+    let options = BuildOptions {
+        wanted,
+        skip: !run.no_skip,
+        without: run.without_pass.set(),
+        probe,
+        trial,
+        tile: offline.tile(),
+    };
     let (diagnostics, sources) = match offline.build(project, media, &options) {
         Err(BuildError::Diagnostics { diagnostics, sources }) => {
             report.diagnose(&diagnostics, &sources, Some(project));

@@ -15,6 +15,7 @@ mod lab;
 mod library;
 mod machine;
 mod measured;
+mod memory;
 mod nonfinite;
 mod plan;
 mod precision;
@@ -30,6 +31,7 @@ mod stability;
 mod sweep;
 mod targets;
 mod text_place;
+mod tiles;
 mod trace;
 
 use crate::playback::trial;

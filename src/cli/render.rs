@@ -3,31 +3,32 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    machine::{Machine, Trouble, open_measured, open_sound_of},
+    machine::{Machine, Trouble, millis_since, open_measured, open_sound_of},
     measured::{self, Measured, Measures},
     progress::CallProgress,
     report::{Printer, Report},
     targets::Targets,
+    tiles,
 };
 use crate::{
     diag::{Diagnostic, Severity, SourceMap},
-    engine::Pixels,
+    engine::{FrameInputs, Pixels},
     film::{
-        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmTime, Mean, Output, Seam, Shape, Shown,
-        Still, Writer, shrunk,
+        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmTime, Mean, Output, Seam, Shape, Still,
+        Writer, shrunk,
     },
     media::MediaSet,
     playback::{
         frames::steps,
         median,
         offline::{Offline, OfflineError},
-        scene::RunSource,
+        scene::{RunSource, Scene},
         script::ScriptedInputs,
     },
     project::{self, PassId, Project},
 };
 use serde::Serialize;
-use std::{io, path::PathBuf};
+use std::{io, path::PathBuf, time::Instant};
 
 /// The report, and what was measured.
 #[derive(Serialize)]
@@ -163,8 +164,6 @@ impl Job<'_> {
             Some(secs) if targets.writes() => Some(self.seam(machine, report, secs, &missing, inputs)?),
             _ => None,
         };
-        let shown =
-            Shown { pass: picture.pass.clone(), layer: args.face.unwrap_or(picture.target), factor: args.factor() };
         let mut writer = None;
         let (mut millis, mut written) = (Vec::new(), Vec::new());
         let draws = if jumps { wanted.len() as u32 } else { frames - begin };
@@ -175,14 +174,25 @@ impl Job<'_> {
                 offline.skip()?;
                 continue;
             }
-            let drawn = match args.shutter.filter(|_| is_wanted && targets.writes()) {
-                None => offline.draw()?,
-                Some(shutter) => offline.draw_parts(args.samples, shutter / args.run.fps, |offline| {
-                    mean.add(&offline.read(&shown.pass, shown.layer)?);
-                    Ok::<_, OfflineError>(())
-                })?,
+            let layer = args.face.unwrap_or(picture.target);
+            // The inputs of a frame whose parts are drawn for each strip of its picture.
+            let mut parts = None;
+            let took = match args.shutter.filter(|_| is_wanted && targets.writes()) {
+                None => offline.draw()?.millis,
+                Some(shutter) => {
+                    let inputs = offline.next_inputs()?;
+                    let secs = shutter / args.run.fps;
+                    let drawn = offline.draw_parts_of(&inputs, args.samples, secs, |offline| {
+                        if offline.tiling().is_none() {
+                            mean.add(&offline.read(&picture.pass, layer)?);
+                        }
+                        Ok::<_, OfflineError>(())
+                    })?;
+                    parts = Some(inputs).filter(|_| offline.tiling().is_some());
+                    drawn.millis
+                }
             };
-            millis.push(drawn.millis);
+            millis.push(took);
             report.frames += 1;
             progress.step();
             if let Some(checkpoints) = &checkpoints {
@@ -193,15 +203,36 @@ impl Job<'_> {
             }
             measures.take(&project, &mut offline, frame, report)?;
             if missing.binary_search(&frame).is_err() || !targets.writes() {
+                if !targets.writes() && checkpoints.is_none() && offline.tiling().is_some() {
+                    let began = Instant::now();
+                    tiles::draw_all(&mut offline)?;
+                    add_to_last(&mut millis, began);
+                }
+                continue;
+            }
+            let began = Instant::now();
+            if let (Encoding::Still(still), Some(_)) = (&targets.encoding, offline.tiling()) {
+                let scene = source.as_ref().map(|source| source.scene(frame));
+                match self.write_strips(report, &mut offline, parts.as_ref(), (*still, frame, scene)) {
+                    Ok(path) => written.extend(path),
+                    Err(error) if is_closed(&error) => return Ok(Drawn::default()),
+                    Err(error) => return Err(error),
+                }
+                add_to_last(&mut millis, began);
                 continue;
             }
             let pixels = match args.shutter {
-                None => shown.read(&mut offline)?,
-                Some(_) if shown.factor == 1 => mean.take(),
-                Some(_) => shrunk(&mean.take(), shown.factor),
+                Some(_) if parts.is_none() => {
+                    let pixels = mean.take();
+                    if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) }
+                }
+                _ => tiles::whole(&mut offline, args, parts.as_ref())?,
             };
+            if offline.tiling().is_some() {
+                add_to_last(&mut millis, began);
+            }
             let pixels = match &mut seam {
-                Some(seam) => seam.join(pixels, &shown)?,
+                Some(seam) => seam.join(pixels, |later| tiles::whole(later, args, None))?,
                 None => pixels,
             };
             let writer = match &mut writer {
@@ -212,10 +243,7 @@ impl Job<'_> {
                 }
             };
             match self.write(writer, report, (frame, source.as_ref()), pixels, &mut written) {
-                // Whoever reads standard output has seen enough.
-                Err(Trouble::Other(error)) if matches!(error.downcast_ref(), Some(FilmError::Closed)) => {
-                    return Ok(Drawn::default());
-                }
+                Err(error) if is_closed(&error) => return Ok(Drawn::default()),
                 other => other?,
             }
         }
@@ -365,6 +393,26 @@ impl Job<'_> {
         Seam::open(fade, frames, open, || Ok(()))
     }
 
+    /// Draws a picture in tiles and writes it meanwhile. Returns its file.
+    fn write_strips(
+        &self,
+        report: &Report,
+        offline: &mut Offline,
+        parts: Option<&FrameInputs>,
+        (still, frame, scene): (Still, u32, Option<Scene>),
+    ) -> Result<Option<PathBuf>, Trouble> {
+        let path = self.targets.path(self.index, &report.sweep, frame);
+        let output = match &path {
+            None => Output::Pipe(Box::new(io::stdout())),
+            Some(path) => {
+                self.targets.check(path)?;
+                Output::File(path.clone())
+            }
+        };
+        tiles::write(offline, self.args, parts, still, output, scene)?;
+        Ok(path)
+    }
+
     fn write(
         &self,
         writer: &mut Writer,
@@ -384,6 +432,18 @@ impl Job<'_> {
         writer.push(path.clone(), pixels, scene).map_err(failed)?;
         written.extend(path.filter(|path| written.last() != Some(path)));
         Ok(())
+    }
+}
+
+/// Whoever reads standard output has seen enough.
+fn is_closed(error: &Trouble) -> bool {
+    matches!(error, Trouble::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
+}
+
+/// Adds the time since a moment to that of the newest frame.
+fn add_to_last(millis: &mut [f64], began: Instant) {
+    if let Some(last) = millis.last_mut() {
+        *last += millis_since(began);
     }
 }
 

@@ -89,9 +89,9 @@ impl Sources<'_> {
     /// Gives `project.passes[index]`, which draws the whole target, as the compiler takes it.
     fn with_screen<T>(&self, index: usize, options: PassOptions, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let kind = sources::pass_kind(&self.project.passes[index].id);
-        let PassOptions { bilinear_by_hand, driver, probe } = options;
+        let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
         self.with_source(index, self.stage_id(index, Stage::Own), kind, |source| {
-            work(&PassSource { bilinear_by_hand, driver, probe, ..*source })
+            work(&PassSource { bilinear_by_hand, driver, probe, tiled, ..*source })
         })
     }
 }
@@ -99,7 +99,6 @@ impl Sources<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_glsl::Driver;
     use eddy_project as project;
 
     #[test]
@@ -107,7 +106,7 @@ mod tests {
         for name in ["fluid", "scene-bloom-taa", "gallery-of-tricks"] {
             let project = project::presets::load(name).expect("a preset").project;
             let texts = Sources::new(&project);
-            let options = PassOptions { bilinear_by_hand: [false; 4], driver: Driver::default(), probe: None };
+            let options = PassOptions::default();
             let screens = (0..project.passes.len()).filter(|&i| project.passes[i].settings.meshes().is_none());
             let mut cache = StageCache::default();
             let mut jobs = Vec::new();
@@ -129,7 +128,7 @@ mod tests {
     fn what_was_compiled_ahead_is_in_the_cache() {
         let project = project::presets::load("fluid").expect("a preset").project;
         let texts = Sources::new(&project);
-        let options = PassOptions { bilinear_by_hand: [false; 4], driver: Driver::default(), probe: None };
+        let options = PassOptions::default();
         let mut cache = StageCache::default();
         texts.compile_ahead(&mut cache, (0..project.passes.len()).map(|index| (index, options)));
         let ahead = cache.end_build(true);

@@ -37,6 +37,9 @@ pub struct BuildOptions {
     /// Compiles large programs elsewhere first, where the driver compiles on the processor. A program whose value is
     /// probed is not tried.
     pub trial: Option<Trial>,
+    /// The width and height, multiples of 4, of the target that the first wanted pass is drawn into tile by tile, by
+    /// [`Engine::draw_tile`](super::Engine::draw_tile); `None`: its target is as large as its picture.
+    pub tile: Option<(u32, u32)>,
 }
 
 impl BuildOptions {
@@ -70,6 +73,11 @@ impl BuildOptions {
         Self { wanted: vec![BuildOptions::probed()], probe, ..self }
     }
 
+    /// The pass that is drawn in tiles.
+    fn tiled(&self) -> Option<&PassId> {
+        self.tile.map(|_| self.wanted.first().unwrap_or(&PassId::Image))
+    }
+
     /// The buffer that draws a probed value beside its picture.
     fn probed_buffer(&self) -> Option<(&PassId, Probe)> {
         self.probe.as_ref().filter(|(pass, _)| *pass != PassId::Image).map(|(pass, probe)| (pass, *probe))
@@ -78,7 +86,7 @@ impl BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None, trial: None }
+        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None, trial: None, tile: None }
     }
 }
 
@@ -170,6 +178,12 @@ impl Builder {
         if let Some(pass) = drawable.passes.iter().position(|pass| Some(&pass.id) == beside) {
             plan.draw_beside(pass, BuildOptions::probed());
         }
+        if let (Some(tile), Some(id)) = (options.tile, options.tiled())
+            && let Some(pass) = drawable.passes.iter().position(|pass| pass.id == *id)
+        {
+            let undivided = |why| EngineError::Undivided { pass: id.title(), why };
+            plan.tile(&drawable, pass, tile).map_err(undivided)?;
+        }
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
         let mut drafts = Vec::with_capacity(plan.draws.len());
         let (gpu, uploads) = (&self.gpu, &mut self.uploads);
@@ -206,7 +220,8 @@ impl Builder {
         let filter_mode = filter_mode(&self.gpu, project, media, index);
         let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
         let probe = build.probed_buffer().filter(|(id, _)| **id == project.passes[index].id).map(|(_, probe)| probe);
-        PassOptions { bilinear_by_hand: filter_mode.map(|m| m == FilterMode::Shader), driver, probe }
+        let tiled = build.tiled() == Some(&project.passes[index].id);
+        PassOptions { bilinear_by_hand: filter_mode.map(|m| m == FilterMode::Shader), driver, probe, tiled }
     }
 
     /// Compiles every pass that can be drawn, and its fills.
@@ -236,7 +251,8 @@ impl Builder {
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);
-                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], probe: None, ..options };
+                let bilinear_by_hand = [by_hand, false, false, false];
+                let options = PassOptions { bilinear_by_hand, probe: None, tiled: false, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
                         said.append(&mut fill.diagnostics);

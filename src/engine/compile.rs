@@ -14,12 +14,14 @@ use std::sync::Arc;
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 
 /// The settings of a pass that its texts do not say.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
+    /// The pass is drawn in tiles.
+    pub tiled: bool,
 }
 
 impl Sources<'_> {
@@ -29,7 +31,8 @@ impl Sources<'_> {
     /// # Panics
     /// If there is no such pass.
     pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; 4], driver: Driver) -> Result<CompiledPass> {
-        self.compile_pass_with(&mut StageCache::default(), index, PassOptions { bilinear_by_hand, driver, probe: None })
+        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
+        self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
     /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's
@@ -41,7 +44,8 @@ impl Sources<'_> {
         bilinear_by_hand: bool,
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
-        let options = PassOptions { bilinear_by_hand: [bilinear_by_hand, false, false, false], driver, probe: None };
+        let bilinear_by_hand = [bilinear_by_hand, false, false, false];
+        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
@@ -49,7 +53,7 @@ impl Sources<'_> {
     /// passes are drawn by the same driver.
     pub fn compile_all(&self, driver: Driver) -> Vec<Result<CompiledPass>> {
         let mut cache = StageCache::default();
-        let options = PassOptions { bilinear_by_hand: [false; 4], driver, probe: None };
+        let options = PassOptions { driver, ..PassOptions::default() };
         let passes = 0..self.project.passes.len();
         self.compile_ahead(&mut cache, passes.clone().map(|index| (index, options)));
         let mut outcomes = Vec::new();
@@ -163,8 +167,8 @@ impl Sources<'_> {
         link: &Link<'_>,
         options: PassOptions,
     ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
-        let PassOptions { bilinear_by_hand, driver, probe } = options;
-        let source = PassSource { bilinear_by_hand, driver, probe, ..*source };
+        let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
+        let source = PassSource { bilinear_by_hand, driver, probe, tiled, ..*source };
         match cache.find(&source, link, |text| self.shared(text)) {
             Ok(found) => found,
             Err(missing) => cache.add(missing, stage_cache::compile(&source, link, self.preamble())),

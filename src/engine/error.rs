@@ -2,6 +2,7 @@
 
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_gpu::GpuError;
+use eddy_graph::Undivided;
 use eddy_media::mesh::MeshError;
 
 /// A frame could not be drawn or read.
@@ -15,6 +16,14 @@ pub enum EngineError {
     NoSuchTarget { pass: String, index: usize },
     #[error("{reader} reads {read}, which has been drawn several times since; its earlier contents are gone")]
     Overwritten { reader: String, read: String },
+    #[error("{pass} cannot be drawn in tiles: {why}")]
+    Undivided { pass: String, why: Undivided },
+    #[error(
+        "the textures that the passes draw into take {:.1} GiB, and {:.1} GiB of memory are available: choose a smaller \
+         resolution, or give the buffers a fixed size in eddy.toml",
+        *needed as f64 / (1u64 << 30) as f64, *available as f64 / (1u64 << 30) as f64
+    )]
+    Memory { needed: u64, available: u64 },
     #[error(transparent)]
     Mesh(#[from] MeshError),
 }

@@ -15,7 +15,7 @@ use super::{
 use eddy_glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP};
 use eddy_gpu::Gpu;
 use eddy_graph::Draw;
-use eddy_project::{Boundary, PassId};
+use eddy_project::{Boundary, PassId, Region};
 
 /// The value of a probe that never was there.
 const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
@@ -81,6 +81,10 @@ impl Running {
                         flush(gpu, &mut encoder)?;
                         capture.take(self, shared, index)?;
                     }
+                    if self.is_tiled(index) {
+                        stats.passes_drawn += 1;
+                        continue;
+                    }
                     if !self.is_due(index, &reads[index], &mut stats) {
                         continue;
                     }
@@ -128,11 +132,12 @@ impl Running {
             if !goes_on() {
                 return Ok(false);
             }
-            let height = self.targets[self.program.plan.draws[draw].targets.start].size().1;
+            let (width, height) = self.targets[self.program.plan.draws[draw].targets.start].size();
             let end = row.saturating_add(rows.max(1)).min(height);
+            let part = Region { x: 0, y: row, width, height: end - row };
             let descriptor = wgpu::CommandEncoderDescriptor { label: Some("rows of a frame") };
             let mut encoder = gpu.device.create_command_encoder(&descriptor);
-            self.encode(shared, &mut encoder, draw, Some(row..end));
+            self.encode(shared, &mut encoder, draw, Some(part));
             self.rest = (end < height).then_some(RemainingRows { draw, row: end });
             if self.rest.is_none() {
                 display.present(gpu, &mut encoder, &self.targets);
@@ -143,6 +148,45 @@ impl Running {
         Ok(true)
     }
 
+    /// Draws a tile of the picture of the pass that is drawn in tiles: `size` of its pixels from `origin` on, into the
+    /// first texels of its target, with the inputs of the newest frame. Before each part of it, `rows` says how many rows
+    /// are drawn at once. Waits for each part.
+    pub fn draw_tile(
+        &mut self,
+        shared: &Shared,
+        (origin, size): ((u32, u32), (u32, u32)),
+        rows: &mut dyn FnMut() -> u32,
+    ) -> Result<(), EngineError> {
+        let Some(tiled) = self.program.plan.tiled else { return Ok(()) };
+        let gpu = &shared.gpu;
+        self.uniforms.set_tile_origin(tiled.draw, origin);
+        self.uniforms.write(gpu);
+        let (mut y, width) = (0, size.0);
+        while y < size.1 {
+            // Of whole blocks of the pixels that a device shades together.
+            let height = rows().max(1).next_multiple_of(4).min(size.1 - y);
+            let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a tile") };
+            let mut encoder = gpu.device.create_command_encoder(&descriptor);
+            self.encode(shared, &mut encoder, tiled.draw, Some(Region { x: 0, y, width, height }));
+            gpu.queue.submit([encoder.finish()]);
+            gpu.wait()?;
+            y += height;
+        }
+        Ok(())
+    }
+
+    fn is_tiled(&self, draw: usize) -> bool {
+        self.program.plan.tiled.is_some_and(|tiled| tiled.draw == draw)
+    }
+
+    /// Returns the size of the picture of a draw, which in tiles is more than that of its target.
+    fn picture_size(&self, draw: usize) -> (u32, u32) {
+        match self.program.plan.tiled.filter(|tiled| tiled.draw == draw) {
+            Some(tiled) => tiled.size.of(self.canvas),
+            None => self.targets[self.program.plan.draws[draw].targets.start].size(),
+        }
+    }
+
     fn divisible_draw(&self) -> Option<usize> {
         let is_screen = |index: &usize| matches!(self.program.draws[*index].body, DrawBody::Screen(_));
         self.program.plan.divisible_draw().filter(is_screen)
@@ -150,8 +194,8 @@ impl Running {
 
     /// Writes the uniforms of every draw.
     fn set_uniforms(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
-        for (index, (compiled, draw)) in self.program.planned_draws().enumerate() {
-            let own = self.targets[draw.targets.start].size();
+        for (index, (compiled, _)) in self.program.planned_draws().enumerate() {
+            let own = self.picture_size(index);
             let mut block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
             if compiled.id == PassId::Sound {
                 sound::set_offsets(&mut block, inputs);
@@ -202,16 +246,10 @@ impl Running {
         true
     }
 
-    /// Encodes one draw, of all rows or of some; of a cube all faces.
-    fn encode(
-        &mut self,
-        shared: &Shared,
-        encoder: &mut wgpu::CommandEncoder,
-        index: usize,
-        rows: Option<std::ops::Range<u32>>,
-    ) {
+    /// Encodes one draw, of all texels or of some; of a cube all faces.
+    fn encode(&mut self, shared: &Shared, encoder: &mut wgpu::CommandEncoder, index: usize, part: Option<Region>) {
         for layer in 0..self.program.plan.layers(index) {
-            self.encode_layer(shared, encoder, (index, layer), rows.clone());
+            self.encode_layer(shared, encoder, (index, layer), part);
         }
         let draw = &self.program.plan.draws[index];
         for target in &mut self.targets[draw.targets.clone()] {
@@ -227,7 +265,7 @@ impl Running {
         shared: &Shared,
         encoder: &mut wgpu::CommandEncoder,
         (index, layer): (usize, u32),
-        rows: Option<std::ops::Range<u32>>,
+        part: Option<Region>,
     ) {
         let Self { program, targets, depths, bindings, timer, .. } = self;
         let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
@@ -243,7 +281,7 @@ impl Running {
                 // What is discarded has no value, nor what lies outside of the region.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
                 Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
-                _ if rows.is_some() => wgpu::LoadOp::Load,
+                _ if part.is_some() => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw, &compiled.body),
             };
             Some(targets[index].textures[targets[index].back()].layer_attachment(layer, load))
@@ -267,8 +305,8 @@ impl Running {
             if let Some(region) = draw.region.and_then(|r| r.within(size)) {
                 pass.set_scissor_rect(region.x, region.y, region.width, region.height);
             }
-            if let Some(rows) = rows {
-                pass.set_scissor_rect(0, rows.start, size.0, rows.end - rows.start);
+            if let Some(part) = part {
+                pass.set_scissor_rect(part.x, part.y, part.width, part.height);
             }
             pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
             let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {

@@ -21,6 +21,8 @@ use eddy_video::CameraFrame;
 pub struct Engine {
     pub(super) shared: Shared,
     canvas: (u32, u32),
+    /// The canvas may be larger than a target: see [`Engine::for_tiles`].
+    is_for_tiles: bool,
     pub(super) running: Option<Running>,
     pub(super) display: Display,
     is_timing: bool,
@@ -37,10 +39,24 @@ impl Engine {
     /// An engine with no program: its picture is black. Fails for a size no target can have.
     pub fn new(gpu: Gpu, width: u32, height: u32) -> Result<Engine, EngineError> {
         gpu.check_size("the picture", width, height)?;
+        Self::with_display(gpu, (width, height), (width, height))
+    }
+
+    /// Returns an engine for a canvas that no target needs to have: one pass is drawn in tiles ([`BuildOptions::tile`]). It
+    /// shows nothing.
+    ///
+    /// [`BuildOptions::tile`]: super::BuildOptions::tile
+    pub fn for_tiles(gpu: Gpu, width: u32, height: u32) -> Result<Engine, EngineError> {
+        let engine = Self::with_display(gpu, (width.max(1), height.max(1)), (1, 1))?;
+        Ok(Engine { is_for_tiles: true, ..engine })
+    }
+
+    fn with_display(gpu: Gpu, canvas: (u32, u32), display: (u32, u32)) -> Result<Engine, EngineError> {
         Ok(Engine {
-            canvas: (width, height),
+            canvas,
+            is_for_tiles: false,
             running: None,
-            display: Display::new(&gpu, (width, height))?,
+            display: Display::new(&gpu, display)?,
             is_timing: false,
             converter: None,
             readback: Readback::default(),
@@ -86,6 +102,13 @@ impl Engine {
         if (width, height) == self.canvas {
             return Ok(());
         }
+        if self.is_for_tiles {
+            if let Some(running) = &mut self.running {
+                running.resize(&mut self.shared, (width, height))?;
+            }
+            self.canvas = (width, height);
+            return Ok(());
+        }
         self.shared.gpu.check_size("the picture", width, height)?;
         let texture = Presenter::texture(&self.shared.gpu, width, height)?;
         if let Some(running) = &mut self.running {
@@ -104,12 +127,47 @@ impl Engine {
         }
     }
 
-    /// Draws one frame. Does not wait for the device.
+    /// Draws one frame. Does not wait for the device. A pass that is drawn in tiles is left out: [`Engine::draw_tile`]
+    /// draws it.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
         let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Whole)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok(stats)
+    }
+
+    /// Returns the size of the picture that is drawn in tiles, and the largest tile; `None` where the running program has no
+    /// such pass.
+    pub fn tiles(&self) -> Option<((u32, u32), (u32, u32))> {
+        let running = self.running.as_ref()?;
+        let tiled = running.program.plan.tiled?;
+        let target = &running.targets[running.program.plan.draws[tiled.draw].targets.start];
+        Some((tiled.size.of(self.canvas), target.size()))
+    }
+
+    /// Draws and reads a tile of the pass that is drawn in tiles ([`BuildOptions::tile`](super::BuildOptions::tile)), of the
+    /// newest frame: the pixels from `x`, `y` on, which are multiples of 4, so that the
+    /// pixels that a device shades together are those of one piece. A tile that does not lie in the picture is cut. Before each
+    /// part of it, `rows` says how many rows are drawn at once. Waits for the device.
+    pub fn draw_tile(&mut self, (x, y): (u32, u32), rows: &mut dyn FnMut() -> u32) -> Result<Pixels, EngineError> {
+        let none = || EngineError::NoSuchPass("in tiles".into());
+        let (picture, tile) = self.tiles().ok_or_else(none)?;
+        let gpu = &self.shared.gpu;
+        let running = self.running.as_mut().ok_or_else(none)?;
+        let part = |at: u32, all: u32, most: u32| all.saturating_sub(at).min(most);
+        let (width, height) = (part(x, picture.0, tile.0), part(y, picture.1, tile.1));
+        running.draw_tile(&self.shared, ((x, y), (width, height)), rows)?;
+        let plan = &running.program.plan;
+        let target = plan.tiled.map(|tiled| plan.draws[tiled.draw].targets.start).ok_or_else(none)?;
+        let drawn = running.targets[target].newest();
+        let texels = if drawn.shape.format == TexelFormat::Rgba32f {
+            self.readback.rgba32float(gpu, drawn)?
+        } else {
+            let converter = self.converter.get_or_insert_with(|| FloatConverter::new(gpu));
+            self.readback.rgba32float(gpu, &converter.convert(gpu, drawn)?)?
+        };
+        let rows = texels.chunks_exact(tile.0 as usize).take(height as usize);
+        Ok(Pixels { width, height, texels: rows.flat_map(|row| &row[..width as usize]).copied().collect() })
     }
 
     /// Does the same as [`Engine::draw`], with the same picture, but waits for the device, and draws a last pass that

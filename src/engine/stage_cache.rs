@@ -33,7 +33,7 @@ impl KeptStages {
     /// # Panics
     /// If there is no such pass.
     pub fn compile(&mut self, texts: &Sources<'_>, index: usize) -> Result<CompiledPass, Vec<Diagnostic>> {
-        let options = PassOptions { bilinear_by_hand: [false; 4], driver: Driver::default(), probe: None };
+        let options = PassOptions::default();
         let compiled = texts.compile_pass_with(&mut self.0, index, options);
         self.0.end_build(compiled.is_ok());
         compiled
@@ -110,6 +110,7 @@ struct StageKey {
     values: Vec<(String, Vec<u64>)>,
     bilinear_by_hand: [bool; 4],
     driver: Driver,
+    tiled: bool,
     plain: PlainOptions,
     probe: Option<Probe>,
     varyings: Option<Vec<Varying>>,
@@ -144,6 +145,7 @@ impl StageKey {
             values,
             bilinear_by_hand,
             driver,
+            tiled,
             plain,
             probe,
         } = *source;
@@ -162,6 +164,7 @@ impl StageKey {
             values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
             bilinear_by_hand,
             driver,
+            tiled,
             plain,
             probe,
             varyings: varyings.map(<[Varying]>::to_vec),

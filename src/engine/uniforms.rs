@@ -94,6 +94,12 @@ impl Uniforms {
         }
     }
 
+    /// Sets the place of draw `index`'s target in its picture, in pixels.
+    pub fn set_tile_origin(&mut self, index: usize, (x, y): (u32, u32)) {
+        let block = UniformBlock { tile_origin: [x as i32, y as i32, 0, 0], ..self.uniform_block(index) };
+        self.blocks.set(self.first[index], bytemuck::bytes_of(&block));
+    }
+
     /// The block of a mesh, counted through all passes.
     pub fn set_mesh(&mut self, mesh: usize, block: &GeometryBlock) {
         self.meshes.set(mesh, bytemuck::bytes_of(block));
@@ -187,6 +193,7 @@ pub(super) fn block(
         sample_offset: 0,
         cube_face: [0; 2],
         channel_loaded: std::array::from_fn(|i| i32::from(resolution(&channels[i])[0] > 0.0)),
+        tile_origin: [0; 4],
     }
 }
 
@@ -232,9 +239,10 @@ mod tests {
             assert_eq!(places.len(), 1, "{name:?}");
             places.into_iter().flatten().for_each(|byte| taken[byte] += 1);
         }
-        let face = offset_of!(UniformBlock, cube_face);
+        let (face, origin) = (offset_of!(UniformBlock, cube_face), offset_of!(UniformBlock, tile_origin));
+        let is_none = |byte: usize| (face..face + 8).contains(&byte) || (origin..origin + 16).contains(&byte);
         for (byte, taken) in taken.into_iter().enumerate() {
-            assert_eq!(taken, u8::from(!(face..face + 8).contains(&byte)), "byte {byte}");
+            assert_eq!(taken, u8::from(!is_none(byte)), "byte {byte}");
         }
         assert_eq!(places(UniformSet::empty()).count(), 0);
     }

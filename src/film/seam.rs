@@ -92,14 +92,18 @@ impl Seam {
         Ok(())
     }
 
-    /// Returns the next frame of the film, of which `own` is the picture.
-    pub fn join(&mut self, own: Pixels, shown: &Shown) -> Result<Pixels, OfflineError> {
+    /// Returns the next frame of the film, of which `own` is the picture. `read` reads that of another run's newest frame.
+    pub fn join<E: From<OfflineError>>(
+        &mut self,
+        own: Pixels,
+        read: impl FnOnce(&mut Offline) -> Result<Pixels, E>,
+    ) -> Result<Pixels, E> {
         let mut frame = own;
         if self.done < self.fade
             && let Some(later) = &mut self.later
         {
             later.draw()?;
-            let next = shown.read(later)?;
+            let next = read(later)?;
             let part = self.done as f32 / self.fade as f32;
             fade(&mut frame, &next, part);
             for _ in 1..self.step {

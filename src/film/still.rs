@@ -92,15 +92,24 @@ fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat, scen
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = (0..texels.components()).map(channel).collect();
     let size = (pixels.width as usize, pixels.height as usize);
     // Blocks of 16 lines by ZIP.
+    let layer = Layer::new(size, exr_attributes(scene), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    Image::from_layer(layer).write().non_parallel().to_buffered(out).map_err(exr_failed)
+}
+
+/// Returns the attributes of a picture with this scene.
+pub(super) fn exr_attributes(scene: Option<String>) -> LayerAttributes {
     let mut attributes = LayerAttributes::default();
     if let Some(scene) = scene {
         attributes.other.insert(Text::from(ATTRIBUTE), AttributeValue::Text(Text::from(scene.as_str())));
     }
-    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
-    Image::from_layer(layer).write().non_parallel().to_buffered(out).map_err(|error| match error {
+    attributes
+}
+
+pub(super) fn exr_failed(error: exr::error::Error) -> io::Error {
+    match error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other.to_string()),
-    })
+    }
 }
 
 #[cfg(test)]

@@ -110,7 +110,10 @@ pub struct UniformBlock {
     pub cube_face: [i32; 2],
     /// `int loaded` of `iCh0` to `iCh3` at 208: 1 where the channel has a texture.
     pub channel_loaded: [i32; 4],
+    /// The column and the row of the picture's pixel that the target's first texel is, at 224, in a pass that is drawn in
+    /// tiles ([`crate::PassSource::tiled`]); the others are a pad.
+    pub tile_origin: [i32; 4],
 }
 
-const _: () = assert!(size_of::<UniformBlock>() == 224);
+const _: () = assert!(size_of::<UniformBlock>() == 240);
 const _: () = assert!(std::mem::offset_of!(UniformBlock, channel_loaded) == 208);

@@ -125,6 +125,9 @@ pub struct PassSource<'a> {
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
+    /// The pass is drawn in tiles, each into a target of its own: a pixel's position is that in the whole picture, by the
+    /// uniform block's `tile_origin`. Only in Image and buffers.
+    pub tiled: bool,
     /// Says how a plain shader meets WebGPU; the other kinds of pass do not read it.
     pub plain: PlainOptions,
     /// A value that is drawn instead of the picture; only in passes that draw one.
@@ -144,6 +147,7 @@ impl<'a> PassSource<'a> {
             values: &[],
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
+            tiled: false,
             plain: PlainOptions::of(kind),
             probe: None,
         }

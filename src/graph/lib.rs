@@ -2,7 +2,8 @@
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
 //! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, when its picture of before
-//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), and whether its last draw may be done in pieces.
+//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), whether its last draw may be done in pieces, and
+//! which pass can be drawn in tiles ([`Undivided`]).
 //! Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an engine
 //! executes in a loop.
 
@@ -11,10 +12,12 @@ mod changes;
 mod plan;
 #[cfg(test)]
 mod tests;
+mod tiles;
 mod traffic;
 
 pub use carried::Carried;
 pub use changes::Changes;
 pub use plan::effective_sampler;
 pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Target, TexelSource, When};
+pub use tiles::{TiledDraw, Undivided};
 pub use traffic::Traffic;

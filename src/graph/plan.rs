@@ -1,5 +1,6 @@
 //! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
+use super::tiles::TiledDraw;
 use eddy_project::{Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
@@ -132,6 +133,8 @@ pub struct FramePlan {
     pub runs: Vec<Run>,
     /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
     pub skipped: Vec<usize>,
+    /// The draw that [`FramePlan::tile`] has made one of tiles.
+    pub tiled: Option<TiledDraw>,
 }
 
 impl FramePlan {

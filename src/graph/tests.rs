@@ -1,6 +1,8 @@
 //! The plan's rules, with no device.
 
-use super::{Carried, Changes, ChannelFacts, FramePlan, PassFacts, Target, TexelSource, When, effective_sampler};
+use super::{
+    Carried, Changes, ChannelFacts, FramePlan, PassFacts, Target, TexelSource, Undivided, When, effective_sampler,
+};
 use eddy_project::{
     Channel, Filter, Group, Input, Origin, Pass, PassBody, PassId, PassSize, Project, Region, Sampler, SamplerRules,
     Wrap,
@@ -436,4 +438,43 @@ fn a_last_draw_may_be_done_in_pieces_where_nobody_can_tell() {
     project.passes[2].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
     assert_eq!(divisible(&project, &facts), None, "the rest is as it was drawn last");
     assert_eq!(FramePlan::default().divisible_draw(), None);
+}
+
+#[test]
+fn a_pass_is_drawn_in_tiles_where_its_picture_cannot_tell() {
+    let image = || pass(PassId::Image, [buffer("A"), None, None, None]);
+    let a = || pass(PassId::Buffer("A".into()), Default::default());
+    let project = project(vec![a(), image()]);
+    let whole = plan(&project);
+    let mut tiled = whole.clone();
+    tiled.tile(&project, 1, (64, 32)).unwrap();
+    let of_image = tiled.tiled.unwrap();
+    assert_eq!((of_image.draw, of_image.size), (1, PassSize::Canvas));
+    let target = tiled.draws[1].targets.start;
+    assert_eq!(tiled.targets[target].size.of((9000, 9000)), (64, 32));
+    assert_eq!(tiled.target_bytes((100, 10)), 16 * (100 * 10 + 64 * 32));
+    // All else is as before.
+    assert_eq!(FramePlan { tiled: None, targets: whole.targets.clone(), ..tiled }, whole);
+    // Buffer A is read by Image.
+    let mut refused = whole.clone();
+    assert_eq!(refused.tile(&project, 0, (64, 32)), Err(Undivided::Read("Image".into())));
+    assert_eq!(refused, whole);
+}
+
+#[test]
+fn a_pass_whose_picture_could_tell_is_not_drawn_in_tiles() {
+    let why = |passes: Vec<Pass>, facts: PassFacts, of: usize| {
+        let project = project(passes);
+        let wanted = [project.passes[of].id.clone()];
+        let mut plan = FramePlan::new(&project, &vec![facts; project.passes.len()], &wanted, true);
+        plan.tile(&project, of, (64, 32)).unwrap_err()
+    };
+    let image = || pass(PassId::Image, Default::default());
+    let a = || pass(PassId::Buffer("A".into()), [buffer("A"), None, None, None]);
+    let region = Some(Region { x: 0, y: 0, width: 1, height: 1 });
+    let settings = |region| eddy_project::PassSettings { region, ..Default::default() };
+    assert_eq!(why(vec![image()], PassFacts { discards: true, ..reads_all() }, 0), Undivided::Discards);
+    assert_eq!(why(vec![a(), image()], reads_all(), 0), Undivided::Itself);
+    assert_eq!(why(vec![Pass { settings: settings(region), ..image() }], reads_all(), 0), Undivided::Region);
+    assert_eq!(why(vec![pass(PassId::Cubemap, Default::default()), image()], reads_all(), 0), Undivided::Cube);
 }

@@ -21,6 +21,7 @@ pub mod run;
 pub mod scene;
 pub mod script;
 pub mod shard;
+pub mod tiles;
 pub mod trial;
 
 /// Returns the middle one of values, the upper of two; `None` of none.

@@ -8,11 +8,21 @@ use std::io::{self, Write};
 
 /// Writes the whole file.
 pub fn write(out: &mut impl Write, pixels: &Pixels) -> io::Result<()> {
-    out.write_all(&media::npy_header("<f4", &[pixels.height, pixels.width, 4]))?;
+    write_header(out, (pixels.width, pixels.height))?;
+    write_texels(out, &pixels.texels)
+}
+
+/// Writes what precedes the texels of a picture of this width and height.
+pub fn write_header(out: &mut impl Write, (width, height): (u32, u32)) -> io::Result<()> {
+    out.write_all(&media::npy_header("<f4", &[height, width, 4]))
+}
+
+/// Writes texels behind those that are written.
+pub fn write_texels(out: &mut impl Write, texels: &[[f32; 4]]) -> io::Result<()> {
     if cfg!(target_endian = "little") {
-        out.write_all(bytemuck::cast_slice(&pixels.texels))
+        out.write_all(bytemuck::cast_slice(texels))
     } else {
-        pixels.texels.iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
+        texels.iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
     }
 }
 

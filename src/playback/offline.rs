@@ -3,7 +3,11 @@
 //! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
 //! the same.
 
-use crate::{recording::Change, script::ScriptedInputs};
+use crate::{
+    recording::Change,
+    script::ScriptedInputs,
+    tiles::{Pace, Tiling},
+};
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
     BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
@@ -39,6 +43,13 @@ pub struct Offline {
     sound_date: Option<[f32; 4]>,
     /// The device takes the passes' times; not known before they are asked for.
     has_stamps: Option<bool>,
+    /// One pass is drawn in tiles.
+    tiling: Option<Tiling>,
+    pub(crate) pace: Pace,
+    /// The newest frame's number, and when it was begun.
+    newest: (i32, Option<Instant>),
+    /// The bytes that textures may take in the machine's own memory.
+    memory: Option<u64>,
 }
 
 /// A frame that the device has finished.
@@ -55,8 +66,51 @@ pub struct DrawnFrame {
 impl Offline {
     /// Makes the engine for a canvas of so many pixels. Fails for a size that the device cannot draw.
     pub fn new(gpu: &Gpu, (width, height): (u32, u32), inputs: ScriptedInputs) -> Result<Offline, EngineError> {
-        let engine = Some(Engine::new(gpu.clone(), width, height)?);
-        Ok(Offline { engine, frame_limit: None, inputs, build_millis: None, sound_date: None, has_stamps: None })
+        Ok(Self::of(Engine::new(gpu.clone(), width, height)?, inputs))
+    }
+
+    /// Does the same for a canvas of any size, where the one pass that is drawn in tiles has to be drawn: see
+    /// [`Offline::draw_strip`]. Programs are built with [`Offline::tile`].
+    pub fn tiled(
+        gpu: &Gpu,
+        (width, height): (u32, u32),
+        tiling: Tiling,
+        inputs: ScriptedInputs,
+    ) -> Result<Offline, EngineError> {
+        let engine = Engine::for_tiles(gpu.clone(), width, height)?;
+        Ok(Offline { tiling: Some(tiling), ..Self::of(engine, inputs) })
+    }
+
+    fn of(engine: Engine, inputs: ScriptedInputs) -> Offline {
+        Offline {
+            engine: Some(engine),
+            frame_limit: None,
+            inputs,
+            build_millis: None,
+            sound_date: None,
+            has_stamps: None,
+            tiling: None,
+            pace: Pace::default(),
+            newest: (0, None),
+            memory: None,
+        }
+    }
+
+    /// Returns how the one pass is drawn that is drawn in tiles.
+    pub fn tiling(&self) -> Option<Tiling> {
+        self.tiling
+    }
+
+    /// Returns what [`BuildOptions::tile`] is for this canvas.
+    pub fn tile(&self) -> Option<(u32, u32)> {
+        let width = self.engine.as_ref()?.size().0;
+        self.tiling.map(|tiling| tiling.tile(width))
+    }
+
+    /// Refuses programs whose textures take more bytes, where they take the machine's own memory. A driver that has no
+    /// memory of its own does not refuse them: it is killed.
+    pub fn set_memory_limit(&mut self, bytes: Option<u64>) {
+        self.memory = bytes;
     }
 
     /// Gives a frame up that takes longer, and the engine with it: no other can be drawn. The device stays as busy as
@@ -78,6 +132,10 @@ impl Offline {
         let built = Program::build(engine.gpu(), project, media, options);
         self.build_millis = Some(millis_since(began));
         let built = built?;
+        let needed = built.program.plan().target_bytes(engine.size());
+        if let Some(available) = self.memory.filter(|most| engine.gpu().is_cpu() && needed > *most) {
+            return Err(EngineError::Memory { needed, available }.into());
+        }
         engine.set_program(built.program)?;
         Ok((built.diagnostics, built.sources))
     }
@@ -89,7 +147,7 @@ impl Offline {
 
     /// Returns what the next frame is drawn with. A recording may give it another canvas and other values of uniforms
     /// first.
-    fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
+    pub fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
         if let Some(change_of_frame) = self.inputs.next_change() {
             change(self.engine.as_mut().ok_or_else(gone)?, &change_of_frame)?;
         }
@@ -128,6 +186,7 @@ impl Offline {
 
     fn draw_with(&mut self, inputs: FrameInputs) -> Result<DrawnFrame, OfflineError> {
         let number = inputs.frame;
+        self.newest = (number, Some(Instant::now()));
         self.within(number, move |engine| {
             let began = Instant::now();
             let stats = engine.draw(&inputs)?;
@@ -137,19 +196,30 @@ impl Offline {
         })
     }
 
-    /// Draws the next frame `parts` times, at times that begin with its own and are spread evenly over `secs`, and hands each
-    /// to `each`. Of a project with a state, each part counts as a frame.
+    /// Draws the next frame `parts` times, in the middles of as many parts of `secs`, which begin at its own time, and hands each
+    /// to `each`. So the mean of what moves evenly is where it is in the middle of that time: see the study `shutter`. Of a project with a state, each part counts as a frame.
     pub fn draw_parts<E: From<OfflineError>>(
         &mut self,
         parts: u32,
         secs: f64,
-        mut each: impl FnMut(&mut Offline) -> Result<(), E>,
+        each: impl FnMut(&mut Offline) -> Result<(), E>,
     ) -> Result<DrawnFrame, E> {
         let inputs = self.next_inputs().map_err(OfflineError::from)?;
+        self.draw_parts_of(&inputs, parts, secs, each)
+    }
+
+    /// Does the same for a frame of these inputs.
+    pub fn draw_parts_of<E: From<OfflineError>>(
+        &mut self,
+        inputs: &FrameInputs,
+        parts: u32,
+        secs: f64,
+        mut each: impl FnMut(&mut Offline) -> Result<(), E>,
+    ) -> Result<DrawnFrame, E> {
         let number = inputs.frame;
         let (mut stats, mut cpu_millis, mut millis) = (FrameStats::default(), 0.0, 0.0);
         for part in 0..parts.max(1) {
-            let late = secs * f64::from(part) / f64::from(parts.max(1));
+            let late = secs * (f64::from(part) + 0.5) / f64::from(parts.max(1));
             let mut inputs = inputs.clone();
             inputs.time_secs += late;
             inputs.date[3] += late as f32;
@@ -234,6 +304,17 @@ impl Offline {
     ) -> Result<T, OfflineError> {
         let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };
         self.within_limit(limit, work)?.ok_or(OfflineError::TimedOut { frame, limit })
+    }
+
+    /// Does a part of the newest frame's work, for which the limit counts as a whole.
+    pub(crate) fn within_frame<T: Send + 'static>(
+        &mut self,
+        work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
+    ) -> Result<T, OfflineError> {
+        let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };
+        let (frame, began) = self.newest;
+        let left = began.map_or(limit, |began| limit.saturating_sub(began.elapsed()));
+        self.within_limit(left, work)?.ok_or(OfflineError::TimedOut { frame, limit })
     }
 
     /// Returns `None` where the work takes longer. It is left behind, with the engine.

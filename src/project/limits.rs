@@ -76,6 +76,14 @@ pub const VIDEO_IMAGES: usize = 20_000;
 pub const VIDEO_DECODE_SECONDS: u64 = 10;
 /// Frames of a film that are drawn and wait to be encoded, besides two of them.
 pub const FILM_QUEUE_BYTES: u64 = 256 << 20;
+/// Pixels across or up of a picture that is drawn in tiles.
+pub const TILED_SIDE: u32 = 262_144;
+/// Pixels of a picture that is drawn in one piece where it can be drawn in tiles: 7680x4320 are less.
+pub const WHOLE_PIXELS: u64 = 33_554_432;
+/// Rows of a picture that is drawn in tiles that are drawn before they are encoded.
+pub const STRIP_BYTES: u64 = 64 << 20;
+/// A frame of a film whose picture is drawn in tiles, as it waits to be encoded.
+pub const FILM_FRAME_BYTES: u64 = 2 << 30;
 /// All pictures, sounds and models of a project together, as Eddy holds them.
 pub const MEDIA_BYTES: u64 = 2 << 30;
 

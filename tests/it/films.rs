@@ -319,8 +319,8 @@ fn supersampled_and_blurred_frames_are_the_means_of_what_they_say() {
     b.image("t.glsl", "fragColor = vec4(iTime, float(iFrame), fract(iTime * 60.0 + 0.001) < 0.2 ? 1.0 : 0.0, 1.0);");
     b.line("render t.glsl --size 2x2 --frames 30-30 --shutter 0.5 --samples 4 --format npy --out t").expect(0);
     let [time, frame, lit, _] = b.npy("t/t_0030.npy").at(0, 0);
-    // Times .5 s and 1/8, 2/8 and 3/8 of a frame later.
-    assert!((time - (0.5 + 0.1875 / 60.0)).abs() < 1e-6, "{time}");
+    // Times 1/16, 3/16, 5/16 and 7/16 of a frame after .5 s.
+    assert!((time - (0.5 + 0.25 / 60.0)).abs() < 1e-6, "{time}");
     assert_eq!((frame, lit), (30.0, 0.5));
     b.image("s/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 1.0;");
     b.image("s/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");

@@ -52,6 +52,7 @@ mod lab_hard;
 mod lab_open;
 mod lab_pictures;
 mod lab_run;
+mod lab_samples;
 mod lab_shapes;
 mod lab_stability;
 mod layers;
@@ -96,6 +97,7 @@ mod sound_devices;
 #[cfg(all(feature = "audio", target_os = "linux"))]
 mod sound_server;
 mod thumbnails;
+mod tiles;
 mod time_travel;
 mod uniform_values;
 mod uniforms;

@@ -2,10 +2,12 @@
 
 use super::{
     run::RunArgs,
-    values::{self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter},
+    values::{
+        self, PROJECT, Picture, chroma, codec, face, fade, picture, quality, range, seconds, shard, shutter, tile,
+    },
 };
 use crate::{
-    cli::{progress, sweep::Sweep},
+    cli::{progress, sweep::Sweep, tiles::Tiles},
     film::{Chroma, Codec, ColorRange, Format, Quality, Style},
     playback::{
         frames::{FrameList, Frames},
@@ -59,6 +61,10 @@ pub struct RenderArgs {
     /// larger picture
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=8), conflicts_with = "replay")]
     pub supersample: Option<u32>,
+    /// Draw the picture in tiles of SIZE pixels along each side, a multiple of 4, one after the other: for drivers that stop
+    /// long draws. Pictures of more than 33 megapixels are drawn in tiles anyway [default: 2048, or as memory allows]
+    #[arg(long, value_name = "SIZE", value_parser = tile, conflicts_with = "no_skip")]
+    pub tile: Option<u32>,
     /// Motion blur: the part of a frame's time for which the shutter is open, above 0 to 1. For projects without a state
     #[arg(long, value_name = "PART", value_parser = shutter, conflicts_with = "replay")]
     pub shutter: Option<f64>,
@@ -150,11 +156,15 @@ impl RenderArgs {
         Ok(self.run.inputs()?.with_mouse_scale(self.factor()))
     }
 
-    /// Returns the run with the resolution in which it is drawn.
+    /// Returns the run with the resolution in which it is drawn, and in tiles where that is needed.
     pub fn drawn(&self) -> RunArgs {
         let (width, height) = self.run.size;
         let size = (width.saturating_mul(self.factor()), height.saturating_mul(self.factor()));
-        RunArgs { size, ..self.run.clone() }
+        let tiles = match self.tile {
+            Some(side) => Tiles::Always(side, self.factor()),
+            None => Tiles::Large(self.factor()),
+        };
+        RunArgs { size, tiles, ..self.run.clone() }
     }
 }
 

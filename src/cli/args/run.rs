@@ -1,6 +1,7 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
 use super::values::{fps, recording, seconds, size, webcam};
+use crate::cli::tiles::Tiles;
 use crate::{
     glsl::opt::PassSet,
     playback::{
@@ -58,6 +59,9 @@ pub struct RunArgs {
     pub compile_timeout: Option<Duration>,
     #[command(flatten)]
     pub without_pass: WithoutPass,
+    /// Not an option: `eddy render` sets it.
+    #[arg(skip)]
+    pub tiles: Tiles,
 }
 
 impl RunArgs {

@@ -62,6 +62,11 @@ pub fn shutter(text: &str) -> Result<f64, String> {
     part.ok_or_else(|| "a shutter is a number above 0 and at most 1, as in 0.5".into())
 }
 
+pub fn tile(text: &str) -> Result<u32, String> {
+    let side = text.parse().ok().filter(|side: &u32| *side > 0 && side.is_multiple_of(4));
+    side.ok_or_else(|| "the side of a tile is a multiple of 4 pixels, as in 1024".into())
+}
+
 pub fn shard(text: &str) -> Result<Shard, String> {
     Shard::parse(text, |name| env::var(name).ok()).map_err(|error| error.to_string())
 }

@@ -51,20 +51,20 @@ pub(super) trait Sink: Send {
     fn finish(&mut self) -> Result<(), FilmError>;
 }
 
-enum Job<T> {
+pub(super) enum Job<T> {
     Next(T),
     Finish,
 }
 
 /// A thread that does jobs in their order.
-struct Queue<T> {
+pub(super) struct Queue<T> {
     jobs: Option<SyncSender<Job<T>>>,
     thread: Option<JoinHandle<Result<(), FilmError>>>,
 }
 
 impl<T: Send + 'static> Queue<T> {
     /// `work` takes jobs until there are no more. It ends with [`FilmError::Stopped`] where no [`Job::Finish`] came.
-    fn start(
+    pub fn start(
         capacity: usize,
         work: impl FnOnce(Receiver<Job<T>>) -> Result<(), FilmError> + Send + 'static,
     ) -> Result<Queue<T>, FilmError> {
@@ -74,7 +74,7 @@ impl<T: Send + 'static> Queue<T> {
     }
 
     /// Waits while the queue is full.
-    fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
+    pub fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
         match &self.jobs {
             Some(jobs) if jobs.send(job).is_ok() => Ok(()),
             // It has ended, and says why.
@@ -101,7 +101,7 @@ impl<T: Send + 'static> Queue<T> {
         }
     }
 
-    fn finish(&mut self) -> Result<(), FilmError> {
+    pub fn finish(&mut self) -> Result<(), FilmError> {
         self.push(Job::Finish)?;
         self.end()
     }

@@ -8,7 +8,7 @@ use naga::{Expression, GlobalVariable, Handle, SwizzleComponent};
 use super::{
     context::TablePlace,
     function::Builder,
-    resources::{self, CUBE_FACE, ZERO},
+    resources::{self, CUBE_FACE, TILE_ORIGIN, ZERO},
 };
 use crate::{
     builtins::Uniform,
@@ -42,6 +42,7 @@ impl Builder<'_, '_> {
             GlobalKind::Uniform(_)
             | GlobalKind::CustomUniform(_)
             | GlobalKind::CubeFace
+            | GlobalKind::TileOrigin
             | GlobalKind::Member { .. } => None,
         }
     }
@@ -62,6 +63,7 @@ impl Builder<'_, '_> {
                 (self.cx.custom_uniform_block(), slot.into())
             }
             GlobalKind::CubeFace => (self.cx.block(), CUBE_FACE),
+            GlobalKind::TileOrigin => (self.cx.block(), TILE_ORIGIN),
             GlobalKind::Member { block, index } => self.cx.block_member(block, index),
             GlobalKind::Table(table) => match self.cx.table_place(table) {
                 TablePlace::Uniform(index) => (self.cx.uniform_tables(), index),

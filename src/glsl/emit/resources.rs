@@ -39,7 +39,7 @@ enum Member {
 }
 
 /// Fields of [`UniformBlock`] in order.
-const MEMBERS: [(&str, u32, Member); 14] = members! {
+const MEMBERS: [(&str, u32, Member); 15] = members! {
     "iResolution" resolution Vec3;
     "iTime" time Float;
     "iMouse" mouse Vec4;
@@ -54,6 +54,7 @@ const MEMBERS: [(&str, u32, Member); 14] = members! {
     "iSampleOffset" sample_offset Int;
     "cube_face" cube_face Int2;
     "iChannelLoaded" channel_loaded Int4;
+    "tile_origin" tile_origin Int2;
 };
 
 /// Returns the position of a uniform in [`MEMBERS`], and its name in the reflection.
@@ -80,6 +81,9 @@ pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
 
 /// Position of the cube face in [`MEMBERS`].
 pub(super) const CUBE_FACE: u32 = 12;
+
+/// Position of the tile's origin in [`MEMBERS`].
+pub(super) const TILE_ORIGIN: u32 = 14;
 
 /// A member of the block that is always zero.
 pub(super) const ZERO: (u32, u32) = (CUBE_FACE, 1);

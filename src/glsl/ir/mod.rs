@@ -123,6 +123,8 @@ pub enum GlobalKind {
     CustomUniform(u16),
     /// Face of the cube map that is drawn, 0 to 5: read only.
     CubeFace,
+    /// The column and the row of the target's first texel in the picture, an `ivec2`: read only.
+    TileOrigin,
     /// A constant that is indexed at run time: read only.
     Table(ConstId),
     /// A member of one of [`Module::blocks`]: read only.

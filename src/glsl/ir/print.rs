@@ -19,6 +19,7 @@ pub fn print(module: &Module) -> String {
             GlobalKind::Uniform(uniform) => format!("uniform {}", uniform.name()),
             GlobalKind::CustomUniform(slot) => format!("uniform slot {slot}"),
             GlobalKind::CubeFace => "uniform cube face".into(),
+            GlobalKind::TileOrigin => "uniform tile origin".into(),
             GlobalKind::Table(table) => format!("table {}", constant(module, table.index())),
             GlobalKind::Member { block, index } => {
                 format!("uniform {}", module.blocks[usize::from(block)].members[usize::from(index)].name)

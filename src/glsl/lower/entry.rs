@@ -16,6 +16,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
     // Lowered before what precedes them: they may reach globals that no function does.
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reachable));
     let position = b.free(Op::Input(Input::Position));
+    let position = if b.cx.source.tiled { b.in_whole_picture(position) } else { position };
     b.set_frag_coord(position);
     b.splice(initialisers);
     let mut beside = None;
@@ -65,6 +66,18 @@ impl Builder<'_, '_> {
                 self.store(pointer, value);
             }
         }
+    }
+
+    /// Returns the position in the whole picture of a pixel of a tile. Exact: both parts are halves below 2^23.
+    fn in_whole_picture(&mut self, position: Value) -> Value {
+        let origin = self.cx.tile_origin();
+        let origin = self.global(origin);
+        let origin = self.load(origin);
+        let origin = self.add(Op::Convert { value: origin, to: Scalar::Float });
+        let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
+        let moved = self.op(Binary::Add, at, origin);
+        let rest: Vec<Value> = (2..4).map(|index| self.add(Op::Part { base: position, index })).collect();
+        self.compose(TypeId::VEC4, [vec![moved], rest].concat())
     }
 
     /// As WebGL has it for a triangle at depth 0: z is one half, w is one.

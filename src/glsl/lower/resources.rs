@@ -45,6 +45,10 @@ impl Lowering<'_> {
         self.read_only(TypeId::INT, GlobalKind::CubeFace)
     }
 
+    pub fn tile_origin(&mut self) -> ir::GlobalId {
+        self.read_only(TypeId::vector(Scalar::Int, 2), GlobalKind::TileOrigin)
+    }
+
     /// Returns a constant that is indexed.
     pub fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
         let ty = self.out[id].ty;

@@ -138,6 +138,9 @@ impl<'a, R: Real> Machine<'a, R> {
                 GlobalKind::Uniform(uniform) => fill(&mut uniform_words(self.state.world, uniform).into_iter()),
                 GlobalKind::CustomUniform(slot) => fill(&mut self.state.world.custom_uniform(slot).into_iter()),
                 GlobalKind::CubeFace => fill(&mut [self.state.world.cube_face()].into_iter()),
+                GlobalKind::TileOrigin => {
+                    fill(&mut self.state.world.uniforms().tile_origin[..2].iter().map(|number| *number as u32));
+                }
             }
         }
     }

@@ -4,6 +4,8 @@
 
 pub mod billiard;
 pub mod cavity;
+pub mod coverage;
+pub mod exposure;
 pub mod fft;
 pub mod gray_scott;
 pub mod linear;

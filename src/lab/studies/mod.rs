@@ -21,8 +21,10 @@ pub mod particles;
 pub mod poisson;
 mod precision;
 mod saw;
+pub mod shutter;
 mod silhouettes;
 pub mod ssr;
+pub mod supersampling;
 pub mod taa;
 pub mod torus;
 pub mod waves;
@@ -44,6 +46,8 @@ pub fn all() -> Vec<&'static Study> {
         &cavity::STUDY,
         &blur::STUDY,
         &bloom::STUDY,
+        &supersampling::STUDY,
+        &shutter::STUDY,
         &taa::STUDY,
         &ao::STUDY,
         &ssr::STUDY,

@@ -125,7 +125,7 @@ impl Scene {
         if !png.starts_with(SIGNATURE) || png.len() < begin {
             return Ok(png);
         }
-        let data = [KEYWORD, b"\0\x01\0\0\0", &self.packed()?].concat();
+        let data = self.png_text()?;
         let mut out = png[..begin].to_vec();
         out.extend(u32::try_from(data.len()).map_err(io::Error::other)?.to_be_bytes());
         let mut crc = Crc::new();
@@ -136,6 +136,11 @@ impl Scene {
         out.extend(crc.sum().to_be_bytes());
         out.extend_from_slice(&png[begin..]);
         Ok(out)
+    }
+
+    /// Returns the content of the chunk `iTXt` that holds the scene in a PNG file, right after its header.
+    pub fn png_text(&self) -> io::Result<Vec<u8>> {
+        Ok([KEYWORD, b"\0\x01\0\0\0", &self.packed()?].concat())
     }
 
     /// Returns the value of the attribute that holds the scene in an OpenEXR file; its name is [`ATTRIBUTE`].

@@ -21,7 +21,6 @@ use eddy_audio::{
     player::Player,
 };
 use eddy_media::ChannelSound;
-use eddy_project::{InputKind, Project};
 use std::{
     path::Path,
     sync::Arc,

@@ -185,7 +185,7 @@ impl Drawing<'_> {
             if step.is_wanted {
                 let pixels = shown.read(&mut offline)?;
                 let pixels = match &mut seam {
-                    Some(seam) => seam.join(pixels, &shown)?,
+                    Some(seam) => seam.join(pixels, |later| shown.read(later))?,
                     None => pixels,
                 };
                 let writer = match &mut writer {

@@ -530,9 +530,11 @@ fn begin(program: &Module, global: &Global) -> State {
     match global.kind {
         GlobalKind::Private(Some(init)) | GlobalKind::Table(init) => of_const(program, init),
         GlobalKind::Private(None) => State::ZERO,
-        GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::CubeFace | GlobalKind::Member { .. } => {
-            Unknown
-        }
+        GlobalKind::Uniform(_)
+        | GlobalKind::CustomUniform(_)
+        | GlobalKind::CubeFace
+        | GlobalKind::TileOrigin
+        | GlobalKind::Member { .. } => Unknown,
     }
 }
 

@@ -1,0 +1,173 @@
+//! Pictures that are drawn in tiles: which are, and their way from the tiles to files.
+
+use super::{
+    args::{RenderArgs, RunArgs},
+    machine::Trouble,
+    memory,
+};
+use crate::{
+    engine::{FrameInputs, Pixels},
+    film::{Mean, Output, Still, StripWriter, shrunk},
+    gpu::Gpu,
+    playback::{
+        offline::{Offline, OfflineError},
+        scene::Scene,
+        tiles::Tiling,
+    },
+    project::limits::{FILM_FRAME_BYTES, TILED_SIDE, WHOLE_PIXELS},
+};
+use std::ops::Range;
+
+/// Says whether the pass that is written is drawn in tiles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tiles {
+    #[default]
+    Never,
+    /// In tiles if its picture is too large to be drawn in one piece, or would take too much memory. Strips have whole blocks of
+    /// this many rows.
+    Large(u32),
+    /// Always, with so many pixels along each side of a tile.
+    Always(u32, u32),
+}
+
+/// The way in which a picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    Whole,
+    /// In tiles, if that can be; otherwise in one piece.
+    Rather(Tiling),
+    /// In tiles alone.
+    Tiled(Tiling),
+}
+
+impl Way {
+    pub fn tiling(self) -> Option<Tiling> {
+        match self {
+            Way::Whole => None,
+            Way::Rather(tiling) | Way::Tiled(tiling) => Some(tiling),
+        }
+    }
+}
+
+/// Decides how the pictures of a run are drawn. `is_measured`: somebody else reads all of the picture.
+pub fn way(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<Way, Trouble> {
+    let recorded = run.replay.iter().flat_map(|recording| recording.frames.iter().map(|frame| frame.size));
+    let sides = recorded.chain([run.size]).fold((0, 0), |(w, h), size| (w.max(size.0), h.max(size.1)));
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    let (is_too_large, pixels) = (sides.0.max(sides.1) > limit, u64::from(sides.0) * u64::from(sides.1));
+    let (side, factor) = match run.tiles {
+        Tiles::Never => return Ok(Way::Whole),
+        Tiles::Large(factor) if is_too_large || pixels > WHOLE_PIXELS => (None, factor),
+        Tiles::Large(_) => return Ok(Way::Whole),
+        Tiles::Always(side, factor) => (Some(side), factor),
+    };
+    let refused = |why: &str| -> Result<Way, Trouble> {
+        if side.is_none() && !is_too_large {
+            return Ok(Way::Whole);
+        }
+        let what = match side {
+            Some(_) => "--tile".into(),
+            None => format!("this device draws at most {limit}x{limit} pixels in one piece"),
+        };
+        Err(anyhow::anyhow!("{what}: {why}").into())
+    };
+    if run.no_skip {
+        return refused("--no-skip draws every pass in one piece; leave it out");
+    }
+    if is_measured {
+        return refused("a picture in tiles cannot be measured; remove its --probe, --assert and //@probe comments");
+    }
+    if sides.0.max(sides.1) > TILED_SIDE {
+        let what =
+            format!("a picture of {}x{} pixels: it can have at most {TILED_SIDE} across or up", sides.0, sides.1);
+        return Err(anyhow::anyhow!(what).into());
+    }
+    let tiling = Tiling::new(side, limit, factor);
+    Ok(if side.is_none() && !is_too_large { Way::Rather(tiling) } else { Way::Tiled(tiling) })
+}
+
+/// Returns the size of the written picture of a project that is drawn in tiles.
+pub fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), Trouble> {
+    let (width, height) = offline.engine()?.tiles().map_or((0, 0), |(picture, _)| picture);
+    Ok((width / args.factor(), height / args.factor()))
+}
+
+/// Draws rows of a picture. `parts`: the frame's inputs, where it is the mean of pictures.
+fn strip(
+    offline: &mut Offline,
+    args: &RenderArgs,
+    parts: Option<&FrameInputs>,
+    rows: Range<u32>,
+) -> Result<Pixels, Trouble> {
+    let drawn = match (parts, args.shutter) {
+        (Some(inputs), Some(shutter)) => {
+            let mut mean = Mean::default();
+            offline.draw_parts_of(inputs, args.samples, shutter / args.run.fps, |offline| {
+                mean.add(&offline.draw_strip(rows.clone())?);
+                Ok::<_, OfflineError>(())
+            })?;
+            mean.take()
+        }
+        _ => offline.draw_strip(rows)?,
+    };
+    Ok(if args.factor() == 1 { drawn } else { shrunk(&drawn, args.factor()) })
+}
+
+fn strips(offline: &Offline, top_first: bool) -> Result<Vec<Range<u32>>, Trouble> {
+    let picture = offline.engine()?.tiles().map(|(picture, _)| picture);
+    Ok(offline.tiling().zip(picture).map_or_else(Vec::new, |(tiling, picture)| tiling.strips(picture, top_first)))
+}
+
+/// Draws all of the newest frame's picture and drops it.
+pub fn draw_all(offline: &mut Offline) -> Result<(), Trouble> {
+    for rows in strips(offline, true)? {
+        offline.draw_strip(rows)?;
+    }
+    Ok(())
+}
+
+/// Returns the whole picture of the newest frame, whether or not it is drawn in tiles, as it is written.
+pub fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, Trouble> {
+    if offline.tiling().is_none() {
+        let pixels = offline.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
+        return Ok(if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) });
+    }
+    let (width, height) = size(offline, args)?;
+    let bytes = u64::from(width) * u64::from(height) * 16;
+    if bytes > FILM_FRAME_BYTES {
+        let what = anyhow::anyhow!(
+            "a frame of a film is encoded in one piece, and one of {width}x{height} pixels takes {}, more than {}: write \
+             png, exr or npy files, or choose a smaller resolution",
+            memory::gibibytes(bytes),
+            memory::gibibytes(FILM_FRAME_BYTES)
+        );
+        return Err(what.into());
+    }
+    let mut texels = Vec::with_capacity(width as usize * height as usize);
+    for rows in strips(offline, false)? {
+        texels.append(&mut strip(offline, args, parts, rows)?.texels);
+    }
+    Ok(Pixels { width, height, texels })
+}
+
+/// Draws the newest frame's picture and writes it meanwhile.
+pub fn write(
+    offline: &mut Offline,
+    args: &RenderArgs,
+    parts: Option<&FrameInputs>,
+    still: Still,
+    output: Output,
+    scene: Option<Scene>,
+) -> Result<(), Trouble> {
+    let size = size(offline, args)?;
+    if matches!(output, Output::Pipe(_)) && !still.is_for_pipes_in_strips() {
+        return Err(anyhow::anyhow!("--out -: an exr picture that is drawn in tiles needs a file").into());
+    }
+    let texels = offline.engine()?.format(&args.pass.pass, args.pass.target).unwrap_or_default();
+    let failed = |error| Trouble::Other(anyhow::Error::from(error));
+    let mut writer = StripWriter::start(still, texels, size, output, scene).map_err(failed)?;
+    for rows in strips(offline, still.is_top_first())? {
+        writer.push(strip(offline, args, parts, rows)?).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)
+}

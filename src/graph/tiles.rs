@@ -1,0 +1,110 @@
+//! A pass that is drawn in tiles, into a target that is smaller than its picture: whether it can be, and why another one
+//! cannot.
+
+use super::{Draw, FramePlan, TexelSource};
+use eddy_project::{PassSize, Project};
+use eddy_texture::Dimension;
+use std::fmt;
+
+/// The draw of a plan that is done tile by tile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TiledDraw {
+    /// Index into [`FramePlan::draws`].
+    pub draw: usize,
+    /// The size of the whole picture. That of its target is a tile's.
+    pub size: PassSize,
+}
+
+/// The reason why a pass cannot be drawn in tiles. Its text says what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Undivided {
+    Meshes,
+    Cube,
+    Targets,
+    /// The pass of this title reads it.
+    Read(String),
+    Itself,
+    Discards,
+    Region,
+    Boundary,
+    Initial,
+    Steps,
+}
+
+impl fmt::Display for Undivided {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Undivided::Meshes => "it draws meshes, which are rasterized over the whole picture; choose a smaller resolution",
+            Undivided::Cube => "the faces of a cubemap have one size; leave --tile out",
+            Undivided::Targets => "it has several targets; choose a smaller resolution",
+            Undivided::Read(reader) => {
+                return write!(
+                    f,
+                    "{reader} reads all of its picture; give it a fixed size in eddy.toml, or choose a smaller resolution"
+                );
+            }
+            Undivided::Itself => {
+                "it reads its own last picture; give it a fixed size in eddy.toml, or choose a smaller resolution"
+            }
+            Undivided::Discards => {
+                "it discards pixels, which then show what they showed before; give these pixels a colour instead, or \
+                 choose a smaller resolution"
+            }
+            Undivided::Region => "only a region of it is drawn; remove the region in eddy.toml",
+            Undivided::Boundary => "it has a boundary; remove the boundary in eddy.toml",
+            Undivided::Initial => "it has initial texels; remove them in eddy.toml",
+            Undivided::Steps => "it is drawn in several steps a frame; choose a smaller resolution",
+        })
+    }
+}
+
+impl FramePlan {
+    /// Makes the target of a pass as small as a tile, and leaves the draw to who draws it tile by tile. The picture is the
+    /// same as in one piece: every texel depends on its position and on what other passes drew, on nothing that was in its
+    /// place before, and nobody reads it. On an error nothing is changed.
+    ///
+    /// # Panics
+    /// If no draw is of this pass.
+    pub fn tile(&mut self, project: &Project, pass: usize, tile: (u32, u32)) -> Result<(), Undivided> {
+        let index = self.draws.iter().position(|draw| draw.pass == pass).expect("the pass is drawn");
+        let draw = &self.draws[index];
+        let settings = &project.passes[pass].settings;
+        if settings.meshes().is_some() {
+            return Err(Undivided::Meshes);
+        }
+        if draw.targets.len() != 1 || draw.beside.is_some() {
+            return Err(Undivided::Targets);
+        }
+        let place = draw.targets.start;
+        if self.targets[place].dimension != Dimension::D2 {
+            return Err(Undivided::Cube);
+        }
+        let reads = |draw: &&Draw| {
+            draw.reads.iter().flatten().any(|r| matches!(r.source, TexelSource::Target { index, .. } if index == place))
+        };
+        if let Some(reader) = self.draws.iter().find(reads) {
+            let title = project.passes[reader.pass].id.title();
+            return Err(if reader.pass == pass { Undivided::Itself } else { Undivided::Read(title) });
+        }
+        if draw.region.is_some() {
+            return Err(Undivided::Region);
+        }
+        if draw.keeps_content {
+            return Err(Undivided::Discards);
+        }
+        if draw.boundary.is_some() {
+            return Err(Undivided::Boundary);
+        }
+        if draw.has_initial {
+            return Err(Undivided::Initial);
+        }
+        if self.steps_of(index) != 1 {
+            return Err(Undivided::Steps);
+        }
+        let target = &mut self.targets[place];
+        self.tiled = Some(TiledDraw { draw: index, size: target.size });
+        target.size = PassSize::Fixed(tile.0, tile.1);
+        target.mips = false;
+        Ok(())
+    }
+}
