@@ -96,6 +96,8 @@ mod sound_devices;
 mod sound_server;
 mod thumbnails;
 mod time_travel;
+mod tools;
+mod translate;
 mod uniform_values;
 mod uniforms;
 mod unloaded_channels;
