@@ -133,6 +133,11 @@ impl GlslVersion {
         self == GlslVersion::Desktop450
     }
 
+    /// Returns whether `mix` selects among integers.
+    pub(crate) fn has_integer_mix(self) -> bool {
+        self == GlslVersion::Desktop450
+    }
+
     /// Returns whether `packHalf2x16` and its like are there: from 4.2 on and in ES 3.0 (section 8.4 of the GLSL
     /// specifications).
     pub(crate) fn has_packing(self) -> bool {

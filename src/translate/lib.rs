@@ -5,6 +5,7 @@
 //! work-arounds for drivers. Needs no device, and writes no file itself.
 
 mod bindings;
+mod glsl;
 mod hlsl;
 mod language;
 mod manifest;

@@ -143,6 +143,17 @@ fn packing_is_refused_where_glsl_has_none_with_its_line() {
 }
 
 #[test]
+fn integers_are_selected_by_a_function_where_glsl_has_none() {
+    let project = image("void mainImage(out vec4 o, in vec2 p) { o = vec4((ivec2(p) % int(p.x)).xyxy); }");
+    for version in GlslVersion::ALL {
+        let done = translate(&project, Language::Glsl(version)).expect("translates");
+        let text = text(&done, "image.frag.glsl");
+        let is_old = version != GlslVersion::Desktop450;
+        assert_eq!(text.contains("eddy_mix(ivec2 a, ivec2 b, bvec2 t)"), is_old, "{version:?}\n{text}");
+    }
+}
+
+#[test]
 fn errors_of_the_author_are_told_as_they_are() {
     let errors = translate(&image("void mainImage(out vec4 o, in vec2 p) { o = oops; }"), Language::Wgsl);
     assert!(errors.expect_err("an error")[0].message.contains("oops"));

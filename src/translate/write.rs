@@ -10,7 +10,13 @@ use naga::{
     valid::{Capabilities, ModuleInfo, ValidationFlags, Validator},
 };
 
-use crate::{Language, bindings, hlsl::with_sampler_registers, names, wgsl::for_browsers};
+use crate::{
+    Language, bindings,
+    glsl::{selects_integers, with_own_mix},
+    hlsl::with_sampler_registers,
+    names,
+    wgsl::for_browsers,
+};
 
 /// A stage in another language.
 pub(crate) struct Written {
@@ -81,6 +87,9 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
             let textures = reflection.texture_mapping.into_iter().map(|(name, mapping)| (mapping.texture, name));
             for (handle, name) in reflection.uniforms.into_iter().chain(textures) {
                 glsl_names.extend(module.global_variables[handle].binding.map(|binding| (binding, name)));
+            }
+            if !version.has_integer_mix() && selects_integers(&module, &info) {
+                text = with_own_mix(&text);
             }
             text.into_bytes()
         }

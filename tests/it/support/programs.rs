@@ -5,8 +5,9 @@ use std::process::{Command, Stdio};
 
 /// Says whether a program is there, and counts a test that is left out.
 pub fn has(program: &str) -> bool {
-    let runs = Command::new(program).arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    let is_here = runs.status().is_ok();
+    let mut command = Command::new(program);
+    let command = command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let is_here = command.status().is_ok();
     if !is_here {
         skipped(&format!("{program} is not installed"));
     }
