@@ -282,8 +282,6 @@ mod tests {
             ("eddy translate a", "--to"),
             ("eddy translate a --to cg", "wgsl, hlsl, msl, glsl, spirv"),
             ("eddy translate a --to glsl --glsl-version 120", "330, 410, 450, 300es"),
-            ("eddy completions tcsh", "bash"),
-            ("eddy man", "--out"),
         ] {
             let message = parse(line).expect_err(line);
             assert!(message.contains(hint), "{line}\n{message}");
