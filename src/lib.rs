@@ -28,4 +28,5 @@ pub use eddy_playback as playback;
 pub use eddy_project as project;
 pub use eddy_session as session;
 pub use eddy_texture as texture;
+pub use eddy_translate as translate;
 pub use eddy_video as video;

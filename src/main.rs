@@ -11,8 +11,7 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn")).init();
+    cli::install_log_and_reports();
     match cli::main() {
         Next::Exit(code) => code,
         Next::Window(window) => match open(window) {

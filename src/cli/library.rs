@@ -84,7 +84,7 @@ fn save(project: &Project, to: &Path, force: bool) -> Result<(), Trouble> {
 }
 
 /// Names the option that allows what was refused.
-fn mend(trouble: Trouble) -> Trouble {
+pub(super) fn mend(trouble: Trouble) -> Trouble {
     match trouble {
         Trouble::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {
             Trouble::Other(anyhow::anyhow!("{error} with --force"))

@@ -10,13 +10,16 @@ mod check;
 mod checkpoints;
 mod compare;
 mod divergence;
+mod doctor;
 mod failure;
 mod lab;
 mod library;
 mod machine;
+mod manuals;
 mod measured;
 mod memory;
 mod nonfinite;
+mod panic_hook;
 mod plan;
 mod precision;
 mod printed;
@@ -33,6 +36,8 @@ mod targets;
 mod text_place;
 mod tiles;
 mod trace;
+mod translate;
+mod written;
 
 use crate::playback::trial;
 pub use args::Window;
@@ -40,6 +45,7 @@ use args::{Cli, Command};
 use clap::Parser;
 use failure::TROUBLE;
 pub use failure::{error_chain, trouble};
+pub use panic_hook::install as install_log_and_reports;
 use std::{io, process::ExitCode};
 
 /// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
@@ -65,6 +71,7 @@ pub fn main() -> Next {
             | Command::Compare(_)
             | Command::Bench(_)
             | Command::Lab(_)
+            | Command::Doctor(_)
             | Command::TryCompile
     ) {
         quiet::ask_for_no_wayland();
@@ -127,6 +134,13 @@ fn run(command: &Command) -> u8 {
         Command::List => library::list(),
         Command::Import(args) => library::import(args),
         Command::Export(args) => library::export(args),
+        Command::Translate(args) => match args.language() {
+            Ok(language) => translate::run(args, language),
+            Err(usage) => return trouble(usage),
+        },
+        Command::Doctor(args) => doctor::run(args),
+        Command::Completions(args) => manuals::completions(args),
+        Command::Man(args) => manuals::man(args),
         Command::TryCompile => return u8::from(trial::serve(io::stdin()).is_err()),
     };
     printed(result)

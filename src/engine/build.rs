@@ -4,7 +4,6 @@ use super::{
     BuildError, EngineError, Sources,
     channels::{ChannelBinder, filter_mode, filter_mode_of_fill},
     compile::PassOptions,
-    compiled::CompiledPass,
     draft::{CompiledParts, DrawDraft},
     pipelines::PipelineCache,
     preamble::KeptPreamble,
@@ -17,7 +16,7 @@ use super::{
 use eddy_diag::{self as diag, Diagnostic, SourceId, SourceMap};
 use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
-use eddy_graph::{ChannelFacts, FramePlan, PassFacts};
+use eddy_graph::{FramePlan, PassFacts};
 use eddy_media::MediaSet;
 use eddy_project::{Channel, FillKind, Pass, PassId, PassSettings, Project};
 use eddy_texture::TexelFormat;
@@ -171,7 +170,7 @@ impl Builder {
                 return Err(EngineError::NoSuchPass(id.title()).into());
             }
         }
-        let facts: Vec<PassFacts> = passes.iter().map(|p| facts(&p.compiled)).collect();
+        let facts: Vec<PassFacts> = passes.iter().map(|p| p.compiled.facts()).collect();
         // What Image's probe reads has been drawn by then, as for Image.
         let last = BuildOptions::probed();
         let mut plan = FramePlan::ending_with(&drawable, &facts, &wanted, options.skip, Some(&last));
@@ -338,11 +337,4 @@ fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
     let settings = PassSettings { size, region, format: TexelFormat::Rgba32f, ..PassSettings::default() };
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
-}
-
-fn facts(compiled: &CompiledPass) -> PassFacts {
-    PassFacts {
-        channels: compiled.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
-        discards: compiled.reflection.discards,
-    }
 }

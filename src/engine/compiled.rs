@@ -2,6 +2,7 @@
 
 use eddy_diag::Diagnostic;
 use eddy_glsl::{Compiled, Reflection, interface};
+use eddy_graph::{ChannelFacts, PassFacts};
 use std::sync::Arc;
 
 /// A pass that compiled.
@@ -15,7 +16,8 @@ pub struct CompiledPass {
 }
 
 /// One program of a pass. Its diagnostics are those of the pass.
-pub(super) struct CompiledProgram {
+#[derive(Clone)]
+pub struct CompiledProgram {
     /// `None`: the triangle over the whole target.
     pub vertex: Option<Arc<Compiled>>,
     pub fragment: Arc<Compiled>,
@@ -44,6 +46,19 @@ impl CompiledProgram {
 }
 
 impl CompiledPass {
+    /// Returns its programs: one, or one for each mesh in the order in which they are drawn.
+    pub fn programs(&self) -> &[CompiledProgram] {
+        &self.programs
+    }
+
+    /// Returns what the planner has to know of it.
+    pub fn facts(&self) -> PassFacts {
+        PassFacts {
+            channels: self.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
+            discards: self.reflection.discards,
+        }
+    }
+
     /// A pass over the whole target.
     pub(super) fn screen(fragment: Arc<Compiled>, diagnostics: Vec<Diagnostic>) -> Self {
         let reflection = fragment.reflection.clone();

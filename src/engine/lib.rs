@@ -42,7 +42,7 @@ mod uploads;
 mod viewer;
 
 pub use build::{BuildOptions, BuildWork, Builder, Built};
-pub use compiled::CompiledPass;
+pub use compiled::{CompiledPass, CompiledProgram};
 pub use costs::{CostClock, PassCost, PassRead, PassRole};
 pub use eddy_gpu::{Paint, ValueLook};
 pub use eddy_graph::When;

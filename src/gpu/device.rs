@@ -188,6 +188,8 @@ impl Gpu {
         if !features.contains(wgpu::Features::FLOAT32_FILTERABLE) {
             log::warn!("{} cannot filter 32-bit float textures: filtered reads use four fetches", info.name);
         }
+        // A report about a panic names the newest one.
+        log::info!(target: "eddy::device", "{} ({}, {})", info.name, info.backend, info.driver_info);
         let state = Arc::new(State::default());
         let lost = state.clone();
         device.set_device_lost_callback(move |reason, message| {

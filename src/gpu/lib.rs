@@ -16,6 +16,7 @@ mod pick;
 mod pipeline;
 mod present;
 mod readback;
+mod report;
 mod samplers;
 mod spirv;
 #[cfg(feature = "testing")]
@@ -37,6 +38,7 @@ pub use pick::TexelPicker;
 pub use pipeline::{FragmentPipelineDescriptor, Pipeline, Shader};
 pub use present::Presenter;
 pub use readback::Readback;
+pub use report::{AdapterReport, DeviceReport, Fault};
 pub use samplers::{Address, Filtering, Samplers};
 pub use texture::{Texture, TextureDescriptor, texture_format, view_dimension};
 pub use timer::PassTimer;

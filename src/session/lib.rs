@@ -37,6 +37,7 @@ mod next_project;
 mod nonfinite;
 mod notices;
 mod options;
+mod panic_report;
 mod pass_history;
 mod passes;
 mod playback;
@@ -74,6 +75,7 @@ pub use films::{
     FilmView, LiveView,
 };
 pub use options::{SessionError, SessionOptions};
+pub use panic_report::{PanicReport, folder as report_folder, home_as_tilde};
 pub use pass_history::PassStep;
 pub use playback::{Reach, ReplayView, TimeRange};
 pub use recent::RecentProject;

@@ -99,6 +99,8 @@ mod sound_server;
 mod thumbnails;
 mod tiles;
 mod time_travel;
+mod tools;
+mod translate;
 mod uniform_values;
 mod uniforms;
 mod unloaded_channels;

@@ -4,12 +4,14 @@ mod inspect;
 mod lab;
 mod render;
 mod run;
+mod tools;
 mod values;
 
 pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
 pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
 pub use render::RenderArgs;
 pub use run::RunArgs;
+pub use tools::{CompletionsArgs, DoctorArgs, ManArgs, TranslateArgs};
 
 use super::sweep::Sweep;
 use crate::{
@@ -17,7 +19,7 @@ use crate::{
     playback::{script::ScriptedInputs, trial::COMMAND},
     video::CameraSource,
 };
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use run::WithoutPass;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
@@ -90,9 +92,22 @@ pub enum Command {
     Import(ImportArgs),
     /// Convert a project to a Shadertoy JSON file
     Export(ExportArgs),
+    /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
+    Translate(TranslateArgs),
+    /// Describe this machine and this build, for a report; sends nothing
+    Doctor(DoctorArgs),
+    /// Print completions for a shell
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    Man(ManArgs),
     /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see playback/trial.rs
     #[command(hide = true, name = COMMAND)]
     TryCompile,
+}
+
+/// Returns the names of all commands.
+pub fn command_names() -> Vec<String> {
+    Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
 }
 
 #[derive(Debug, Args)]
@@ -184,7 +199,6 @@ mod tests {
         playback::frames::{FrameList, Frames},
         project::PassId,
     };
-    use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Cli, String> {
         Cli::try_parse_from(line.split(' ')).map_err(|e| e.to_string())
@@ -265,6 +279,9 @@ mod tests {
             ("eddy lab precision fluid --frames 0", "frames"),
             ("eddy import a.json", "--out"),
             ("eddy export", "PROJECT"),
+            ("eddy translate a", "--to"),
+            ("eddy translate a --to cg", "wgsl, hlsl, msl, glsl, spirv"),
+            ("eddy translate a --to glsl --glsl-version 120", "330, 410, 450, 300es"),
         ] {
             let message = parse(line).expect_err(line);
             assert!(message.contains(hint), "{line}\n{message}");

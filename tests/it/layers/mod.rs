@@ -34,6 +34,7 @@ const LAYERS: &[&str] = &[
     "background",
     "playback",
     "film",
+    "translate",
     "debugger",
     "session",
     "lab",
@@ -49,8 +50,19 @@ const ROOT: &[(&str, &[&str])] = &[
     (
         "main",
         &[
-            "diag", "project", "media", "glsl", "graph", "gpu", "engine", "playback", "film", "debugger", "session",
+            "diag",
+            "project",
+            "media",
+            "glsl",
+            "graph",
+            "gpu",
+            "engine",
+            "playback",
+            "film",
+            "debugger",
+            "session",
             "lab",
+            "translate",
         ],
     ),
 ];
@@ -89,6 +101,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "engine",
             "background",
             "film",
+            "translate",
             "debugger",
             "lab",
             "cli",
@@ -96,7 +109,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film"]),
+    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate"]),
     (
         &["env"],
         &[
@@ -116,7 +129,20 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     ),
     (
         &["fs", "File", "OpenOptions"],
-        &["audio", "control", "texture", "diag", "glsl", "graph", "gpu", "engine", "background", "film", "debugger"],
+        &[
+            "audio",
+            "control",
+            "texture",
+            "diag",
+            "glsl",
+            "graph",
+            "gpu",
+            "engine",
+            "background",
+            "film",
+            "translate",
+            "debugger",
+        ],
     ),
 ];
 

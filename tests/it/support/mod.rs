@@ -17,6 +17,7 @@ pub mod pings;
 pub mod preset;
 pub mod presets;
 pub mod program;
+pub mod programs;
 pub mod stage;
 pub mod walked;
 pub mod window;

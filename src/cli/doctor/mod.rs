@@ -1,0 +1,343 @@
+//! `eddy doctor`: what a report about this machine has to say. Nothing leaves the machine, no sound device is opened, and
+//! the home folder is shown as `~`.
+
+mod folders;
+mod text;
+
+use super::args::DoctorArgs;
+use crate::{
+    gpu::{AdapterReport, DeviceReport},
+    session::home_as_tilde,
+    video::Tools,
+};
+use folders::FolderLine;
+use serde::Serialize;
+use std::{
+    collections::BTreeMap,
+    env,
+    io::{self, Write},
+    path::Path,
+    process::{Command, Stdio},
+};
+
+/// Encoders of ffmpeg that films are made by, and what each is for.
+const ENCODERS: [(&str, &str); 11] = [
+    ("libx264", "h264"),
+    ("libx264rgb", "h264 without loss"),
+    ("libx265", "h265"),
+    ("libvpx-vp9", "vp9"),
+    ("libsvtav1", "av1"),
+    ("libaom-av1", "av1 of small or 4:4:4 films"),
+    ("prores_ks", "prores"),
+    ("ffv1", "ffv1"),
+    ("aac", "sound of mp4"),
+    ("libopus", "sound of webm"),
+    ("flac", "sound of mkv"),
+];
+
+/// Environment variables that change what Eddy does. Their values name no person.
+const VARIABLES: [&str; 14] = [
+    "WGPU_BACKEND",
+    "WGPU_ADAPTER_NAME",
+    "WGPU_VALIDATION",
+    "VK_ICD_FILENAMES",
+    "VK_DRIVER_FILES",
+    "VK_LOADER_DRIVERS_SELECT",
+    "LIBGL_ALWAYS_SOFTWARE",
+    "MESA_LOADER_DRIVER_OVERRIDE",
+    "RUST_LOG",
+    "RUST_BACKTRACE",
+    "WINIT_UNIX_BACKEND",
+    "WINIT_X11_SCALE_FACTOR",
+    "LANG",
+    "LC_ALL",
+];
+
+/// Everything that the command tells.
+#[derive(Debug, Serialize)]
+pub struct Doctor {
+    build: Build,
+    /// The device that Eddy draws with.
+    device: Answer<Device>,
+    adapters: Vec<Adapter>,
+    display: Display,
+    fonts: Vec<FontFolder>,
+    /// `None`: this build has no sound devices.
+    audio: Option<Audio>,
+    ffmpeg: Ffmpeg,
+    folders: Vec<FolderLine>,
+    environment: BTreeMap<&'static str, String>,
+    /// Reports of panics, the newest last.
+    reports: Vec<String>,
+}
+
+/// Something, or the reason why it is missing.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Answer<T> {
+    Is(T),
+    Missing { missing: String },
+}
+
+impl<T> From<Result<T, String>> for Answer<T> {
+    fn from(result: Result<T, String>) -> Self {
+        match result {
+            Ok(found) => Answer::Is(found),
+            Err(missing) => Answer::Missing { missing },
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Build {
+    eddy: &'static str,
+    features: Vec<&'static str>,
+    optimised: bool,
+    os: &'static str,
+    arch: &'static str,
+    system: Option<String>,
+    processors: usize,
+    libraries: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Device {
+    name: String,
+    backend: String,
+    features: Vec<String>,
+    limits: BTreeMap<&'static str, u64>,
+    /// Names of faults of the driver, with what Eddy does about them.
+    faults: BTreeMap<&'static str, &'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct Adapter {
+    name: String,
+    backend: String,
+    kind: String,
+    driver: String,
+    /// Hexadecimal PCI ids.
+    ids: String,
+    features: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Display {
+    /// `wayland`, `x11`, `windows`, `macos` or `none`.
+    server: &'static str,
+    desktop: Option<String>,
+    session: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct FontFolder {
+    folder: String,
+    /// Files of fonts in it and in folders within; `None`: it is not there.
+    files: Option<usize>,
+}
+
+#[derive(Debug, Serialize)]
+struct Audio {
+    outputs: Vec<String>,
+    inputs: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Ffmpeg {
+    /// The first line that ffmpeg says of itself; the reason where it cannot be run.
+    version: Answer<String>,
+    ffprobe: Answer<String>,
+    encoders: Vec<EncoderLine>,
+}
+
+/// An encoder that films are made by.
+#[derive(Debug, Serialize)]
+struct EncoderLine {
+    name: &'static str,
+    /// The codecs or formats that need it.
+    makes: &'static str,
+    is_there: bool,
+}
+
+pub fn run(args: &DoctorArgs) -> io::Result<u8> {
+    assert!(!args.panic, "`eddy doctor --panic` was called");
+    let doctor = Doctor::examine();
+    let mut out = io::stdout().lock();
+    if args.json {
+        serde_json::to_writer(&mut out, &doctor)?;
+        out.write_all(b"\n")?;
+    } else {
+        out.write_all(home_as_tilde(&text::of(&doctor)).as_bytes())?;
+    }
+    out.flush()?;
+    // A machine without a device draws nothing.
+    Ok(if matches!(doctor.device, Answer::Is(_)) { 0 } else { super::TROUBLE })
+}
+
+/// Returns one line about the build, for reports of panics.
+pub fn build() -> String {
+    let Build { eddy, features, optimised, os, arch, .. } = Build::of_this();
+    let profile = if optimised { "optimised" } else { "debug" };
+    format!("eddy {eddy} ({profile}; {}), {os} {arch}", features.join(", "))
+}
+
+impl Doctor {
+    fn examine() -> Doctor {
+        let device = DeviceReport::of_default().map_err(|error| error.to_string()).map(|device| Device {
+            name: device.adapter,
+            backend: device.backend,
+            features: device.features,
+            limits: device.limits.into_iter().collect(),
+            faults: device.faults.into_iter().map(|fault| (fault.name, fault.about)).collect(),
+        });
+        let tilde = |text: String| home_as_tilde(&text);
+        Doctor {
+            build: Build { system: system(), libraries: libraries(), ..Build::of_this() },
+            device: device.into(),
+            adapters: AdapterReport::all().into_iter().map(adapter).collect(),
+            display: Display::of_environment(),
+            fonts: fonts(),
+            audio: audio(),
+            ffmpeg: Ffmpeg::examine(&Tools::default()),
+            folders: folders::all(),
+            environment: VARIABLES.into_iter().filter_map(|name| Some((name, tilde(env::var(name).ok()?)))).collect(),
+            reports: folders::reports(),
+        }
+    }
+}
+
+impl Build {
+    fn of_this() -> Build {
+        let all = [
+            ("audio", cfg!(feature = "audio")),
+            ("gamepad", cfg!(feature = "gamepad")),
+            ("gui", cfg!(feature = "gui")),
+            ("midi", cfg!(feature = "midi")),
+        ];
+        Build {
+            eddy: env!("CARGO_PKG_VERSION"),
+            features: all.into_iter().filter(|(_, is_on)| *is_on).map(|(name, _)| name).collect(),
+            optimised: !cfg!(debug_assertions),
+            os: env::consts::OS,
+            arch: env::consts::ARCH,
+            system: None,
+            processors: std::thread::available_parallelism().map_or(1, usize::from),
+            libraries: BTreeMap::new(),
+        }
+    }
+}
+
+/// Returns the name of the distribution, and the kernel's version.
+fn system() -> Option<String> {
+    let name = std::fs::read_to_string("/etc/os-release").ok()?;
+    let name = name.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="))?.trim_matches('"').to_owned();
+    let kernel = std::fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
+    Some(if kernel.is_empty() { name } else { format!("{name}, kernel {}", kernel.trim()) })
+}
+
+/// Returns the versions of libraries that a fault could lie in, as this build has them.
+fn libraries() -> BTreeMap<String, String> {
+    const NAMES: [&str; 6] = ["clap", "cpal", "egui", "naga", "wgpu", "winit"];
+    let lock = include_str!("../../../Cargo.lock");
+    let mut found = BTreeMap::new();
+    let mut name = "";
+    for line in lock.lines() {
+        let value = |key: &str| line.strip_prefix(key)?.strip_suffix('"');
+        if let Some(package) = value("name = \"") {
+            name = package;
+        } else if let Some(version) = value("version = \"").filter(|_| NAMES.contains(&name)) {
+            found.insert(name.to_owned(), version.to_owned());
+        }
+    }
+    found
+}
+
+fn adapter(found: AdapterReport) -> Adapter {
+    let AdapterReport { name, backend, device_type, driver, driver_info, vendor, device, features } = found;
+    let driver = [driver, driver_info].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
+    Adapter { name, backend, kind: device_type, driver, ids: format!("{vendor:04x}:{device:04x}"), features }
+}
+
+impl Display {
+    fn of_environment() -> Display {
+        // `quiet` has put the second there.
+        let is_set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty() && value != "/dev/null");
+        let server = match () {
+            () if cfg!(windows) => "windows",
+            () if cfg!(target_os = "macos") => "macos",
+            () if is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET") => "wayland",
+            () if is_set("DISPLAY") => "x11",
+            () => "none",
+        };
+        Display { server, desktop: env::var("XDG_CURRENT_DESKTOP").ok(), session: env::var("XDG_SESSION_TYPE").ok() }
+    }
+}
+
+/// Returns where the fonts of the system are.
+fn fonts() -> Vec<FontFolder> {
+    let system: &[&str] = match () {
+        () if cfg!(windows) => &["C:\\Windows\\Fonts"],
+        () if cfg!(target_os = "macos") => &["/System/Library/Fonts", "/Library/Fonts"],
+        () => &["/usr/share/fonts", "/usr/local/share/fonts"],
+    };
+    let own = dirs::font_dir();
+    let folders = system.iter().map(|folder| Path::new(folder).to_owned()).chain(own);
+    let line = |folder: std::path::PathBuf| FontFolder {
+        files: folder.is_dir().then(|| count_fonts(&folder, 0)),
+        folder: home_as_tilde(&folder.display().to_string()),
+    };
+    folders.map(line).collect()
+}
+
+/// Folders of fonts nest no deeper than this; one that links to itself would.
+const FONT_DEPTH: u32 = 6;
+
+fn count_fonts(folder: &Path, depth: u32) -> usize {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_font = |path: &Path| {
+        let ends = |e: &&str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
+        ["ttf", "otf", "ttc", "otc"].iter().any(|e| ends(e))
+    };
+    let count = |path: std::path::PathBuf| match path.is_dir() {
+        true if depth < FONT_DEPTH => count_fonts(&path, depth + 1),
+        true => 0,
+        false => usize::from(is_font(&path)),
+    };
+    entries.map(count).sum()
+}
+
+/// Lists devices by their names, and opens none.
+#[cfg(feature = "audio")]
+fn audio() -> Option<Audio> {
+    use crate::audio::{device::Machine, host::AudioHost};
+    Some(Audio { outputs: Machine.output().names(), inputs: Machine.input().names() })
+}
+
+#[cfg(not(feature = "audio"))]
+fn audio() -> Option<Audio> {
+    None
+}
+
+impl Ffmpeg {
+    fn examine(tools: &Tools) -> Ffmpeg {
+        let there = tools.encoders().unwrap_or_default();
+        let has = |name: &str| there.iter().any(|there| there == name);
+        Ffmpeg {
+            version: first_line(&tools.ffmpeg).into(),
+            ffprobe: first_line(&tools.ffprobe).into(),
+            encoders: ENCODERS
+                .into_iter()
+                .map(|(name, makes)| EncoderLine { name, makes, is_there: has(name) })
+                .collect(),
+        }
+    }
+}
+
+/// Returns the first line of a program's version.
+fn first_line(program: &Path) -> Result<String, String> {
+    let mut command = Command::new(program);
+    command.args(["-hide_banner", "-version"]).stdin(Stdio::null());
+    let output = command.output().map_err(|error| format!("{} cannot be run: {error}", program.display()))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(text.lines().next().unwrap_or_default().to_owned())
+}

@@ -1,0 +1,146 @@
+//! Panics leave a report in a file, and the log keeps its newest warnings for it.
+//!
+//! The logger and the panic hook are the process's own: [`install`] is called once, by `main`.
+
+use crate::session::{self, PanicReport, home_as_tilde};
+use std::{
+    backtrace::Backtrace,
+    collections::VecDeque,
+    env,
+    ffi::OsStr,
+    io::Write,
+    panic::PanicHookInfo,
+    path::Path,
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+/// Lines of the log that a report has.
+const KEPT_LINES: usize = 20;
+
+/// Reports that one process writes: what follows a panic is rarely news.
+const MOST_REPORTS: usize = 3;
+
+/// The target of the line that names a device.
+const DEVICE: &str = "eddy::device";
+
+/// The newest lines of the log.
+#[derive(Default)]
+struct Recent {
+    lines: VecDeque<String>,
+    device: String,
+}
+
+/// Logs to standard error, and keeps what a report needs.
+struct Logger {
+    terminal: env_logger::Logger,
+    recent: Arc<Mutex<Recent>>,
+}
+
+impl Logger {
+    /// Returns whether a report keeps a line: warnings and errors of Eddy's own.
+    fn keeps(metadata: &log::Metadata<'_>) -> bool {
+        metadata.target() == DEVICE || metadata.level() <= log::Level::Warn && metadata.target().starts_with("eddy")
+    }
+}
+
+impl log::Log for Logger {
+    fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
+        Self::keeps(metadata) || self.terminal.enabled(metadata)
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        if Self::keeps(record.metadata()) {
+            let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+            if record.target() == DEVICE {
+                recent.device = record.args().to_string();
+            } else {
+                recent.lines.push_back(format!("{}: {}", record.level().as_str().to_lowercase(), record.args()));
+                if recent.lines.len() > KEPT_LINES {
+                    recent.lines.pop_front();
+                }
+            }
+        }
+        if self.terminal.matches(record) {
+            self.terminal.log(record);
+        }
+    }
+
+    fn flush(&self) {
+        self.terminal.flush();
+    }
+}
+
+/// Starts the log, and has each panic leave a report.
+pub fn install() {
+    // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
+    let environment = env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn");
+    let terminal = env_logger::Builder::from_env(environment).build();
+    let recent = Arc::new(Mutex::new(Recent::default()));
+    let most = terminal.filter().max(log::LevelFilter::Info);
+    if log::set_boxed_logger(Box::new(Logger { terminal, recent: recent.clone() })).is_ok() {
+        log::set_max_level(most);
+    }
+    let before = std::panic::take_hook();
+    let written = AtomicUsize::new(0);
+    std::panic::set_hook(Box::new(move |panic| {
+        before(panic);
+        if written.fetch_add(1, Ordering::Relaxed) >= MOST_REPORTS {
+            return;
+        }
+        let folder = session::report_folder().unwrap_or_else(|| env::temp_dir().join("eddy-reports"));
+        tell(&report(panic, &recent), &folder);
+    }));
+}
+
+/// Writes a report, and says where it is.
+fn tell(report: &PanicReport, folder: &Path) {
+    let said = match report.write(folder) {
+        Ok(path) => {
+            let path = home_as_tilde(&path.display().to_string());
+            format!("A report of this bug was written to {path}. Please read it and attach it to an issue")
+        }
+        Err(error) => format!("A report of this bug could not be written to {}: {error}", folder.display()),
+    };
+    // Nobody is left to tell where standard error is closed.
+    let _ = writeln!(std::io::stderr(), "{said}");
+}
+
+fn report(panic: &PanicHookInfo<'_>, recent: &Mutex<Recent>) -> PanicReport {
+    // A panic within the log holds the lock; the lines are then left out.
+    let (notices, device) = recent
+        .try_lock()
+        .map(|recent| (recent.lines.iter().cloned().collect(), recent.device.clone()))
+        .unwrap_or_default();
+    PanicReport {
+        build: super::doctor::build(),
+        command: command(env::args_os().nth(1).as_deref().and_then(OsStr::to_str)),
+        thread: thread::current().name().unwrap_or("without a name").to_owned(),
+        message: panic.payload_as_str().unwrap_or("no reason given").to_owned(),
+        place: panic.location().map(ToString::to_string).unwrap_or_default(),
+        device,
+        notices,
+        backtrace: Backtrace::force_capture().to_string(),
+    }
+}
+
+/// Returns a command by its name. Another first argument is a project, whose name is nobody's business.
+fn command(first: Option<&str>) -> String {
+    let is_command = |name: &str| super::args::command_names().iter().any(|known| known == name);
+    first.filter(|name| is_command(name)).map_or_else(|| "the window".to_owned(), |name| format!("eddy {name}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_names_of_commands_are_told() {
+        assert_eq!(command(Some("render")), "eddy render");
+        assert_eq!(command(Some("secret-project")), "the window");
+        assert_eq!(command(None), "the window");
+    }
+}

@@ -1,0 +1,32 @@
+//! Files that a command writes into a folder of its own, all or none.
+
+use crate::project::{self, ProjectError};
+use std::{fs, io::Write, path::Path};
+
+/// Writes files into a folder, which is made where it is not there. One that is there already with other content is an
+/// error, unless `force` allows it; nothing is written then. The files are regular ones within the folder.
+pub fn write_all<'a>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (&'a str, &'a [u8])> + Clone,
+    force: bool,
+) -> anyhow::Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        anyhow::bail!("--out {}: this is a file; give a folder", folder.display());
+    }
+    if !force {
+        let is_other = |(name, bytes): &(&str, &[u8])| {
+            let path = folder.join(name);
+            path.symlink_metadata().is_ok() && fs::read(&path).ok().as_deref() != Some(*bytes)
+        };
+        let paths: Vec<_> = files.clone().into_iter().filter(is_other).map(|(name, _)| folder.join(name)).collect();
+        if !paths.is_empty() {
+            return Err(ProjectError::WouldOverwrite { paths }.into());
+        }
+    }
+    fs::create_dir_all(folder).map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
+    for (name, bytes) in files {
+        project::write_into(folder, name, |file| file.write_all(bytes))
+            .map_err(|error| anyhow::anyhow!("{}: {error}", folder.join(name).display()))?;
+    }
+    Ok(())
+}

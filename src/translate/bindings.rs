@@ -1,0 +1,220 @@
+//! The resources of a stage: which there are, their members, and the number that each language gives to them.
+
+use eddy_glsl::{interface, naga};
+use naga::{
+    AddressSpace, ArraySize, GlobalVariable, ImageDimension, ResourceBinding, ScalarKind, Type, TypeInner, UniqueArena,
+};
+use serde::Serialize;
+
+use crate::{GlslVersion, Language};
+
+/// A resource that a stage declares.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BindingInfo {
+    pub kind: BindingKind,
+    /// The name in the text, as far as the language leaves it.
+    pub name: String,
+    pub at: At,
+    /// Bytes of a buffer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<u32>,
+    /// Members of a buffer, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<Member>,
+    /// The file with the contents of a buffer that never change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contents: Option<String>,
+    /// The number of `iChannel0` to `iChannel3`, of a texture or sampler.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channel: Option<u32>,
+    /// The dimension of a texture: `2d`, `3d` or `cube`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dimension: Option<&'static str>,
+}
+
+/// The content of a resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BindingKind {
+    /// The uniforms of Shadertoy.
+    Uniforms,
+    /// The author's own uniforms, 16 bytes each.
+    CustomUniforms,
+    /// The matrices of a mesh and the camera.
+    Geometry,
+    /// A uniform buffer with constants of the program.
+    UniformTable,
+    /// A read-only storage buffer with constants of the program.
+    StorageTable,
+    Texture,
+    Sampler,
+}
+
+impl BindingKind {
+    fn of(binding: ResourceBinding) -> Option<Self> {
+        Some(match (binding.group, binding.binding) {
+            (interface::UNIFORM_GROUP, 0) => BindingKind::Uniforms,
+            (interface::UNIFORM_GROUP, interface::TABLE_BINDING) => BindingKind::StorageTable,
+            (interface::UNIFORM_GROUP, interface::UNIFORM_TABLE_BINDING | interface::VERTEX_TABLE_BINDING) => {
+                BindingKind::UniformTable
+            }
+            (interface::UNIFORM_GROUP, interface::CUSTOM_UNIFORM_BINDING) => BindingKind::CustomUniforms,
+            (interface::UNIFORM_GROUP, interface::GEOMETRY_BINDING) => BindingKind::Geometry,
+            (interface::CHANNEL_GROUP, number) if number % 2 == 0 => BindingKind::Texture,
+            (interface::CHANNEL_GROUP, _) => BindingKind::Sampler,
+            _ => return None,
+        })
+    }
+}
+
+/// The number of a resource in the terms of the language.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+pub enum At {
+    Wgsl {
+        group: u32,
+        binding: u32,
+    },
+    /// In register space 0: `b0`, `t0`, `s0`.
+    Hlsl {
+        register: String,
+    },
+    Msl(MslSlot),
+    /// The name of a uniform block, of a buffer block or of a sampler. Before GLSL 4.2 it is bound by that name.
+    Glsl {
+        name: String,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        binding: Option<u32>,
+    },
+    Spirv {
+        set: u32,
+        binding: u32,
+    },
+}
+
+/// An index into one of Metal's tables of arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MslSlot {
+    Buffer(u8),
+    Texture(u8),
+    Sampler(u8),
+}
+
+/// A part of a buffer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Member {
+    pub name: String,
+    /// As GLSL spells it: `vec3`, `mat4`, `vec4[4]`.
+    #[serde(rename = "type")]
+    pub ty: String,
+    /// In bytes from the beginning of the buffer.
+    pub offset: u32,
+}
+
+/// Returns the channel whose texture or sampler has a binding.
+pub(crate) fn channel(binding: ResourceBinding) -> Option<u32> {
+    (binding.group == interface::CHANNEL_GROUP).then_some(binding.binding / 2)
+}
+
+/// Returns the number that a resource has where buffers, textures and samplers are counted each for themselves. Storage
+/// buffers follow the textures, as Direct3D counts both alike.
+pub(crate) fn slot(binding: ResourceBinding) -> u32 {
+    match (channel(binding), BindingKind::of(binding)) {
+        (Some(channel), _) => channel,
+        (None, Some(BindingKind::StorageTable)) => 4,
+        // Keeps clear of the storage buffer where all buffers are counted together.
+        (None, Some(BindingKind::Geometry)) => 1,
+        (None, _) => binding.binding,
+    }
+}
+
+/// Returns the variables of a module that have a binding, in the order of these.
+pub(crate) fn resources(module: &naga::Module) -> Vec<(&GlobalVariable, ResourceBinding)> {
+    let bound = module.global_variables.iter().filter_map(|(_, variable)| Some((variable, variable.binding?)));
+    let mut all: Vec<_> = bound.collect();
+    all.sort_by_key(|(_, binding)| (binding.group, binding.binding));
+    all
+}
+
+/// Returns what a program must know of a resource; `None` for a sampler in GLSL, which is one with its texture. `glsl` is
+/// the name that naga gave to it there.
+pub(crate) fn info(
+    module: &naga::Module,
+    (variable, binding): (&GlobalVariable, ResourceBinding),
+    language: Language,
+    glsl: Option<&str>,
+    contents: Option<String>,
+) -> Option<BindingInfo> {
+    let kind = BindingKind::of(binding)?;
+    let is_buffer = matches!(variable.space, AddressSpace::Uniform | AddressSpace::Storage { .. });
+    let at = match language {
+        Language::Wgsl => At::Wgsl { group: binding.group, binding: binding.binding },
+        Language::Spirv => At::Spirv { set: binding.group, binding: binding.binding },
+        Language::Hlsl => {
+            let class = match kind {
+                BindingKind::Texture | BindingKind::StorageTable => 't',
+                BindingKind::Sampler => 's',
+                _ => 'b',
+            };
+            At::Hlsl { register: format!("{class}{}", slot(binding)) }
+        }
+        Language::Msl => {
+            let number = slot(binding) as u8;
+            At::Msl(match kind {
+                BindingKind::Texture => MslSlot::Texture(number),
+                BindingKind::Sampler => MslSlot::Sampler(number),
+                _ => MslSlot::Buffer(number),
+            })
+        }
+        Language::Glsl(version) => {
+            let number = GlslVersion::has_bindings(version).then_some(slot(binding));
+            At::Glsl { name: glsl?.to_owned(), binding: number }
+        }
+    };
+    let (types, inner) = (&module.types, &module.types[variable.ty].inner);
+    let members = match inner {
+        // Tables are one value to a program.
+        TypeInner::Struct { members, .. } if matches!(kind, BindingKind::Uniforms | BindingKind::Geometry) => members
+            .iter()
+            .filter_map(|m| Some(Member { name: m.name.clone()?, ty: spelled(types, m.ty)?, offset: m.offset }))
+            .collect(),
+        _ => Vec::new(),
+    };
+    Some(BindingInfo {
+        kind,
+        name: variable.name.clone().unwrap_or_default(),
+        at,
+        size: is_buffer.then(|| inner.size(module.to_ctx())),
+        members,
+        contents,
+        channel: channel(binding),
+        dimension: match inner {
+            TypeInner::Image { dim: ImageDimension::D3, .. } => Some("3d"),
+            TypeInner::Image { dim: ImageDimension::Cube, .. } => Some("cube"),
+            TypeInner::Image { .. } => Some("2d"),
+            _ => None,
+        },
+    })
+}
+
+/// Returns a type of numbers as GLSL spells it.
+fn spelled(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> {
+    let prefix = |kind| match kind {
+        ScalarKind::Sint => "i",
+        ScalarKind::Uint => "u",
+        _ => "",
+    };
+    Some(match &types[ty].inner {
+        TypeInner::Scalar(scalar) => match scalar.kind {
+            ScalarKind::Sint => "int".into(),
+            ScalarKind::Uint => "uint".into(),
+            _ => "float".into(),
+        },
+        TypeInner::Vector { size, scalar } => format!("{}vec{}", prefix(scalar.kind), *size as u8),
+        TypeInner::Matrix { columns, rows, .. } if columns == rows => format!("mat{}", *columns as u8),
+        TypeInner::Matrix { columns, rows, .. } => format!("mat{}x{}", *columns as u8, *rows as u8),
+        TypeInner::Array { base, size: ArraySize::Constant(len), .. } => format!("{}[{len}]", spelled(types, *base)?),
+        _ => return None,
+    })
+}

@@ -1,0 +1,54 @@
+//! The passes of a project as texts of other shading languages, or as SPIR-V, with all that a program needs to draw them.
+//!
+//! Owns the settings of naga's writers ([`Language`]), the numbers that each language gives to buffers, textures and
+//! samplers, and the file that describes them ([`Manifest`]). The modules are those that Eddy draws with, without
+//! work-arounds for drivers. Needs no device, and writes no file itself.
+
+mod bindings;
+mod glsl;
+mod hlsl;
+mod language;
+mod manifest;
+mod names;
+mod passes;
+mod refusals;
+#[cfg(test)]
+mod tests;
+mod wgsl;
+mod write;
+
+pub use bindings::{At, BindingInfo, BindingKind, Member, MslSlot};
+pub use language::{GlslVersion, Language};
+pub use manifest::{
+    CameraInfo, ChannelInfo, CustomUniformInfo, EntryPoint, FillInfo, Manifest, MeshInfo, PassInfo, ProgramInfo,
+    ReadFrom, RegionInfo, RunInfo, SizeInfo, StageInfo, TargetInfo, VertexInput,
+};
+
+use eddy_diag::Diagnostic;
+use eddy_project::Project;
+
+/// The name of the file that describes the others.
+pub const MANIFEST: &str = "translation.json";
+
+/// A project in another language.
+#[derive(Debug)]
+pub struct Translation {
+    /// The shaders, contents of buffers with constant tables, and last the manifest under the name [`MANIFEST`].
+    pub files: Vec<File>,
+    pub manifest: Manifest,
+    /// Warnings and notes of the compiler.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A file to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+/// Translates every pass that the picture needs, and the sound pass. Err: the errors of the compiler, or what the language
+/// cannot express, each with its place.
+pub fn translate(project: &Project, language: Language) -> Result<Translation, Vec<Diagnostic>> {
+    passes::translate(project, language)
+}

@@ -1,0 +1,99 @@
+//! Errors for what a language cannot express, with the pass and, where it is known, the place in its text.
+
+use eddy_diag::{Diagnostic, SourceMap, Span};
+use eddy_glsl::naga;
+use naga::ir::{Expression, Function, MathFunction};
+
+use crate::{GlslVersion, Language};
+
+/// Returns an error for what a writer would write all the same, though no compiler of the language takes it.
+pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &Place<'_>) -> Option<Diagnostic> {
+    let Language::Glsl(version) = language else { return None };
+    if version.has_packing() {
+        return None;
+    }
+    let used = functions(module).find_map(|function| function.expressions.iter().find_map(|(_, e)| packing(e)))?;
+    let message = format!("{} cannot be written as {language}, which has no `{used}`", pass.title);
+    let newer = GlslVersion::Desktop450.key();
+    Some(Diagnostic::error(pass.word(used), message).hint(format!("write GLSL {newer} (--glsl-version {newer})")))
+}
+
+fn functions(module: &naga::Module) -> impl Iterator<Item = &Function> {
+    module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function))
+}
+
+/// Returns the name of a function that packs numbers.
+fn packing(expression: &Expression) -> Option<&'static str> {
+    let Expression::Math { fun, .. } = expression else { return None };
+    Some(match fun {
+        MathFunction::Pack2x16snorm => "packSnorm2x16",
+        MathFunction::Pack2x16unorm => "packUnorm2x16",
+        MathFunction::Pack2x16float => "packHalf2x16",
+        MathFunction::Unpack2x16snorm => "unpackSnorm2x16",
+        MathFunction::Unpack2x16unorm => "unpackUnorm2x16",
+        MathFunction::Unpack2x16float => "unpackHalf2x16",
+        _ => return None,
+    })
+}
+
+/// Returns the error for a module that a writer refuses.
+pub(crate) fn of_writer(language: Language, pass: &Place<'_>, reason: &str) -> Diagnostic {
+    let message = format!("{} cannot be written as {language}: {reason}", pass.title);
+    Diagnostic::error(None, message).hint("the program itself is correct; translate to another language")
+}
+
+/// The texts in which a place can be.
+pub(crate) struct Place<'a> {
+    /// The pass as people call it.
+    pub title: String,
+    pub sources: &'a SourceMap,
+    /// Its own texts first.
+    pub texts: Vec<eddy_diag::SourceId>,
+}
+
+impl Place<'_> {
+    /// Returns where a name first stands in the texts outside of comments; the text need not reach it.
+    fn word(&self, word: &str) -> Option<Span> {
+        self.texts.iter().find_map(|&id| {
+            let at = find_word(&self.sources.get(id)?.text, word)?;
+            Some(Span::new(id, at..at + word.len()))
+        })
+    }
+}
+
+/// Returns the first byte of a name that stands by itself, and in no comment.
+fn find_word(text: &str, word: &str) -> Option<usize> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut from = 0;
+    while from < text.len() {
+        let rest = &text[from..];
+        let end_of = |end: &str| rest.find(end).map_or(text.len(), |at| from + at + end.len());
+        if rest.starts_with("//") {
+            from = end_of("\n");
+        } else if rest.starts_with("/*") {
+            from = end_of("*/");
+        } else if rest.starts_with(is_part) {
+            let name = &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())];
+            if name == word {
+                return Some(from);
+            }
+            from += name.len();
+        } else {
+            from += rest.chars().next().map_or(1, char::len_utf8);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_found_by_itself_and_in_no_comment() {
+        let text = "// pack\n/* pack */ unpack packed pack_ ä pack(";
+        assert_eq!(find_word(text, "pack"), text.rfind("pack"));
+        assert_eq!(find_word("// pack", "pack"), None);
+        assert_eq!(find_word("/* pack", "pack"), None);
+    }
+}
