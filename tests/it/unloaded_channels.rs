@@ -20,6 +20,7 @@ const READS: &[(&str, [f32; 4])] = &[
     ("texelFetch(iChannel0, ivec2(0, -1), 0)", ZERO),
     ("texelFetchOffset(iChannel0, ivec2(0), 0, ivec2(3, 0))", ZERO),
     ("vec4(textureSize(iChannel0, 0), iChannelResolution[0].xy)", [1.0, 1.0, 0.0, 0.0]),
+    ("vec4(textureSize(iChannel0, 1), textureSize(iChannel0, 40 + int(p.x)))", [1.0; 4]),
 ];
 
 /// Reads of a space, and of a direction.

@@ -52,6 +52,7 @@ const LEVELS: &[&str] = &[
     "texelFetch(iChannel0, ivec2(p) & 3, 1)",
     "texelFetch(iChannel0, ivec2(p), 3)",
     "vec4(textureSize(iChannel0, 1), textureSize(iChannel0, 3))",
+    "vec4(textureSize(iChannel0, int(uv.x * 9.0)), textureSize(iChannel0, 5 + int(p.x) % 40))",
 ];
 
 /// Levels that follow from derivatives. The lengths are powers of two, so that the level is a whole number but where a

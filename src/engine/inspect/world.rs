@@ -72,9 +72,11 @@ impl World for DrawInputs<'_> {
     }
 
     fn size(&self, channel: u8, level: i32) -> [i32; 3] {
-        let levels = &self.pass.channels[usize::from(channel)].levels;
-        let level = usize::try_from(level).ok().and_then(|level| levels.get(level));
-        level.map_or([0; 3], |level| [level.width as i32, level.height as i32, level.depth as i32])
+        let base = self.pass.channels[usize::from(channel)].levels.first();
+        // Levels that a texture does not have included (`glsl/emit/expression.rs`).
+        let shift = (level as u32).min(31);
+        let of_level = |side: u32| (side >> shift).max(1) as i32;
+        base.map_or([0; 3], |base| [base.width, base.height, base.depth].map(of_level))
     }
 
     fn levels(&self, channel: u8) -> u32 {

@@ -99,11 +99,17 @@ impl Builder<'_, '_> {
                 Expression::ImageLoad { image, coordinate, array_index, sample: None, level: Some(level) }
             }
             Op::TextureSize { channel, level } => {
-                let level = level.map(&mut of);
+                let of_level = level.map(&mut of);
+                let is_base = level.is_none_or(|level| matches!(self.ir[level], Op::Literal(_, 0) | Op::Zero(_)));
                 let image = self.cx.texture(channel);
                 let image = self.variable(image);
-                let mut size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
-                if self.texture_shape(channel).0 == SamplerDim::D2Array {
+                let base = of_level.map(|_| self.literal(Scalar::Int, 0));
+                let mut size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level: base } });
+                let dim = self.texture_shape(channel).0;
+                if let Some(level) = of_level.filter(|_| !is_base) {
+                    size = self.size_of_level(size, level, if dim == SamplerDim::D3 { 3 } else { 2 });
+                }
+                if dim == SamplerDim::D2Array {
                     let layers = self.add(Expression::ImageQuery { image, query: ImageQuery::NumLayers });
                     size = self.compose(TypeId::vector(Scalar::Uint, 3), vec![size, layers]);
                 }
@@ -116,6 +122,20 @@ impl Builder<'_, '_> {
             }
             ref other => unreachable!("{value:?} = {other:?} is no expression"),
         }
+    }
+
+    /// Returns the size of a level by that of level 0: max(1, size >> level), OpenGL ES 3.0, 3.8.10.4. It holds for levels that a
+    /// texture does not have, too: their size is undefined (GLSL ES 3.00, 8.8), and drivers of OpenGL return this one, where
+    /// those of Vulkan return zeros.
+    fn size_of_level(&mut self, size: Handle<Expression>, level: Handle<Expression>, count: u8) -> Handle<Expression> {
+        let (most, one) = (self.literal(Scalar::Uint, 31), self.literal(Scalar::Uint, 1));
+        let level = self.add(Expression::As { expr: level, kind: ScalarKind::Uint, convert: None });
+        let math = |fun, arg, arg1| Expression::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None };
+        let level = self.add(math(naga::MathFunction::Min, level, most));
+        let [level, one] =
+            [level, one].map(|value| self.add(Expression::Splat { size: types::vector_size(count.into()), value }));
+        let size = self.add(Expression::Binary { op: naga::BinaryOperator::ShiftRight, left: size, right: level });
+        self.add(math(naga::MathFunction::Max, size, one))
     }
 
     /// Returns the shape of a channel's texture, and whether reads of it compare.
