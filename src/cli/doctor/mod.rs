@@ -296,7 +296,7 @@ fn count_fonts(folder: &Path, depth: u32) -> usize {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_font = |path: &Path| {
         let ends = |e: &&str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
-        ["ttf", "otf", "ttc", "otc"].iter().any(|e| ends(e))
+        ["ttf", "otf", "ttc", "otc"].iter().any(ends)
     };
     let count = |path: std::path::PathBuf| match path.is_dir() {
         true if depth < FONT_DEPTH => count_fonts(&path, depth + 1),

@@ -33,7 +33,8 @@ fn the_first_form_and_all_presets_can_be_made() {
 
 #[test]
 fn what_is_wrong_is_said_at_its_field_and_stops_only_what_depends_on_it() {
-    let cases: [(fn(&mut FilmForm), FilmField, &str, bool); 19] = [
+    type Case = (fn(&mut FilmForm), FilmField, &'static str, bool);
+    let cases: [Case; 19] = [
         (|f| f.range = "9-2".into(), FilmField::Range, "write 2-9", true),
         (|f| f.range = String::new(), FilmField::Range, "0-59", true),
         (|f| f.range = "1,2,5".into(), FilmField::Range, "one range", true),
