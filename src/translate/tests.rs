@@ -71,7 +71,7 @@ fn the_manifest_says_what_is_read_and_when() {
     assert_eq!(passes[0].channels[0].from, ReadFrom::Target { target: 0, frame: "last" });
     assert_eq!(passes[1].channels[0].from, ReadFrom::Target { target: 0, frame: "this" });
     let uniforms = &passes[1].programs[0].stages[0].bindings[0];
-    assert_eq!((uniforms.kind, uniforms.size), (BindingKind::Uniforms, Some(224)));
+    assert_eq!((uniforms.kind, uniforms.size), (BindingKind::Uniforms, Some(240)));
     let time = uniforms.members.iter().find(|member| member.name == "iTime").expect("a member");
     assert_eq!((time.ty.as_str(), time.offset), ("float", 12));
     let resolutions = uniforms.members.iter().find(|member| member.name == "iChannelResolution").expect("a member");

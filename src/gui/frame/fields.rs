@@ -58,8 +58,10 @@ fn focused(stage: &Stage) -> Option<u64> {
     stage.ctx.memory(|m| m.focused()).map(|id: Id| id.value())
 }
 
-/// Buttons that lead to another place of the window, and take the keyboard there.
-const LEADING: [&str; 5] = ["Edit its text", "Show its picture", "Image:8", "Go", "Start"];
+/// Buttons that lead to another place of the window, and take the keyboard there. A dialog for a file is the window's own where
+/// the desktop has none, and comes when the desktop has said so.
+const LEADING: [&str; 7] =
+    ["Edit its text", "Show its picture", "Image:8", "Go", "Start", "Open file…", "Open folder…"];
 
 /// Clicks the buttons that stand next to each field in its panel, and types. Returns the pairs that were tried.
 fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize {

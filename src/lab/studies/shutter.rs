@@ -118,8 +118,9 @@ mod tests {
         let none = compared(&truth, n);
         assert!(none.norms.l2 == 0.0 && none.rms == [0.0; 4] && none.shift == 0.0 && none.gaps == 0.0);
         // Everything a pixel to the left, and every second column of the spark's dark.
-        let wrong =
-            |i: usize| if i % n > n / 2 && i / n >= n / 2 && i.is_multiple_of(2) { 0.0 } else { truth[(i + 1) % (n * n)] };
+        let wrong = |i: usize| {
+            if i % n > n / 2 && i / n >= n / 2 && i.is_multiple_of(2) { 0.0 } else { truth[(i + 1) % (n * n)] }
+        };
         let found = compared(&(0..n * n).map(wrong).collect::<Vec<_>>(), n);
         assert!((0.3..0.7).contains(&found.gaps), "{found:?}");
         // A step of one column is cos 21.8 degrees along the way.
