@@ -37,7 +37,6 @@ fn a_broken_directive_is_one_error_at_its_line_in_every_command() {
         ("#import \"tone.glsl\"", &["no directive `#import`", "write #include \"tone.glsl\""]),
         ("#include_next \"tone.glsl\"", &["no directive `#include_next`"]),
         ("#pragma include \"tone.glsl\"", &["`#pragma include`", "write #include \"tone.glsl\""]),
-        ("#pragma glslify: noise = require('glsl-noise/simplex/2d')", &["glslify"]),
         ("#iKeyboard", &["`#iKeyboard`", "#iChannel0 \"keyboard\""]),
         ("#iVertex \"a.glsl\"", &["`#iVertex`"]),
         ("#iChannel0 self", &["double quotes"]),

@@ -56,6 +56,11 @@ fn globals() {
             [1., 2., 2., 4.],
         ),
         with("int n = 0; void f() { n++; } ", "f(); f(); r = vec4(n, n++, n, ++n);", [4., 2., 4., 4.]),
+        with(
+            "mat2 m = mat2(2.0 * (1.0, 3.0, 4.0)); float a = (1.0, 2.0);",
+            "r = vec4(m[0], m[1].y, a);",
+            [8., 0., 8., 2.],
+        ),
         with("float a = 3.0; float b = 6.0; void g() { a = b - 1.0; }", "g(); r = vec4(a, b, 0, 0);", [5., 6., 0., 0.]),
         with("const mat2 m = mat2(1, 2, 3, 4); const vec2 v = m[1];", "r = vec4(v, m[I]);", [3., 4., 1., 2.]),
         with("vec2 res() { return vec2(gl_FragCoord.xy); }", "r = vec4(res(), gl_FragCoord.zw);", [0.5, 0.5, 0.5, 1.0]),

@@ -14,8 +14,8 @@ use super::{
 use crate::{
     ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},
     hir::{
-        ConstId, ExprId, Global, GlobalId, GlobalStorage, Local, LocalId, LocalKind, StmtKind, StructMember, Type,
-        TypeId, VarFlags,
+        ConstId, ExprId, ExprKind, Global, GlobalId, GlobalStorage, Local, LocalId, LocalKind, StmtKind, StructMember,
+        Type, TypeId, VarFlags,
     },
 };
 
@@ -273,6 +273,8 @@ impl Checker<'_> {
                     if self.is_constant(init) {
                         kept = Some(init);
                         value = self.as_const(init);
+                    } else if self.reads_only_constants(init) {
+                        kept = Some(init);
                     } else if !self.is_broken() {
                         self.not_constant_global(name, init);
                     }
@@ -299,13 +301,37 @@ impl Checker<'_> {
         let item = ast[items].iter().find(|item| self.name(item.name.symbol) == "location")?;
         let value = self.expr(item.value?);
         match self.module[value].kind {
-            crate::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 && self.is_constant(value) => Some(bits),
+            ExprKind::Literal(bits) if (bits as i32) >= 0 && self.is_constant(value) => Some(bits),
             _ => {
                 let at = self.loc(value);
                 self.error(at, "a location is a number from 0");
                 None
             }
         }
+    }
+
+    /// Returns whether nothing but constants goes into an expression. Where that is no constant expression, a comma operator is
+    /// in it (section 12.43). ANGLE takes such an initialiser of a variable: its `ValidateGlobalInitializer` looks at what is
+    /// read and called, not at the operators.
+    fn reads_only_constants(&self, init: ExprId) -> bool {
+        let mut left = vec![init];
+        while let Some(expr) = left.pop() {
+            match self.module[expr].kind {
+                ExprKind::Error
+                | ExprKind::Local(_)
+                | ExprKind::Global(_)
+                | ExprKind::Uniform(_)
+                | ExprKind::CustomUniform(_)
+                | ExprKind::Channel(_)
+                | ExprKind::BuiltinVar(_)
+                | ExprKind::Assign { .. }
+                | ExprKind::AssignOp { .. }
+                | ExprKind::IncDec { .. }
+                | ExprKind::Call { .. } => return false,
+                _ => self.module.parts(expr, &mut left),
+            }
+        }
+        true
     }
 
     /// Section 4.3: an initialiser at file scope must be a constant expression, for any variable.

@@ -81,6 +81,10 @@ impl Preprocessor<'_, '_> {
 
     fn character(&mut self, token: &Token) -> Option<(Kind, u32)> {
         let character = char::from_u32(token.value).unwrap_or('\u{fffd}');
+        // Shadertoy puts a line's end after each text.
+        if character == '\\' && self.ends_text(token.span) {
+            return None;
+        }
         let lookalike = LOOKALIKES.iter().find(|l| l.0.contains(character));
         let (message, hint) = match character {
             '\0' => ("there is a NUL character here".to_owned(), Some("delete it".to_owned())),

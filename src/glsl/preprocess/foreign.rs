@@ -68,7 +68,8 @@ impl Preprocessor<'_, '_> {
         self.error_with(name, message, hint, meant.as_deref());
     }
 
-    /// Refuses a pragma that asks for another text. Any other means nothing here, as the specification has it.
+    /// Refuses a pragma that includes, and warns of one that a tool should have replaced by a text. Any other means nothing here,
+    /// as the specification has it (section 3.5).
     pub(super) fn foreign_pragma(&mut self, line: &[Token]) {
         let Some(first) = line.first() else { return };
         let rest = self.rest_of(line);
@@ -81,9 +82,9 @@ impl Preprocessor<'_, '_> {
                     Some(format!("write #include \"{path}\"")),
                 );
             }
-            "glslify" if rest.contains("require") => self.stop(
+            "glslify" if rest.contains("require") => self.warning(
                 first,
-                "Eddy does not support glslify modules".into(),
+                "this line does nothing: Eddy does not support glslify modules",
                 Some(
                     "run glslify first, or save the module next to this file and write #include \"noise.glsl\"".into(),
                 ),

@@ -234,6 +234,11 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
+    /// Nothing of its text comes after it.
+    pub fn ends_text(&self, span: Span) -> bool {
+        self.pieces.iter().any(|p| p.text.id == span.source && p.text.text.len() == span.range().end)
+    }
+
     /// Returns where the author wrote what became this token.
     pub fn place(&self, token: &Token) -> Span {
         token.expansion.map_or(token.span, |id| self.origins[id].used_at)

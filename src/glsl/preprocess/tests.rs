@@ -53,6 +53,26 @@ fn refuses(text: &str, part: &str) -> String {
 }
 
 #[test]
+fn a_backslash_that_ends_the_text_joins_it_to_nothing() {
+    gives("a\\", "a");
+    gives("a\n\n\\", "a");
+    refuses("a \\ b", "a backslash joins lines");
+    refuses("a\n\\ ", "a backslash joins lines");
+}
+
+#[test]
+fn pragmas_of_other_tools_are_ignored_with_a_warning_or_without() {
+    gives("#pragma mark\na", "a");
+    let (tokens, messages) = run("#pragma glslify: noise = require('glsl-noise/simplex/2d')\na");
+    assert_eq!(tokens, "a");
+    assert!(
+        messages.len() == 1 && messages[0].starts_with("warning") && messages[0].contains("glslify"),
+        "{messages:?}"
+    );
+    refuses("#pragma include \"a.glsl\"\na", "`#pragma include`");
+}
+
+#[test]
 fn object_macros() {
     gives("#define A 1 + B\n#define B 2\nA;", "1 + 2 ;");
     gives("#define A\nx A y", "x y");
