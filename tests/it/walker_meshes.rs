@@ -231,7 +231,7 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
         for pass in passes.iter().map(|name| buffer(name)) {
             let settings = &project.pass(&pass).unwrap().settings;
             assert!(settings.meshes().is_some());
-            for frame in [0, 7, 31] {
+            for frame in [0, 31] {
                 let (read, device) = drawn(&gpu, &project, &pass, (160, 90), frame);
                 let tracer = tracer(&project, &pass, &read);
                 let mut wrong = 0;
@@ -251,7 +251,7 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
             }
         }
     }
-    assert!(texels == 3000 && 200 * off.len() <= texels, "{} of {texels}:\n{}", off.len(), off.join("\n"));
+    assert!(texels == 2000 && 200 * off.len() <= texels, "{} of {texels}:\n{}", off.len(), off.join("\n"));
 }
 
 /// A step of 8 bits, some of half precision, and of single precision what interpolation loses.
