@@ -46,6 +46,8 @@ fn passes_are_renamed_moved_set_removed_and_brought_back() {
     window.resize(1000, 700);
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
+    // Image, which was chosen before, has other rows in other places.
+    window.shows("passes:name");
     window.fill("passes:name", "Glow");
     window.shows("passes:row:Buffer glow");
     window.shows("tab:Buffer glow");
@@ -91,6 +93,8 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
     let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
+    // Image, which was chosen before, has other rows in other places.
+    window.shows("passes:name");
     choose(&mut window, "passes:initial", "passes:initial:an expression");
     window.fill("passes:initial:text", "vec4(0.5, wrong)");
     window.wait_until("the mistake", "compiled", |e| {
@@ -116,6 +120,8 @@ fn region_steps_filter_and_wrap_are_set_by_hand() {
     let mut window = Window::of_size(&display, home.path(), "1000x700", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
+    // Image, which was chosen before, has other rows in other places.
+    window.shows("passes:name");
     // A number that is clicked can be typed.
     let number = |window: &mut Window, name: &str, value: &str| {
         window.fill(name, value);
