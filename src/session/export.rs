@@ -108,7 +108,8 @@ fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
     let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
     // Text may stand in front of an `#include`: a comment that ends in its line.
     diagnostic.message.starts_with("#include ")
-        || word.is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
+        || word
+            .is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
 }
 
 #[cfg(test)]

@@ -294,6 +294,19 @@ fn common_includes_a_text() {
     case.includes = &broken;
     let (kept, said) = case.run();
     assert_eq!((kept, said.is_empty()), (Kept::Nothing, false));
+    // A file that is not there is an error only where its line is compiled.
+    let said = Diagnostic::error(line, "there is no file noise.glsl");
+    let missing = [Include { line, text: Err(&said) }];
+    let mut case = Case::new(common, IMAGE);
+    case.includes = &missing;
+    let (kept, messages) = case.run();
+    assert!(kept == Kept::Nothing && messages[0] == said.message, "{messages:?}");
+    let guarded = "#if 0\n#include \"noise.glsl\"\n#endif\nfloat f(float x) { return x; }";
+    let at = Span::new(COMMON, 6..guarded.find("\n#endif").unwrap());
+    let missing = [Include { line: at, text: Err(&said) }];
+    let mut case = Case::new(guarded, IMAGE);
+    case.includes = &missing;
+    case.is(Kept::Checked, &[]);
     let code = format!("#include \"noise.glsl\"\n{IMAGE}");
     let line = Span::new(CODE, 0..code.find('\n').unwrap());
     let in_pass = [Include { line, text: Ok(Text { id: INCLUDED, text: "float g() { return 1.0; }" }) }];
