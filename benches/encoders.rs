@@ -39,11 +39,11 @@ const ENCODERS: [(&str, Format, Option<Codec>); 13] = [
 /// The milliseconds of a run.
 #[derive(Default)]
 struct Times {
-    /// Of all frames, drawn and handed over.
+    /// All frames, drawn and handed over.
     drawing: f64,
-    /// Of handing each of them over.
+    /// Each frame, from drawn to taken by the encoder.
     waits: Vec<f64>,
-    /// From the last frame to the end of the file.
+    /// The end of the file, after the last frame.
     end: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// What takes no longer is not announced.
+/// A call that takes no longer is not announced.
 const LEAST: Duration = Duration::from_secs(60);
 /// Steps after the first one that are measured, and for how long at least; slow ones are measured by one step alone.
 const STEPS: u64 = 3;

@@ -39,7 +39,7 @@ impl Heard {
     }
 }
 
-/// What is heard with each frame of a film.
+/// Says what is heard with each frame of a film.
 #[derive(Default)]
 pub(super) struct HeardSounds {
     moments: Vec<Moment>,

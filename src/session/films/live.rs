@@ -99,7 +99,7 @@ pub(super) struct Live {
     waiting: VecDeque<Pixels>,
     /// Frames that it has taken.
     pushed: u32,
-    /// What is heard with the frames, for a film with sound.
+    /// Says what is heard with the frames, for a film with sound.
     pub heard: Option<HeardSounds>,
 }
 
