@@ -11,7 +11,6 @@ use eddy_project::Staged;
 use eddy_video::{Encoder, Stop, Tools, file_name};
 use std::{
     ffi::OsString,
-    fs,
     path::{Path, PathBuf},
 };
 
@@ -202,15 +201,21 @@ impl Coded {
         all
     }
 
-    /// Returns what ffmpeg is told to add a sound to a film, whose pictures stay as they are.
-    fn join_arguments(self, film: OsString, sound: OsString) -> Vec<OsString> {
+    /// Returns what ffmpeg is told to add a sound, if there is one, to a film whose pictures stay as they are.
+    fn join_arguments(self, film: OsString, sound: Option<OsString>) -> Vec<OsString> {
         let mut all: Vec<OsString> = ["-protocol_whitelist", "file,pipe", "-i"].map(OsString::from).into();
         all.push(film);
-        all.extend(["-protocol_whitelist", "file,pipe", "-f", "wav", "-i"].map(OsString::from));
-        all.push(sound);
+        let has_sound = sound.is_some();
+        if let Some(sound) = sound {
+            all.extend(["-protocol_whitelist", "file,pipe", "-f", "wav", "-i"].map(OsString::from));
+            all.push(sound);
+        }
         let mut add = |texts: &[&str]| all.extend(texts.iter().map(OsString::from));
-        add(&["-map", "0:v:0", "-map", "1:a:0", "-c:v", "copy"]);
-        add(self.sound_arguments());
+        add(&["-map", "0:v:0", "-c:v", "copy"]);
+        if has_sound {
+            add(&["-map", "1:a:0"]);
+            add(self.sound_arguments());
+        }
         add(&self.container_arguments());
         all
     }
@@ -252,11 +257,9 @@ struct Later {
 
 impl Later {
     fn finish(self) -> Result<(), FilmError> {
-        let Some(sound) = self.sound else {
-            return fs::copy(self.film.path(), &self.to).map(drop).map_err(FilmError::Pipe);
-        };
-        let sound = stage_sound(&self.to, &sound)?;
-        let mut arguments = self.coded.join_arguments(named(self.film.path())?, named(sound.path())?);
+        let sound = self.sound.map(|sound| stage_sound(&self.to, &sound)).transpose()?;
+        let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
+        let mut arguments = self.coded.join_arguments(named(self.film.path())?, wav);
         arguments.push(named(&self.to)?);
         Ok(Encoder::start(&self.tools, &arguments, &self.stop)?.finish()?)
     }
