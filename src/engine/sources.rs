@@ -295,7 +295,12 @@ impl<'p> Sources<'p> {
     pub(super) fn includes(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<Include<'_>> {
         let reached: BTreeSet<SourceId> = of.into_iter().flat_map(|id| self.lines.reach(id)).collect();
         let lines = self.lines.lines.iter().filter(|(line, _)| reached.contains(&line.source));
-        lines.map(|&(line, of)| Include { line, text: self.text(of) }).collect()
+        let missing = self.lines.missing.iter().filter_map(|said| Some((said.span?, said)));
+        let missing = missing.filter(|(line, _)| reached.contains(&line.source));
+        lines
+            .map(|&(line, of)| Include { line, text: Ok(self.text(of)) })
+            .chain(missing.map(|(line, said)| Include { line, text: Err(said) }))
+            .collect()
     }
 }
 

@@ -46,6 +46,7 @@ mod golden;
 mod hostile_projects;
 mod hostile_results;
 mod includes;
+mod killed_tasks;
 mod lab;
 mod lab_fluid;
 mod lab_hard;

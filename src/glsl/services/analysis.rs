@@ -49,7 +49,7 @@ impl Analysis {
         let FrontEnd { mut module, origins, mut names, .. } = FrontEnd::run(source, &Link::default(), preamble);
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
         let mut texts: Vec<_> = source.common.into_iter().collect();
-        for text in source.includes.iter().map(|i| i.text).chain([source.code]) {
+        for text in source.includes.iter().filter_map(|i| i.text.ok()).chain([source.code]) {
             if !texts.iter().any(|t| t.id == text.id) {
                 texts.push(text);
             }
