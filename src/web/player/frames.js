@@ -225,7 +225,8 @@ async function build() {
   all.forEach(finish);
   if (failed) return;
   if (!canHalf && P.passes.some(p => p.formats.some(f => f.endsWith('f')))) { report('This device cannot draw into floating-point textures (EXT_color_buffer_float), which this project needs.'); return; }
-  for (const p of P.passes) if (p.draws) p.draws.forEach(arrayOf);
+  for (const p of P.passes) if (p.draws && !p.skip) p.draws.forEach(arrayOf);
+  for (const c of channels) if (!['pass', 'media', 'zero', 'none'].includes(c.in)) device(c.in);
 }
 const drawn = P.passes.filter(p => p.kind != 'sound' && !p.skip);
 function resize(w, h) {

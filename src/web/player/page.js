@@ -81,6 +81,8 @@ addEventListener('keydown', e => {
 });
 addEventListener('keyup', e => { if (e.keyCode < 256) keys[e.keyCode] = keys[256 + e.keyCode] = 0; clock.due = true; });
 addEventListener('blur', () => keys.fill(0, 0, 512));
+// Time stands still while nobody sees the page.
+document.addEventListener('visibilitychange', () => { Object.assign(clock, {before: null, first: true}); hush(); });
 
 function sliders() {
   let group = '';
