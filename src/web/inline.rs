@@ -21,7 +21,7 @@ enum Key {
     File(InputKind, Media, bool),
 }
 
-/// What is in the page so far.
+/// The media and meshes that the page has so far.
 pub(crate) struct Inlined<'a> {
     project: &'a Project,
     media: &'a MediaSet,
@@ -131,21 +131,15 @@ impl<'a> Inlined<'a> {
         known: &[(&str, &'static str)],
         place: &str,
     ) -> Option<FileData> {
-        let mut warn = |message: String, hint: String| {
-            self.warnings.push(Diagnostic::warning(None, format!("{place}: {message}")).hint(hint));
-        };
-        let (bytes, path) = match original(name, kind, self.project.origin.base_dir(), self.media_dir) {
-            Ok(found) => found,
-            Err(error) => {
-                warn(error.to_string(), error.hint());
-                return None;
-            }
-        };
+        // Loading it has told why it cannot be read.
+        let found = original(name, kind, self.project.origin.base_dir(), self.media_dir);
+        let (bytes, path) = found.ok()?;
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some((_, mime)) = known.iter().find(|(one, _)| *one == ending) else {
             let list: Vec<&str> = known.iter().map(|(one, _)| *one).collect();
             let message = format!("browsers do not play {}; the page shows the channel without it", shown(name));
-            warn(message, format!("convert it to one of: {}", list.join(", ")));
+            let warning = Diagnostic::warning(None, format!("{place}: {message}"));
+            self.warnings.push(warning.hint(format!("convert it to one of: {}", list.join(", "))));
             return None;
         };
         Some(FileData { name: shown(name), mime, flip, data: base64(&bytes) })
