@@ -30,3 +30,4 @@ pub use eddy_session as session;
 pub use eddy_texture as texture;
 pub use eddy_translate as translate;
 pub use eddy_video as video;
+pub use eddy_web as web;

@@ -59,6 +59,19 @@ impl<'p> Sources<'p> {
         &self.custom_uniforms
     }
 
+    /// Returns a text of the project as the compiler takes it: lines that GLSL does not have are blank.
+    ///
+    /// # Panics
+    /// If there is no such text.
+    pub fn compiler_text(&self, id: SourceId) -> &str {
+        self.text(id).text
+    }
+
+    /// Returns which text stands in place of which line.
+    pub fn include_lines(&self) -> &IncludeLines {
+        &self.lines
+    }
+
     /// The text of what fills texels of `project.passes[index]`.
     pub(super) fn fill_text(&self, index: usize, kind: FillKind) -> Option<&FillText> {
         self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind)).map(|(.., text)| text)

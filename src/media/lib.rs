@@ -15,6 +15,7 @@ mod load;
 pub mod mesh;
 mod music;
 mod npy;
+mod original;
 mod played;
 mod site;
 mod sound;
@@ -27,6 +28,7 @@ pub use keyboard::Keyboard;
 pub use load::load;
 pub use music::{ChannelSound, sounds};
 pub use npy::{bytes as npy_bytes, header as npy_header};
+pub use original::original;
 pub use sound::begin_of_sound;
 
 use eddy_audio::Sound;

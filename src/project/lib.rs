@@ -84,4 +84,4 @@ pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use source_ids::TextLocation;
-pub use writes::{Overwrite, check_within, make_private, write_into};
+pub use writes::{Overwrite, check_within, make_private, write_into, write_named};

@@ -111,3 +111,4 @@ mod walker_corpus;
 mod walker_meshes;
 mod walker_presets;
 mod walker_textures;
+mod web_page;

@@ -19,7 +19,7 @@ use crate::{
     playback::{script::ScriptedInputs, trial::COMMAND},
     video::CameraSource,
 };
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use run::WithoutPass;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
@@ -90,7 +90,7 @@ pub enum Command {
     List,
     /// Convert a Shadertoy JSON file to a project folder
     Import(ImportArgs),
-    /// Convert a project to a Shadertoy JSON file
+    /// Convert a project to a Shadertoy JSON file, or to an HTML file that plays it
     Export(ExportArgs),
     /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
     Translate(TranslateArgs),
@@ -180,12 +180,27 @@ pub struct ImportArgs {
 #[command(after_help = PROJECT)]
 pub struct ExportArgs {
     pub project: String,
-    /// JSON file to write
-    #[arg(long, value_name = "FILE.json")]
+    /// File to write, which ends in .json or .html
+    #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// Format of the file [default: by its ending]
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<ExportFormat>,
+    /// Folder with Shadertoy's textures, music and videos, for html
+    #[arg(long, value_name = "DIR")]
+    pub media: Option<PathBuf>,
     /// Overwrite an existing file
     #[arg(long)]
     pub force: bool,
+}
+
+/// A form that a project is exported in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// Shadertoy JSON
+    Json,
+    /// One HTML file that plays the project in a browser by WebGL 2
+    Html,
 }
 
 #[cfg(test)]

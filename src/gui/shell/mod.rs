@@ -510,6 +510,7 @@ impl Shell {
                 out.ask(Command::PlayRecording(path));
             }
             Pick::Json(_) => out.ask(Command::ExportJson(path)),
+            Pick::Page(_) => out.ask(Command::ExportPage(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),

@@ -35,6 +35,7 @@ const LAYERS: &[&str] = &[
     "playback",
     "film",
     "translate",
+    "web",
     "debugger",
     "session",
     "lab",
@@ -63,6 +64,7 @@ const ROOT: &[(&str, &[&str])] = &[
             "session",
             "lab",
             "translate",
+            "web",
         ],
     ),
 ];
@@ -102,6 +104,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "background",
             "film",
             "translate",
+            "web",
             "debugger",
             "lab",
             "cli",
@@ -109,7 +112,10 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "main",
         ],
     ),
-    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate"]),
+    (
+        &["Instant"],
+        &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate", "web"],
+    ),
     (
         &["env"],
         &[
@@ -141,6 +147,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "background",
             "film",
             "translate",
+            "web",
             "debugger",
         ],
     ),
