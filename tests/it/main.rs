@@ -57,6 +57,7 @@ mod lab_shapes;
 mod lab_stability;
 mod layers;
 mod long_arrays;
+mod lsp;
 mod music;
 mod next_project;
 mod pass_edits;

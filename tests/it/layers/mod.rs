@@ -38,6 +38,7 @@ const LAYERS: &[&str] = &[
     "debugger",
     "session",
     "lab",
+    "lsp",
     "cli",
     "gui",
     "main",
@@ -63,6 +64,7 @@ const ROOT: &[(&str, &[&str])] = &[
             "session",
             "lab",
             "translate",
+            "lsp",
         ],
     ),
 ];
@@ -104,12 +106,16 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "translate",
             "debugger",
             "lab",
+            "lsp",
             "cli",
             "gui",
             "main",
         ],
     ),
-    (&["Instant"], &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate"]),
+    (
+        &["Instant"],
+        &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate", "lsp"],
+    ),
     (
         &["env"],
         &[
@@ -125,6 +131,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "film",
             "debugger",
             "lab",
+            "lsp",
         ],
     ),
     (
@@ -142,6 +149,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "film",
             "translate",
             "debugger",
+            "lsp",
         ],
     ),
 ];
