@@ -28,6 +28,3 @@ mod workspace;
 
 pub use server::Server;
 pub use transport::serve;
-
-#[cfg(test)]
-mod tests;

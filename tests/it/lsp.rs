@@ -2,7 +2,7 @@
 //! that are edited at random against `eddy check`.
 
 use crate::support::program::Bench;
-use eddy::{lsp::Server, project};
+use eddy::lsp::Server;
 use serde_json::{Value, json};
 use std::{
     collections::BTreeSet,
@@ -162,7 +162,7 @@ fn a_session_of_edits() {
     let mut session = demo();
     let document = json!({"uri": session.uri("image.glsl"), "version": 2});
     let change = json!({
-        "range": {"start": {"line": 11, "character": 35}, "end": {"line": 11, "character": 44}},
+        "range": {"start": {"line": 11, "character": 35}, "end": {"line": 11, "character": 43}},
         "text": "texture",
     });
     session.tell("textDocument/didChange", json!({"textDocument": document, "contentChanges": [change]}));
@@ -264,7 +264,7 @@ fn of_check(b: &Bench, spec: &str) -> Said {
 
 #[test]
 fn presets_edited_at_random_have_the_diagnostics_of_check() {
-    let mut random = Random(31);
+    let (mut random, mut broken) = (Random(31), 0);
     for preset in ["fluid", "sky-spheres", "bloom", "spectrum", "scene-bloom-taa"] {
         let b = Bench::new();
         let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("presets").join(preset);
@@ -332,7 +332,8 @@ fn presets_edited_at_random_have_the_diagnostics_of_check() {
                 checked.iter().filter(|said| said.1.is_empty()).map(|said| &said.4).collect();
             found.retain(|said| placed.contains(said) || !nowhere.contains(&said.4));
             assert_eq!(found, placed, "{preset}/{name}, edit {version}");
+            broken += usize::from(!placed.is_empty());
         }
     }
-    assert!(project::presets::names().contains(&"fluid"));
+    assert!(broken > 10, "{broken} of 25 edits break something");
 }

@@ -1,7 +1,6 @@
 //! The server without a stream: what is answered about projects, single files, plain stages and texts that are not saved.
 
-use super::Server;
-use lsp_server::{Message, Notification, Request, RequestId, Response};
+use eddy::lsp::Server;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fs, path::Path};
 use tempfile::TempDir;
@@ -32,40 +31,37 @@ impl Editor {
     }
 
     fn uri(&self, name: &str) -> String {
-        super::uris::uri(&self.folder.path().join(name))
+        format!("file://{}", self.folder.path().join(name).display())
     }
 
-    fn send(&mut self, message: Message) -> Vec<Message> {
+    fn send(&mut self, message: Value) -> Vec<Value> {
         let mut out = Vec::new();
-        assert_eq!(self.server.handle(message, &mut out), None);
-        out
+        assert_eq!(self.server.handle(serde_json::from_value(message).expect("a message"), &mut out), None);
+        out.iter().map(|message| serde_json::to_value(message).expect("JSON")).collect()
     }
 
     /// Lets the server do what it does while nothing is asked.
     fn settle(&mut self) {
         let mut out = Vec::new();
         while self.server.idle(&mut out) {}
-        for message in out {
-            if let Message::Notification(Notification { method, params }) = message {
-                assert_eq!(method, "textDocument/publishDiagnostics");
-                let uri = params["uri"].as_str().expect("a document").to_owned();
-                self.told.insert(uri, params["diagnostics"].clone());
-            }
+        for message in out.iter().map(|message| serde_json::to_value(message).expect("JSON")) {
+            assert_eq!(message["method"], "textDocument/publishDiagnostics");
+            let uri = message["params"]["uri"].as_str().expect("a document").to_owned();
+            self.told.insert(uri, message["params"]["diagnostics"].clone());
         }
     }
 
     fn tell(&mut self, method: &str, params: Value) {
-        self.send(Message::Notification(Notification { method: method.into(), params }));
+        self.send(json!({"method": method, "params": params}));
         self.settle();
     }
 
     fn ask(&mut self, method: &str, params: Value) -> Result<Value, String> {
         self.asked += 1;
-        let request = Request { id: RequestId::from(self.asked), method: method.into(), params };
-        let mut out = self.send(Message::Request(request));
-        match out.pop() {
-            Some(Message::Response(Response { response_result, .. })) => response_result.map_err(|error| error.message),
-            other => panic!("{method}: {other:?}"),
+        let answer = self.send(json!({"id": self.asked, "method": method, "params": params})).pop().expect("an answer");
+        match answer.get("error") {
+            Some(error) => Err(error["message"].as_str().expect("a text").to_owned()),
+            None => Ok(answer["result"].clone()),
         }
     }
 
@@ -150,7 +146,7 @@ fn a_rename_changes_all_files_or_none() {
     let files = edit["changes"].as_object().unwrap();
     assert_eq!(files.len(), 3);
     assert!(files.values().all(|edits| edits[0]["newText"] == "doubled"), "{edit}");
-    for (name, why) in [("y", "already has a meaning"), ("mix", "cannot be declared"), ("2x", "is not a name")] {
+    for (name, why) in [("c", "already has a meaning"), ("mix", "cannot be declared"), ("2x", "is not a name")] {
         params["newName"] = name.into();
         let refused = editor.ask("textDocument/rename", params.clone()).unwrap_err();
         assert!(refused.contains(why), "{name}: {refused}");
@@ -328,15 +324,18 @@ fn a_document_without_a_file_and_a_file_that_goes_are_served() {
     assert_eq!(editor.said("image.glsl"), ["1: there is no function `twice`"]);
     fs::remove_file(editor.folder.path().join("image.glsl")).unwrap();
     editor.tell("workspace/didChangeWatchedFiles", json!({"changes": []}));
-    assert_ne!(editor.ask_at("textDocument/hover", "image.glsl", (1, 5)), Value::Null, "its text is the editor's");
+    assert_ne!(editor.ask_at("textDocument/hover", "image.glsl", (0, 8)), Value::Null, "its text is the editor's");
 }
 
 #[test]
 fn a_server_ends_as_the_protocol_has_it() {
-    let exit = || Message::Notification(Notification { method: "exit".into(), params: Value::Null });
+    let exit = |server: &mut Server| {
+        let message = serde_json::from_value(json!({"method": "exit"})).expect("a message");
+        server.handle(message, &mut Vec::new())
+    };
     let mut editor = Editor::new(&[]);
     assert_eq!(editor.ask("shutdown", Value::Null), Ok(Value::Null));
     assert!(editor.ask("textDocument/hover", json!({})).unwrap_err().contains("shut down"));
-    assert_eq!(editor.server.handle(exit(), &mut Vec::new()), Some(0));
-    assert_eq!(Server::new().handle(exit(), &mut Vec::new()), Some(1));
+    assert_eq!(exit(&mut editor.server), Some(0));
+    assert_eq!(exit(&mut Server::new()), Some(1));
 }
