@@ -23,6 +23,7 @@ pub use eddy_glsl as glsl;
 pub use eddy_gpu as gpu;
 pub use eddy_graph as graph;
 pub use eddy_lab as lab;
+pub use eddy_lsp as lsp;
 pub use eddy_media as media;
 pub use eddy_playback as playback;
 pub use eddy_project as project;

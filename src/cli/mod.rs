@@ -40,7 +40,7 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::playback::trial;
+use crate::{lsp, playback::trial};
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
@@ -139,6 +139,7 @@ fn run(command: &Command) -> u8 {
             Ok(language) => translate::run(args, language),
             Err(usage) => return trouble(usage),
         },
+        Command::Lsp => lsp::serve(io::stdin(), io::stdout().lock()),
         Command::Doctor(args) => doctor::run(args),
         Command::Completions(args) => manuals::completions(args),
         Command::Man(args) => manuals::man(args),

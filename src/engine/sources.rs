@@ -275,9 +275,14 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass or stage.
     pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
+        self.with_stage(index, stage, |source| Analysis::behind(source, self.preamble()))
+    }
+
+    /// Gives a stage of `project.passes[index]` as the compiler takes it.
+    pub(super) fn with_stage<T>(&self, index: usize, stage: Stage, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let pass = &self.project.passes[index];
         let kind = pass.settings.meshes().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
-        self.with_source(index, self.stage_id(index, stage), kind, |source| Analysis::behind(source, self.preamble()))
+        self.with_source(index, self.stage_id(index, stage), kind, work)
     }
 
     /// Returns what the site would refuse in Common; see [`glsl::check_common`].

@@ -48,6 +48,14 @@ pub(super) struct Missing {
     ids: Vec<SourceId>,
 }
 
+impl Missing {
+    /// Everything that reading a stage reads. `shared` returns a text of `source` as it is kept.
+    pub fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
+        let ids = ids_of(source);
+        Self { key: StageKey::new(source, link, &ids, shared), ids }
+    }
+}
+
 /// The result of compiling a stage.
 pub(super) type Outcome = Result<Compiled, Vec<Diagnostic>>;
 
@@ -211,11 +219,10 @@ impl StageCache {
         link: &Link<'_>,
         shared: impl Fn(Text<'_>) -> Arc<str>,
     ) -> Result<Found, Box<Missing>> {
-        let ids = ids_of(source);
-        let key = StageKey::new(source, link, &ids, shared);
-        match self.stages.get(&key) {
-            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &ids))),
-            None => Err(Box::new(Missing { key, ids })),
+        let wanted = Missing::new(source, link, shared);
+        match self.stages.get(&wanted.key) {
+            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &wanted.ids))),
+            None => Err(Box::new(wanted)),
         }
     }
 

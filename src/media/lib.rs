@@ -23,7 +23,7 @@ mod sound;
 pub use error::MediaError;
 pub use film::first_frame;
 pub use gamepads::Gamepads;
-pub use gather::{files, fills, gather, meshes, unrecorded};
+pub use gather::{diagnose, files, fills, gather, meshes, unrecorded};
 pub use keyboard::Keyboard;
 pub use load::load;
 pub use music::{ChannelSound, sounds};

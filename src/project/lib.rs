@@ -54,6 +54,7 @@ pub use custom_uniforms::{
 pub use directives::ignored_channel_lines;
 pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
+pub use files::EditedTexts;
 pub use fill_texts::FillText;
 pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
 pub use fingerprint::Fingerprint;
@@ -70,7 +71,7 @@ pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};
 pub use json::losses as json_losses;
 pub use load::Loaded;
-pub use locate::{load, stem};
+pub use locate::{folder_around, is_manifest, load, load_edited, stem};
 pub use manifest::write as write_manifest;
 pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};

@@ -58,6 +58,8 @@ mod lab_shapes;
 mod lab_stability;
 mod layers;
 mod long_arrays;
+mod lsp;
+mod lsp_projects;
 mod music;
 mod next_project;
 mod pass_edits;

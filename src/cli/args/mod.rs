@@ -46,6 +46,9 @@ pub struct Window {
     /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Show the picture and the uniforms alone, beside another editor: what it saves is drawn at once
+    #[arg(long, requires = "project")]
+    pub follow: bool,
     /// Open the project paused, without drawing anything
     #[arg(long)]
     pub paused: bool,
@@ -94,6 +97,8 @@ pub enum Command {
     Export(ExportArgs),
     /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
     Translate(TranslateArgs),
+    /// Serve an editor over the Language Server Protocol, on standard input and output
+    Lsp,
     /// Describe this machine and this build, for a report; sends nothing
     Doctor(DoctorArgs),
     /// Print completions for a shell

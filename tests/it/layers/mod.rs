@@ -39,6 +39,7 @@ const LAYERS: &[&str] = &[
     "debugger",
     "session",
     "lab",
+    "lsp",
     "cli",
     "gui",
     "main",
@@ -65,6 +66,7 @@ const ROOT: &[(&str, &[&str])] = &[
             "lab",
             "translate",
             "web",
+            "lsp",
         ],
     ),
 ];
@@ -107,6 +109,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "web",
             "debugger",
             "lab",
+            "lsp",
             "cli",
             "gui",
             "main",
@@ -114,7 +117,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     ),
     (
         &["Instant"],
-        &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate", "web"],
+        &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate", "web", "lsp"],
     ),
     (
         &["env"],
@@ -131,6 +134,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "film",
             "debugger",
             "lab",
+            "lsp",
         ],
     ),
     (
@@ -149,6 +153,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
             "translate",
             "web",
             "debugger",
+            "lsp",
         ],
     ),
 ];
