@@ -10,7 +10,6 @@ mod data;
 mod describe;
 mod inline;
 mod page;
-mod sha256;
 #[cfg(test)]
 mod tests;
 mod texts;

@@ -1,7 +1,8 @@
 //! The page: the player and the project's description in one HTML text, so that nothing in the project is taken for markup.
 
-use crate::{data::ProjectData, sha256};
+use crate::data::ProjectData;
 use eddy_project::Project;
+use sha2::{Digest as _, Sha256};
 
 const PAGE: &str = include_str!("player/page.html");
 const STYLE: &str = include_str!("player/player.css");
@@ -53,7 +54,7 @@ fn filled(values: &[(&str, &str)]) -> String {
 /// Returns the content security policy: the page runs its own script and style, which are known by their hashes, and reaches
 /// no address (Content Security Policy Level 3). A video is played from memory.
 fn policy(script: &str, style: &str) -> String {
-    let hash = |text: &str| format!("'sha256-{}'", base64(&sha256::digest(text.as_bytes())));
+    let hash = |text: &str| format!("'sha256-{}'", base64(&Sha256::digest(text)));
     format!(
         "default-src 'none'; script-src {}; style-src {}; img-src data:; media-src blob:; base-uri 'none'; \
          form-action 'none'",
