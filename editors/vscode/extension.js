@@ -41,7 +41,7 @@ async function open() {
     const folder = path.dirname(document.fileName);
     const manifest = vscode.Uri.file(path.join(folder, "eddy.toml"));
     const isProject = await vscode.workspace.fs.stat(manifest).then(() => true, () => false);
-    const child = spawn(program(), [isProject ? folder : document.fileName], { detached: true, stdio: "ignore" });
+    const child = spawn(program(), ["--follow", isProject ? folder : document.fileName], { detached: true, stdio: "ignore" });
     child.on("error", (error) => vscode.window.showErrorMessage(`${program()} cannot be started: ${error.message}`));
     child.unref();
 }
