@@ -68,7 +68,9 @@ fn measure(title: &str, lines: usize, text: &str, common_lines: usize) {
     for key in 0..KEYS {
         let mut timed = |which: usize, messages: &[Value], until_idle: bool| {
             let began = Instant::now();
-            messages.iter().for_each(|message| drop(send(message.clone(), until_idle)));
+            for message in messages {
+                send(message.clone(), until_idle);
+            }
             times[which].all.push(began.elapsed());
         };
         let change = |text: &str, to: usize| {

@@ -162,7 +162,7 @@ fn a_session_of_edits() {
     let mut session = demo();
     let document = json!({"uri": session.uri("image.glsl"), "version": 2});
     let change = json!({
-        "range": {"start": {"line": 11, "character": 35}, "end": {"line": 11, "character": 43}},
+        "range": {"start": {"line": 11, "character": 35}, "end": {"line": 11, "character": 44}},
         "text": "texture",
     });
     session.tell("textDocument/didChange", json!({"textDocument": document, "contentChanges": [change]}));
