@@ -1,7 +1,8 @@
 //! Films that leave the window: of what it draws while somebody plays, and of a range of frames that is drawn exactly.
 //!
-//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]), the thread that draws a range and
-//! completes files ([`work`]), and the files' places ([`target`]). One film is made at a time.
+//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]) with what is heard ([`heard`]), the
+//! thread that draws a range and completes files ([`work`]), and the files' places ([`target`]). One film is made at a
+//! time.
 
 mod form;
 mod heard;
