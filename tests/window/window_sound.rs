@@ -94,7 +94,8 @@ fn a_file_of_music_that_is_dropped_on_a_channel_is_read_and_heard() {
     let Some(display) = Display::of_size(1300, 800) else { return };
     let home = tempfile::tempdir().unwrap();
     // The tone's bin of the spectrum: 441 Hz of 22,050 Hz in 1,024 bins, of which the texture has 512.
-    let green = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0, texelFetch(iChannel1, ivec2(20, 0), 0).x, 0, 1); }";
+    let green =
+        "void mainImage(out vec4 o, in vec2 p) { o = vec4(0, texelFetch(iChannel1, ivec2(20, 0), 0).x, 0, 1); }";
     let folder = folder_of(home.path().join("project"), &[("image.glsl", green)]);
     let music = home.path().join("music");
     fs::create_dir(&music).unwrap();
