@@ -129,8 +129,11 @@ struct StageKey {
 #[derive(PartialEq, Eq)]
 struct IncludeKey {
     line: (usize, u32, u32),
-    text: Result<(usize, Arc<str>), (Severity, String, Vec<String>)>,
+    text: Result<(usize, Arc<str>), NoText>,
 }
+
+/// The severity, the words and the hints of what is said where there is no text.
+type NoText = (Severity, String, Vec<String>);
 
 impl Hash for StageKey {
     /// Other members seldom differ where these agree.
