@@ -1,3 +1,5 @@
+//! Tests of whole pages: their size, their bytes, and texts that look like markup.
+
 use crate::{PLAYER_BYTES, Page, export, page};
 use eddy_project::{Channel, Input, Media, Origin, Pass, PassId, Project, Source, load, presets};
 
