@@ -30,25 +30,24 @@ pub fn paint(ui: &Ui, session: &Session, picture: Rect) {
 /// Lists the worst pixels over the picture's lower edge.
 pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
-    let shown = Area::new(Id::unique("audit"))
+    let legend = Area::new(Id::unique("audit"))
         .order(Order::Middle)
         .pivot(egui::Align2::LEFT_BOTTOM)
         .fixed_pos(area.left_bottom() + vec2(6.0, -6.0))
-        .constrain_to(area)
-        .show(ui.ctx(), |ui| {
-            theme::put_over_picture(ui);
-            let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
-            frame.show(ui, |ui| {
-                out.stop("audit", ui);
-                ui.set_max_width((area.width() - 28.0).max(160.0));
-                // Rows close below each other: the picture is what is looked at.
-                let spacing = ui.spacing_mut();
-                (spacing.item_spacing, spacing.button_padding) = (vec2(6.0, 2.0), vec2(4.0, 0.0));
-                spacing.interact_size.y = 16.0;
-                card(ui, map, out);
-            });
+        .constrain_to(area);
+    out.show_area("audit", legend, ui, |ui, out| {
+        theme::put_over_picture(ui);
+        let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
+        frame.show(ui, |ui| {
+            out.stop("audit", ui);
+            ui.set_max_width((area.width() - 28.0).max(160.0));
+            // Rows close below each other: the picture is what is looked at.
+            let spacing = ui.spacing_mut();
+            (spacing.item_spacing, spacing.button_padding) = (vec2(6.0, 2.0), vec2(4.0, 0.0));
+            spacing.interact_size.y = 16.0;
+            card(ui, map, out);
         });
-    out.place("audit", shown.response.rect);
+    });
 }
 
 fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {

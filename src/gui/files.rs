@@ -204,15 +204,19 @@ impl Asked {
             return false;
         }
         let area = Area::new(Id::unique("file dialog")).order(Order::Foreground);
-        let shown = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -52.0)).show(ui.ctx(), |ui| {
-            Frame::popup(ui.style()).fill(theme::of(ui).raised).show(ui, |ui| {
-                ui.horizontal(|ui| {
-                    ui.label("Waiting for the file dialog");
-                    out.clicked("button:type-path", &ui.button("Type a path instead"))
+        let area = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -52.0));
+        out.show_area("file dialog", area, ui, |ui, out| {
+            Frame::popup(ui.style())
+                .fill(theme::of(ui).raised)
+                .show(ui, |ui| {
+                    ui.horizontal(|ui| {
+                        ui.label("Waiting for the file dialog");
+                        out.clicked("button:type-path", &ui.button("Type a path instead"))
+                    })
+                    .inner
                 })
-            })
-        });
-        shown.inner.inner.inner
+                .inner
+        })
     }
 }
 

@@ -16,42 +16,41 @@ pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let (title, text, go_on) = words(halt);
     let width = (area.width() - 24.0).clamp(150.0, 420.0);
     let frame = Frame::popup(ui.style()).fill(theme::of(ui).raised).inner_margin(Margin::same(14));
-    let shown = Area::new(Id::unique("halt"))
+    let area = Area::new(Id::unique("halt"))
         .order(Order::Middle)
         .pivot(egui::Align2::CENTER_CENTER)
         .fixed_pos(area.center())
-        .constrain_to(area)
-        .show(ui.ctx(), |ui| {
-            frame.stroke(Stroke::new(1.0, theme::of(ui).line)).show(ui, |ui| {
-                out.stop("halt", ui);
-                ui.set_width(width);
-                ui.label(RichText::new(title).size(15.0).color(theme::of(ui).strong));
-                ui.add(egui::Label::new(text).wrap());
-                ui.add_space(8.0);
-                ui.with_layout(Layout::left_to_right(Align::Center).with_main_wrap(true), |ui| {
-                    let mut offer = |name: &str, label: &str, tip: &str, is_first: bool, is_on: bool, command| {
-                        let color = if is_first { theme::of(ui).strong } else { theme::of(ui).text };
-                        let mut button = Button::new(RichText::new(label).color(color)).min_size(vec2(0.0, 26.0));
-                        if is_first {
-                            button = button.fill(theme::of(ui).accent_fill);
-                        }
-                        let response = ui.add_enabled(is_on, button).on_hover_text(tip);
-                        if out.clicked(name, &response) {
-                            out.ask(command);
-                        }
-                    };
-                    offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::GoOn);
-                    let tip = "Lower the resolution until a frame is below the limit";
-                    offer(SMALLER, "Lower resolution", tip, false, true, Command::DrawSmaller);
-                    if !matches!(halt, Halt::Opened { .. }) {
-                        let tip = "Draw the last code that was fast enough. Your text stays as it is";
-                        let is_on = session.has_last_good();
-                        offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::DrawLastGood);
+        .constrain_to(area);
+    out.show_area("halt", area, ui, |ui, out| {
+        frame.stroke(Stroke::new(1.0, theme::of(ui).line)).show(ui, |ui| {
+            out.stop("halt", ui);
+            ui.set_width(width);
+            ui.label(RichText::new(title).size(15.0).color(theme::of(ui).strong));
+            ui.add(egui::Label::new(text).wrap());
+            ui.add_space(8.0);
+            ui.with_layout(Layout::left_to_right(Align::Center).with_main_wrap(true), |ui| {
+                let mut offer = |name: &str, label: &str, tip: &str, is_first: bool, is_on: bool, command| {
+                    let color = if is_first { theme::of(ui).strong } else { theme::of(ui).text };
+                    let mut button = Button::new(RichText::new(label).color(color)).min_size(vec2(0.0, 26.0));
+                    if is_first {
+                        button = button.fill(theme::of(ui).accent_fill);
                     }
-                });
+                    let response = ui.add_enabled(is_on, button).on_hover_text(tip);
+                    if out.clicked(name, &response) {
+                        out.ask(command);
+                    }
+                };
+                offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::GoOn);
+                let tip = "Lower the resolution until a frame is below the limit";
+                offer(SMALLER, "Lower resolution", tip, false, true, Command::DrawSmaller);
+                if !matches!(halt, Halt::Opened { .. }) {
+                    let tip = "Draw the last code that was fast enough. Your text stays as it is";
+                    let is_on = session.has_last_good();
+                    offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::DrawLastGood);
+                }
             });
         });
-    out.place("halt", shown.response.rect);
+    });
 }
 
 /// Returns a title, what there is to say, and what going on is called.

@@ -20,21 +20,18 @@ const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 /// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
 pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let Some(view) = session.probe() else { return };
-    let shown = Area::new(Id::unique("probe"))
-        .order(Order::Middle)
-        .fixed_pos(area.min + vec2(6.0, 6.0))
-        .constrain_to(area)
-        .show(ui.ctx(), |ui| {
-            theme::put_over_picture(ui);
-            let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
-            frame.show(ui, |ui| {
-                out.stop("probe", ui);
-                ui.set_max_width((area.width() - 28.0).max(160.0));
-                ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
-                bar(ui, &view, under, out);
-            });
+    let card =
+        Area::new(Id::unique("probe")).order(Order::Middle).fixed_pos(area.min + vec2(6.0, 6.0)).constrain_to(area);
+    out.show_area("probe", card, ui, |ui, out| {
+        theme::put_over_picture(ui);
+        let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
+        frame.show(ui, |ui| {
+            out.stop("probe", ui);
+            ui.set_max_width((area.width() - 28.0).max(160.0));
+            ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
+            bar(ui, &view, under, out);
         });
-    out.place("probe", shown.response.rect);
+    });
 }
 
 fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut UiOutput) {

@@ -122,7 +122,7 @@ pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
     ui.ctx().request_repaint_after(STAYS.saturating_sub(now.saturating_duration_since(notice.at)));
     let width = (ui.ctx().content_rect().width() - 40.0).min(560.0);
     let area = Area::new(Id::unique(PLACE)).anchor(Align2::CENTER_BOTTOM, vec2(0.0, -24.0)).interactable(false);
-    let shown = area.order(Order::Foreground).show(ui.ctx(), |ui| {
+    out.show_area(PLACE, area.order(Order::Foreground), ui, |ui, _| {
         let frame =
             Frame::popup(ui.style()).fill(theme::of(ui).raised.gamma_multiply(0.92)).inner_margin(Margin::same(10));
         frame.stroke(Stroke::new(1.0, color(ui, notice.level))).show(ui, |ui| {
@@ -130,7 +130,6 @@ pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
             ui.add(Label::new(laid_out(ui, &group.text(), 13.0)).wrap());
         });
     });
-    out.place(PLACE, shown.response.rect);
 }
 
 /// Returns whether a line is of the excerpt that shows an error's place in a text (`diag::render`), where columns count.

@@ -115,6 +115,27 @@ impl UiOutput {
         }
     }
 
+    /// Shows an area and notes where it and its widgets are, once egui knows its size: a new area is first shown invisibly
+    /// and often in another place, to measure it.
+    pub fn show_area<R>(
+        &mut self,
+        name: &str,
+        area: egui::Area,
+        ui: &Ui,
+        content: impl FnOnce(&mut Ui, &mut Self) -> R,
+    ) -> R {
+        let mut before = None;
+        let shown = area.show(ui.ctx(), |ui| {
+            before = ui.is_sizing_pass().then(|| (self.places.clone(), self.stops.clone()));
+            content(ui, self)
+        });
+        match before {
+            Some(before) => (self.places, self.stops) = before,
+            None => self.place(name, shown.response.rect),
+        }
+        shown.inner
+    }
+
     /// Notes that what is shown in `ui` is a part of the window, which F6 takes the keyboard to.
     pub fn stop(&mut self, name: &'static str, ui: &Ui) {
         self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
@@ -147,5 +168,41 @@ impl UiOutput {
             height: r.height() * pixels_per_point,
         };
         self.places.iter().map(|(name, rect)| (name.clone(), area(rect))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Align2, RawInput, pos2, vec2};
+
+    /// The first pass of an area with a pivot is shown as if it had no size.
+    #[test]
+    fn a_new_area_has_places_once_it_is_measured() {
+        let ctx = egui::Context::default();
+        let show = || {
+            let mut out = UiOutput::default();
+            let mut shown = None;
+            let mut output = ctx.run_ui(RawInput::default(), |ui| {
+                out = UiOutput::default();
+                let area =
+                    egui::Area::new(Id::unique("card")).pivot(Align2::CENTER_CENTER).fixed_pos(pos2(300.0, 200.0));
+                out.show_area("card", area, ui, |ui, out| {
+                    out.stop("card", ui);
+                    let button = ui.add(egui::Button::new("Close").min_size(vec2(80.0, 30.0)));
+                    out.clicked("close", &button);
+                    shown = Some(button.rect);
+                });
+            });
+            output.textures_delta.clear();
+            (out, shown.unwrap())
+        };
+        let (first, invisible) = show();
+        assert!(first.places.is_empty() && first.stops.is_empty(), "{first:?}");
+        let (second, visible) = show();
+        assert_ne!(invisible, visible, "the first pass is to be in another place, or this shows nothing");
+        assert_eq!(second.places.get("close"), Some(&visible));
+        assert_eq!(second.places["card"].center(), pos2(300.0, 200.0));
+        assert_eq!(second.stops.len(), 1);
     }
 }

@@ -68,38 +68,37 @@ impl Fixes {
             .order(Order::Foreground)
             .fixed_pos(caret.left_bottom() + vec2(0.0, 2.0))
             .pivot(Align2::LEFT_TOP)
-            .constrain_to(ui.ctx().content_rect())
-            .show(ui.ctx(), |ui| {
-                Frame::popup(ui.style()).inner_margin(Margin::same(4)).show(ui, |ui| {
-                    ui.spacing_mut().item_spacing.y = 0.0;
-                    if self.list.is_empty() {
-                        ui.colored_label(theme::of(ui).weak, "No quick fix for this line");
+            .constrain_to(ui.ctx().content_rect());
+        out.show_area("fixes", area, ui, |ui, out| {
+            Frame::popup(ui.style()).inner_margin(Margin::same(4)).show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                if self.list.is_empty() {
+                    ui.colored_label(theme::of(ui).weak, "No quick fix for this line");
+                }
+                let font = egui::FontId::proportional(13.0);
+                let titles: Vec<_> = self
+                    .list
+                    .iter()
+                    .map(|fix| ui.painter().layout_no_wrap(fix.title.clone(), font.clone(), theme::of(ui).text))
+                    .collect();
+                let width = titles.iter().map(|t| t.size().x).fold(160.0, f32::max) + 16.0;
+                for (i, (fix, title)) in self.list.iter().zip(titles).enumerate() {
+                    let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
+                    let is_selected = i == self.selected;
+                    accessible::choice(&response, egui::Role::ListBoxOption, is_selected, &fix.title);
+                    if is_selected {
+                        ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
+                    } else if response.hovered() {
+                        ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
                     }
-                    let font = egui::FontId::proportional(13.0);
-                    let titles: Vec<_> = self
-                        .list
-                        .iter()
-                        .map(|fix| ui.painter().layout_no_wrap(fix.title.clone(), font.clone(), theme::of(ui).text))
-                        .collect();
-                    let width = titles.iter().map(|t| t.size().x).fold(160.0, f32::max) + 16.0;
-                    for (i, (fix, title)) in self.list.iter().zip(titles).enumerate() {
-                        let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
-                        let is_selected = i == self.selected;
-                        accessible::choice(&response, egui::Role::ListBoxOption, is_selected, &fix.title);
-                        if is_selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
-                        } else if response.hovered() {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
-                        }
-                        let at = egui::pos2(rect.left() + 8.0, rect.center().y - title.size().y / 2.0);
-                        ui.painter().galley(at, title, theme::of(ui).text);
-                        if out.clicked(&format!("fix:{i}"), &response) {
-                            chosen = Chosen::Fix(fix.clone());
-                        }
+                    let at = egui::pos2(rect.left() + 8.0, rect.center().y - title.size().y / 2.0);
+                    ui.painter().galley(at, title, theme::of(ui).text);
+                    if out.clicked(&format!("fix:{i}"), &response) {
+                        chosen = Chosen::Fix(fix.clone());
                     }
-                });
+                }
             });
-        out.place("fixes", area.response.rect);
+        });
         chosen
     }
 }

@@ -116,54 +116,53 @@ impl Palette {
             .order(Order::Foreground)
             .fixed_pos(pos2(window.center().x, window.top() + 44.0))
             .pivot(Align2::CENTER_TOP)
-            .constrain_to(window)
-            .show(ui.ctx(), |ui| {
-                Frame::popup(ui.style()).inner_margin(Margin::same(6)).show(ui, |ui| {
-                    ui.set_width(width);
-                    let field = TextEdit::singleline(&mut open.typed).id(Id::unique("palette field"));
-                    let field = field.hint_text("Type a command").desired_width(f32::INFINITY);
-                    let field = ui.add(field.margin(Margin::symmetric(8, 6)));
-                    out.place("field:palette", field.rect);
-                    if std::mem::take(&mut open.takes_focus) {
+            .constrain_to(window);
+        out.show_area("palette", area, ui, |ui, out| {
+            Frame::popup(ui.style()).inner_margin(Margin::same(6)).show(ui, |ui| {
+                ui.set_width(width);
+                let field = TextEdit::singleline(&mut open.typed).id(Id::unique("palette field"));
+                let field = field.hint_text("Type a command").desired_width(f32::INFINITY);
+                let field = ui.add(field.margin(Margin::symmetric(8, 6)));
+                out.place("field:palette", field.rect);
+                if std::mem::take(&mut open.takes_focus) {
+                    field.request_focus();
+                }
+                if field.changed() {
+                    (open.selected, open.top) = (0, 0);
+                    is_retyped = true;
+                }
+                closes |= field.lost_focus() && chosen.is_none();
+                ui.add_space(4.0);
+                ui.spacing_mut().item_spacing.y = 0.0;
+                if fits.is_empty() {
+                    ui.colored_label(theme::of(ui).weak, "No matching command.");
+                }
+                for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
+                    let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
+                    let is_selected = i == open.selected;
+                    accessible::choice(&response, egui::Role::ListBoxOption, is_selected, fit.title);
+                    if i == open.selected {
+                        ui.painter().rect_filled(rect, 4.0, theme::of(ui).chosen);
+                    } else if response.hovered() {
+                        ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
+                    }
+                    let key = match fit.choice {
+                        Choice::Action(action) => out.keys.hint(action),
+                        Choice::Offer(_) => String::new(),
+                    };
+                    row(ui, rect, fit, &key, is_selected);
+                    out.place(format!("palette:{}", fit.name), rect);
+                    // A press takes the keyboard from the field, which must not close before the row is clicked.
+                    if response.is_pointer_button_down_on() || response.clicked() {
+                        closes = false;
                         field.request_focus();
                     }
-                    if field.changed() {
-                        (open.selected, open.top) = (0, 0);
-                        is_retyped = true;
+                    if response.clicked() {
+                        chosen = Some(i);
                     }
-                    closes |= field.lost_focus() && chosen.is_none();
-                    ui.add_space(4.0);
-                    ui.spacing_mut().item_spacing.y = 0.0;
-                    if fits.is_empty() {
-                        ui.colored_label(theme::of(ui).weak, "No matching command.");
-                    }
-                    for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
-                        let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
-                        let is_selected = i == open.selected;
-                        accessible::choice(&response, egui::Role::ListBoxOption, is_selected, fit.title);
-                        if i == open.selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).chosen);
-                        } else if response.hovered() {
-                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
-                        }
-                        let key = match fit.choice {
-                            Choice::Action(action) => out.keys.hint(action),
-                            Choice::Offer(_) => String::new(),
-                        };
-                        row(ui, rect, fit, &key, is_selected);
-                        out.place(format!("palette:{}", fit.name), rect);
-                        // A press takes the keyboard from the field, which must not close before the row is clicked.
-                        if response.is_pointer_button_down_on() || response.clicked() {
-                            closes = false;
-                            field.request_focus();
-                        }
-                        if response.clicked() {
-                            chosen = Some(i);
-                        }
-                    }
-                });
+                }
             });
-        out.place("palette", area.response.rect);
+        });
         // Letters and Return in one frame: the row is one of those that the letters leave.
         let (fits, chosen) = match is_retyped && open.keys.enter {
             true => (self::fits(&open.typed, &self.recent, offers), Some(0)),

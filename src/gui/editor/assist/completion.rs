@@ -127,7 +127,9 @@ impl Popup {
                         }
                         if let Some(item) = self.item(i) {
                             paint_row(ui, rect, item, font, i == self.selected);
-                            placed.push((format!("completion:{}", item.label), rect));
+                            if !ui.is_sizing_pass() {
+                                placed.push((format!("completion:{}", item.label), rect));
+                            }
                         }
                         if response.clicked() {
                             self.selected = i;
