@@ -12,7 +12,7 @@ use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, BuildOptions, EngineError},
     glsl::Probe,
-    gpu::{Gpu, GpuError, GpuOptions},
+    gpu::{Gpu, GpuError, GpuOptions, loss},
     lab::Shard,
     media::{self, MediaSet},
     playback::{
@@ -88,6 +88,18 @@ pub struct Machine {
     gpu: Option<Gpu>,
     /// The reason why there is no device, which is asked for once.
     refusal: Option<String>,
+    /// A device was lost, and no other has been opened since.
+    loss: Loss,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Loss {
+    #[default]
+    None,
+    /// The driver may be resetting it.
+    New,
+    /// Another was refused for as long as a reset takes.
+    Lasting,
 }
 
 impl Machine {
@@ -98,13 +110,26 @@ impl Machine {
         if let Some(refusal) = &self.refusal {
             anyhow::bail!("{refusal}");
         }
-        match Gpu::new(&GpuOptions::default()) {
-            Ok(gpu) => Ok(self.gpu.insert(gpu).clone()),
+        let patience = if self.loss == Loss::New { loss::RESET } else { Duration::ZERO };
+        match loss::reopen(patience, || Gpu::new(&GpuOptions::default())) {
+            Ok(gpu) => {
+                self.loss = Loss::None;
+                Ok(self.gpu.insert(gpu).clone())
+            }
             Err(error) => {
-                self.refusal = Some(error.to_string());
+                match self.loss {
+                    Loss::None => self.refusal = Some(error.to_string()),
+                    Loss::New | Loss::Lasting => self.loss = Loss::Lasting,
+                }
                 Err(error.into())
             }
         }
+    }
+
+    /// Lets go of the device: the next project gets another.
+    fn drop_device(&mut self) {
+        self.gpu = None;
+        self.loss = Loss::New;
     }
 
     /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
@@ -121,16 +146,16 @@ impl Machine {
             Ok(Err(Trouble::Unsupported(what))) => report.fail(Status::Unsupported, what),
             Ok(Err(Trouble::Other(error))) => {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
-                    self.gpu = None;
+                    self.drop_device();
                 }
                 if let Some(OfflineError::TimedOut { .. } | OfflineError::SoundTimedOut { .. }) = error.downcast_ref() {
                     // It is still at that frame.
-                    self.gpu = None;
+                    self.drop_device();
                 }
                 report.fail(Status::Error, error_chain(&error));
             }
             Err(panic) => {
-                self.gpu = None;
+                self.drop_device();
                 let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
                 let said = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
                 report.fail(Status::Error, format!("this is a bug in Eddy: {said}"));
@@ -140,7 +165,7 @@ impl Machine {
         if let Some(gpu) = &self.gpu
             && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
         {
-            self.gpu = None;
+            self.drop_device();
         }
         None
     }

@@ -2,7 +2,10 @@
 //!
 //! The logger and the panic hook are the process's own: [`install`] is called once, by `main`.
 
-use crate::session::{self, PanicReport, home_as_tilde};
+use crate::{
+    gpu::loss::is_loss,
+    session::{self, PanicReport, home_as_tilde},
+};
 use std::{
     backtrace::Backtrace,
     collections::VecDeque,
@@ -87,6 +90,10 @@ pub fn install() {
     let before = std::panic::take_hook();
     let written = AtomicUsize::new(0);
     std::panic::set_hook(Box::new(move |panic| {
+        // It is caught, and told of as a lost device.
+        if panic.payload_as_str().is_some_and(is_loss) {
+            return;
+        }
         before(panic);
         if written.fetch_add(1, Ordering::Relaxed) >= MOST_REPORTS {
             return;

@@ -1,5 +1,6 @@
 //! The device and what was found out about it, and the place of a thread among others where a processor draws.
 
+use super::loss;
 use std::sync::{
     Arc, Mutex,
     atomic::{AtomicBool, Ordering},
@@ -277,7 +278,7 @@ impl Gpu {
 
     /// Waits until the device has done everything it was given.
     pub fn wait(&self) -> Result<(), GpuError> {
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| GpuError::Lost(e.to_string()))?;
+        loss::poll(&self.device, wgpu::PollType::wait_indefinitely()).map_err(GpuError::Lost)?;
         self.take_trouble("a frame")
     }
 

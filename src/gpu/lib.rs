@@ -8,6 +8,7 @@ mod convert;
 mod device;
 mod fences;
 mod full_screen;
+pub mod loss;
 mod mesh;
 mod miniature;
 mod mips;

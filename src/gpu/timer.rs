@@ -1,6 +1,6 @@
 //! Device time of each pass by timestamp queries, read without waiting.
 
-use super::Gpu;
+use super::{Gpu, loss};
 use std::sync::{
     Arc,
     atomic::{AtomicBool, Ordering},
@@ -131,7 +131,7 @@ impl PassTimer {
     /// that was left out. Does not wait.
     pub fn newest(&mut self, gpu: &Gpu, draws: usize) -> Option<Vec<f64>> {
         // The error is the device's loss, which drawing reports.
-        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        let _ = loss::poll(&gpu.device, wgpu::PollType::Poll);
         let mut best: Option<(u64, Vec<f64>)> = None;
         for slot in &mut self.slots {
             let State::Mapping(done) = &slot.state else { continue };

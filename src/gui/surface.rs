@@ -8,7 +8,7 @@ use super::{
     back_buffer::{self, BackBuffer, Painting},
     damage::Area,
 };
-use crate::gpu::{Gpu, GpuOptions};
+use crate::gpu::{Gpu, GpuOptions, loss};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
@@ -121,7 +121,7 @@ impl Surface {
     /// other textures were on the lost device, and are to be made anew by those who show them.
     pub fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display)?;
-        let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
+        let gpu = loss::reopen(loss::RESET, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
         // A window has one swapchain: the old one goes with its surface before there is another.
         self.surface = surface;

@@ -17,7 +17,7 @@ use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
 use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
-    sync::mpsc::{RecvTimeoutError, channel},
+    sync::mpsc::{RecvTimeoutError, SendError, channel},
     time::{Duration, Instant},
 };
 
@@ -344,7 +344,13 @@ impl Offline {
         let (sender, receiver) = channel();
         let work = move || {
             let done = work(&mut engine);
-            let _ = sender.send((engine, done));
+            // Nobody waits any more. A driver that has lost its device is not asked to take it apart: the process may be
+            // leaving, and the driver with it.
+            if let Err(SendError((engine, _))) = sender.send((engine, done))
+                && engine.gpu().is_lost()
+            {
+                std::mem::forget(engine);
+            }
         };
         let thread = std::thread::Builder::new().name("frame".into()).stack_size(STACK_BYTES).spawn(work);
         let thread = thread.map_err(OfflineError::Thread)?;
