@@ -432,6 +432,20 @@ fn every_file_of_tests_is_run() {
     }
 }
 
+/// The script names them, since the window's run beside the others.
+#[test]
+fn every_test_binary_is_run_by_the_script() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let script = fs::read_to_string(root.join("scripts/test")).unwrap();
+    let entries = fs::read_dir(root.join("tests")).unwrap().map(|entry| entry.unwrap().path());
+    let binaries = entries.filter(|path| path.extension().is_some_and(|e| e == "rs") || path.join("main.rs").exists());
+    let names: Vec<String> = binaries.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    assert!(names.len() >= 6, "{names:?}");
+    let named: Vec<&str> = script.split_whitespace().collect();
+    let is_run = |name: &&String| named.windows(2).any(|pair| pair == ["--test", name.as_str()]);
+    assert_eq!(names.iter().find(|name| !is_run(name)), None);
+}
+
 /// What is wrong with where modules lie; `paths` are relative to `src/`.
 fn misplaced(paths: &[&str]) -> Vec<String> {
     let holds = |folder: &str| paths.iter().any(|p| p.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')));
