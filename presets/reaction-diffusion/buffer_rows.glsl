@@ -7,13 +7,14 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
     int last = int(iResolution.x) - 1;
     vec2 weight[TAPS + 1];
     gaussian(min(dt, LONGEST_BLUR), weight);
-    state.xy = weight[0] * texelFetch(iChannel0, p, 0).xy;
+    vec2 here = texelFetch(iChannel0, p, 0).xy;
+    state.xy = here;
     for (int i = 1; i <= TAPS; i++) {
         // Beyond the wall lies the mirror image, so that what leaves comes back.
         int left = p.x - i, right = p.x + i;
         left = max(left, -1 - left);
         right = min(right, 2 * last + 1 - right);
-        state.xy += weight[i] * (texelFetch(iChannel0, ivec2(clamp(left, 0, last), p.y), 0).xy
-                               + texelFetch(iChannel0, ivec2(clamp(right, 0, last), p.y), 0).xy);
+        state.xy += weight[i] * ((texelFetch(iChannel0, ivec2(clamp(left, 0, last), p.y), 0).xy - here)
+                               + (texelFetch(iChannel0, ivec2(clamp(right, 0, last), p.y), 0).xy - here));
     }
 }
