@@ -5,7 +5,7 @@ void mainImage(out vec4 drift, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     vec4 now = texelFetch(iChannel0, p, 0);
     vec2 before = texelFetch(iChannel1, p, 0).zw;
-    float pace = texelFetch(iChannel2, ivec2(0), 0).x;
+    float pace = paceIn(iChannel2);
     vec2 middle = now.xy + 0.5 * stepRatio(now.w, stepNow(iChannel2)) * (now.xy - before);
     drift = vec4(pace * (now.w > 0.0 ? middle : now.xy), now.xy);
     if (!isFinite(drift)) drift = vec4(0.0);

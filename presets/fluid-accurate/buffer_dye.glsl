@@ -33,6 +33,7 @@ vec3 dyeAt(vec2 at) {
 void mainImage(out vec4 dye, in vec2 fragCoord) {
     vec2 canvas = iResolution.xy, toGrid = vec2(textureSize(iChannel0, 0)) / canvas;
     vec4 ledger = texelFetch(iChannel3, ivec2(0), 0);
+    if (!isFinite(ledger)) ledger = vec4(0.0, 1.0, 1.0, speed * iTimeDelta);
     vec2 from = quickPath(iChannel0, fragCoord * toGrid, ledger.w * iChannelResolution[0].y);
     vec3 carried = min(dyeAt(from / toGrid - 0.5) * ledger.y, STRONGEST) * ledger.z, now = carried;
 

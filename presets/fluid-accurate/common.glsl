@@ -59,9 +59,14 @@ bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
 }
 
-// The step, in seconds of the fluid, where channel `pace` is the pace.
-float stepNow(sampler2D pace) {
-    return speed * iTimeDelta * texelFetch(pace, ivec2(0), 0).x;
+// What the pace is in its buffer, and the step at it, in seconds of the fluid.
+float paceIn(sampler2D buffer_pace) {
+    vec4 pace = texelFetch(buffer_pace, ivec2(0), 0);
+    return isFinite(pace) ? clamp(pace.x, 0.0, 1.0) : 1.0;
+}
+
+float stepNow(sampler2D buffer_pace) {
+    return speed * iTimeDelta * paceIn(buffer_pace);
 }
 
 // Cells squared in so many seconds.

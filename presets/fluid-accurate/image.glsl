@@ -28,7 +28,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown *= 0.40 + 0.75 * max(dot(n, sun), 0.0);
     shown += 0.25 * thick * pow(max(dot(n, normalize(sun + eye)), 0.0), 40.0);
     shown = pow(max(shown, 0.0), vec3(1.0 / 1.7));
-    if (texelFetch(iChannel1, ivec2(0), 0).x < 0.9 && fragCoord.y < 0.03 * iResolution.y
+    if (paceIn(iChannel1) < 0.9 && fragCoord.y < 0.03 * iResolution.y
         && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         shown = vec3(0.85, 0.1, 0.1); // slower than the slider says
     }
