@@ -17,8 +17,7 @@
 // larger ones are passed over, as a ring that large sees mostly the other side of the picture.
 #iUniform int scales = 20 in { 0, 20 }
 #iUniform float growth = 2.0 in { 1.25, 3.0 }
-// Pixels a frame on a canvas 270 pixels high, where V is 1 along the rims of one size: the flow goes by frames, so that
-// twice the frame rate is twice as quick, while vectors grow and wheels turn by the second. No step is too long: paint stays
+// Pixels a frame on a canvas 270 pixels high, where V is 1 along the rims of one size. No step is too long: paint stays
 // in the range of the four texels it comes from. From about 10 on it leaps over the eddies that move it, and its edges
 // fray.
 #iUniform float strength = 1.2 in { 0.0, 50.0 }

@@ -198,6 +198,8 @@ pub fn fluid_accurate() -> Bounds {
         ),
         always("bottom", Quantity::Any, Area::All, (-1e3, 1e3), "a pressure times a step"),
         always("pace", Quantity::Any, Area::All, (0.0, 1.0), "a part of a step"),
+        always("ledger", Quantity::Component(0), Area::All, (0.0, 3.9), "a mean of three dyes, each at most 1.3"),
+        always("ledger", Quantity::Component(1), Area::All, (0.89, 1.11), "more than a tenth is not put right"),
         always("dye", Quantity::Colour, Area::All, (0.0, 1.3001), "a mean of dyes, which are poured at 1.3"),
         mouse(),
         picture(1.22, "inks are at most 1; the sun lights a fold by 1.15 and gleams by 0.25, to the power 1/1.7"),
