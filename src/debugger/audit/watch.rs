@@ -155,7 +155,8 @@ impl<'w> Watch<'w> {
             Op::Load { place } => {
                 let (start, count) = (view.address(*place), view.memory(*place).len());
                 let is_global = self.is_unset_global(view, *place);
-                let is_unset = |cell: usize| self.unset.contains_key(&cell) || (is_global && !self.written.contains(&cell));
+                let is_unset =
+                    |cell: usize| self.unset.contains_key(&cell) || (is_global && !self.written.contains(&cell));
                 let components: Vec<bool> = (start..start + count).map(is_unset).collect();
                 components.contains(&true).then_some(components)
             }
