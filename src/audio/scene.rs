@@ -1,6 +1,6 @@
 //! Sources that are heard, and the time at which they are.
 
-use crate::{SAMPLE_RATE, Sound, Track};
+use crate::{SAMPLE_RATE, Sound, Track, kernel::Kernel};
 use std::{sync::Arc, time::Instant};
 
 /// The most sources that are mixed: four channels of four passes.
@@ -67,6 +67,32 @@ impl Scene {
             sum.map(|sample| (sample * 32_768.0).round() as i16)
         };
         (from..to).map(frame).collect()
+    }
+}
+
+/// Reads scenes between their samples and at other speeds.
+#[derive(Default)]
+pub struct Resampler(Kernel);
+
+impl Resampler {
+    /// Returns how many samples before and after what is read are looked at, at a speed.
+    pub fn reach(speed: f64) -> i64 {
+        Kernel::reach(speed) + 1
+    }
+
+    /// Reads so many frames at full volume, the first one at a position and each `speed` samples after the one before. 1 is
+    /// full scale, which sums may go beyond. What is not made yet is silent.
+    pub fn read(&self, scene: &Scene, position: f64, speed: f64, count: usize) -> Vec<[f32; 2]> {
+        let frame = |n: usize| {
+            let mut sum = [0.0f32; 2];
+            for source in scene.sources.iter().take(MOST_SOURCES) {
+                let frame = |n| source.frame(n).unwrap_or_default();
+                let frame = self.0.read(position + speed * n as f64, speed, frame);
+                sum = [sum[0] + frame[0], sum[1] + frame[1]];
+            }
+            sum
+        };
+        (0..count).map(frame).collect()
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{
     diag::{self, Diagnostic},
     engine::{self, CompiledPass},
     glsl::Driver,
-    media::{self, MediaSet},
+    media,
     project::{self, Project},
 };
 use std::{
@@ -54,13 +54,7 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     if let Some(pass) = &args.dump_ir {
         *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
     }
-    let mut files = MediaSet::new();
-    found.extend(media::files(project, &mut files));
-    media::fills(project, &mut files);
-    media::meshes(project, &mut files);
-    found.extend(files.fill_errors(project));
-    found.extend(files.mesh_errors(project));
-    found.extend(files.mesh_warnings(project));
+    found.extend(media::diagnose(project));
     // The reader has said some of it already, with its place in `eddy.toml`.
     let is_new = |d: &Diagnostic| !loaded.warnings.iter().any(|known| d.repeats(known));
     found.extend(project::advice(project).into_iter().filter(is_new));

@@ -1,13 +1,13 @@
-//! `eddy list`, `eddy import`, `eddy export`: presets by name, and projects to and from the site's JSON.
+//! `eddy list`, `eddy import`, `eddy export`: presets by name, projects to and from the site's JSON, and as HTML.
 
 use super::{
-    args::{ExportArgs, ImportArgs},
+    args::{ExportArgs, ExportFormat, ImportArgs},
     machine::{Machine, Trouble},
     report::{Printer, Report},
 };
 use crate::{
     project::{self, Origin, Overwrite, Project, ProjectError},
-    session,
+    session, web,
 };
 use std::{
     io::{self, Write},
@@ -40,10 +40,20 @@ pub fn import(args: &ImportArgs) -> io::Result<u8> {
 }
 
 pub fn export(args: &ExportArgs) -> io::Result<u8> {
+    let ends_in = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    match args.to {
+        Some(ExportFormat::Html) => export_html(args),
+        None if ends_in("html") || ends_in("htm") => export_html(args),
+        Some(ExportFormat::Json) | None => export_json(args),
+    }
+}
+
+fn export_json(args: &ExportArgs) -> io::Result<u8> {
     let to = args.out.display();
     one(&args.project, |report| {
         if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("json")) || args.out.is_dir() {
-            return Err(anyhow::anyhow!("--out {to}: give a file name that ends in .json").into());
+            let endings = if args.to.is_some() { ".json" } else { ".json or .html" };
+            return Err(anyhow::anyhow!("--out {to}: give a file name that ends in {endings}").into());
         }
         let project = read(report, &args.project)?;
         check_directives(&project)?;
@@ -54,6 +64,31 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
         save(&project, &args.out, args.force)?;
         let lost: String = project::json_losses(&project).iter().map(|lost| format!("\n  {lost}")).collect();
         Ok(format!("{}: exported to {to}{lost}", args.project))
+    })
+}
+
+fn export_html(args: &ExportArgs) -> io::Result<u8> {
+    let to = args.out.display();
+    one(&args.project, |report| {
+        let is_html = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm");
+        if !args.out.extension().is_some_and(is_html) || args.out.is_dir() {
+            return Err(anyhow::anyhow!("--out {to}: give a file name that ends in .html").into());
+        }
+        let project = read(report, &args.project)?;
+        let page = match web::export(&project, args.media.as_deref()) {
+            Ok(page) => page,
+            Err(errors) => return Err(Trouble::Diagnostics(errors, project.sources())),
+        };
+        report.diagnose(&page.diagnostics, &project.sources(), Some(&project));
+        let kilobytes = |bytes: usize| bytes.div_ceil(1000);
+        let media = match page.media_bytes {
+            0 => String::new(),
+            bytes => format!(", of which {} kB are media", kilobytes(bytes)),
+        };
+        let size = kilobytes(page.html.len());
+        let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
+        project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(Trouble::from).map_err(mend)?;
+        Ok(format!("{}: exported to {to} ({size} kB{media})", args.project))
     })
 }
 

@@ -26,6 +26,7 @@ mod printed;
 mod probe;
 mod progress;
 mod quiet;
+mod recorded_sound;
 mod render;
 mod report;
 mod sound;
@@ -39,7 +40,7 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::playback::trial;
+use crate::{lsp, playback::trial};
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
@@ -91,25 +92,25 @@ fn run(command: &Command) -> u8 {
         Command::Render(args) => {
             let inputs = match args.inputs() {
                 Ok(inputs) => inputs,
-                Err(usage) => return trouble(args.progress.failed(usage)),
+                Err(usage) => return trouble(args.progress().failed(usage)),
             };
             match sound::Sounds::of(args) {
                 Ok(None) => {}
                 Ok(Some(sounds)) => match sounds.prepare() {
                     Ok(()) => return printed(sound::run(args, &sounds, &inputs)),
-                    Err(error) => return trouble(args.progress.failed(error_chain(&error))),
+                    Err(error) => return trouble(args.progress().failed(error_chain(&error))),
                 },
-                Err(usage) => return trouble(args.progress.failed(usage)),
+                Err(usage) => return trouble(args.progress().failed(usage)),
             }
             let targets = match targets::Targets::of(args) {
                 Ok(targets) => targets,
-                Err(usage) => return trouble(args.progress.failed(usage)),
+                Err(usage) => return trouble(args.progress().failed(usage)),
             };
             if args.plan {
                 return printed(plan::run(args, &targets, &inputs));
             }
             if let Err(error) = targets.prepare(args.run.canvas()) {
-                return trouble(args.progress.failed(error_chain(&error)));
+                return trouble(args.progress().failed(error_chain(&error)));
             }
             render::run(args, &targets, &inputs)
         }
@@ -138,6 +139,7 @@ fn run(command: &Command) -> u8 {
             Ok(language) => translate::run(args, language),
             Err(usage) => return trouble(usage),
         },
+        Command::Lsp => lsp::serve(io::stdin(), io::stdout().lock()),
         Command::Doctor(args) => doctor::run(args),
         Command::Completions(args) => manuals::completions(args),
         Command::Man(args) => manuals::man(args),

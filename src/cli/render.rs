@@ -6,6 +6,7 @@ use super::{
     machine::{Machine, Trouble, millis_since, open_measured, open_sound_of},
     measured::{self, Measured, Measures},
     progress::CallProgress,
+    recorded_sound::recorded_sound,
     report::{Printer, Report},
     targets::Targets,
     tiles,
@@ -14,8 +15,8 @@ use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::{FrameInputs, Pixels},
     film::{
-        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmTime, Mean, Output, Seam, Shape, Still,
-        Writer, shrunk,
+        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmSound, FilmTime, Mean, Output, Seam, Shape,
+        Still, Writer, shrunk,
     },
     media::MediaSet,
     playback::{
@@ -50,7 +51,7 @@ fn is_zero(number: &u32) -> bool {
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = if targets.is_pipe() { Printer::beside_pipe() } else { Printer::new(args.json) };
     let mut machine = Machine::default();
-    let progress = CallProgress::new(args.progress, targets.pictures(), "frames");
+    let progress = CallProgress::new(args.progress(), targets.pictures(), "frames");
     for (index, spec) in args.project.iter().enumerate() {
         for (number, swept) in targets.sweep.iter().enumerate() {
             let part = targets.part(index, number);
@@ -337,7 +338,8 @@ impl Job<'_> {
             }
         };
         let cancel = Cancel::default();
-        Writer::start(&targets.encoding, shape, texels, sound.as_deref(), to, &cancel).map_err(failed)
+        let sound = sound.as_deref().map_or(FilmSound::None, FilmSound::Known);
+        Writer::start(&targets.encoding, shape, texels, sound, to, &cancel).map_err(failed)
     }
 
     /// Returns the sound of a film of these frames, if it has any.
@@ -354,9 +356,9 @@ impl Job<'_> {
         if !film.holds_sound() || args.style.no_audio || !film::has_sound(project, media) {
             return Ok(None);
         }
-        if args.run.replay.is_some() {
-            note(report, "the film has no sound, as the times of a recording are not evenly spaced".into());
-            return Ok(None);
+        if let Some(recording) = &args.run.replay {
+            let opened = (project, media);
+            return recorded_sound(machine, report, opened, (&args.run, recording), (frames, targets.rate), inputs);
         }
         let time = FilmTime {
             first: frames[0],
@@ -457,7 +459,7 @@ fn note_state(report: &mut Report, first: u32) {
     note(report, what);
 }
 
-fn note(report: &mut Report, what: String) {
+pub(super) fn note(report: &mut Report, what: String) {
     report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
 }
 

@@ -164,7 +164,7 @@ pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::R
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     let blocks = sounds.frames.div_ceil(BLOCK_FRAMES);
-    let progress = CallProgress::new(args.progress, args.project.len() * blocks as usize, "blocks");
+    let progress = CallProgress::new(args.progress(), args.project.len() * blocks as usize, "blocks");
     for (index, spec) in args.project.iter().enumerate() {
         let mut report = Report::new(spec);
         progress.open(&report.title());

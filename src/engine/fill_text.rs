@@ -46,7 +46,7 @@ impl FillSource {
     /// The expression and the line that it stands in place of; `None` for a picture, which sees nothing of the project.
     pub fn value(&self) -> Option<Include<'_>> {
         let text = Text { id: self.place.source, text: self.expression.as_ref()? };
-        Some(Include { line: Span::new(AROUND, HEAD.len()..HEAD.len() + 1), text })
+        Some(Include { line: Span::new(AROUND, HEAD.len()..HEAD.len() + 1), text: Ok(text) })
     }
 
     /// Returns what the compiler says of the program as it is said to the author.

@@ -1,8 +1,8 @@
 //! Common as it was read last: an edit that leaves it alone need not read it again.
 
 use super::Sources;
-use eddy_diag::{SourceId, Span};
-use eddy_glsl::{Preamble, UniformValue};
+use eddy_diag::{Diagnostic, SourceId, Span};
+use eddy_glsl::{Include, Preamble, UniformValue};
 use std::sync::Arc;
 
 /// Keeps what [`Sources`] have read of Common, for later ones with the same.
@@ -15,9 +15,12 @@ pub struct KeptPreamble {
 #[derive(PartialEq)]
 pub(super) struct Key {
     common: Arc<str>,
-    includes: Vec<(Span, SourceId, Arc<str>)>,
+    includes: Vec<IncludeKey>,
     values: Vec<UniformValue>,
 }
+
+/// A line and the text in its place, or what is said where there is none.
+type IncludeKey = (Span, Result<(SourceId, Arc<str>), Diagnostic>);
 
 impl KeptPreamble {
     /// Gives these texts what was read of the same Common before.
@@ -44,9 +47,13 @@ impl Sources<'_> {
         let includes = self.includes([common.id]);
         Some(Key {
             common: self.shared(common),
-            includes: includes.iter().map(|i| (i.line, i.text.id, self.shared(i.text))).collect(),
+            includes: includes.iter().map(|i| self.include_key(i)).collect(),
             values: self.values.clone(),
         })
+    }
+
+    fn include_key(&self, include: &Include<'_>) -> IncludeKey {
+        (include.line, include.text.map(|text| (text.id, self.shared(text))).map_err(Clone::clone))
     }
 
     /// Common, read when it is first needed. `None`: there is none, or it has to be read with each pass.

@@ -12,7 +12,7 @@ use super::{
 };
 use eddy_audio::SAMPLE_RATE;
 use eddy_glsl::interface::UniformBlock;
-use eddy_project::PassId;
+use eddy_project::{CustomUniformValues, PassId};
 use std::sync::Arc;
 
 /// Samples of a block: 512x512 texels.
@@ -64,6 +64,22 @@ impl Engine {
     }
 }
 
+impl Engine {
+    /// Gives the author's own uniforms the values of the blocks to come, and returns those that the sound pass reads: of equal
+    /// ones come equal blocks.
+    pub fn set_sound_values(&mut self, values: &CustomUniformValues) -> Vec<[u32; 4]> {
+        self.set_custom_uniforms(values);
+        let Some(program) = self.program() else { return Vec::new() };
+        let slots = block(&program.custom_uniforms, values);
+        program.draws.iter().flat_map(|draw| read_of(draw, &slots)).collect()
+    }
+}
+
+/// The values that a draw reads, of all slots.
+fn read_of(draw: &CompiledDraw, slots: &[[u32; 4]]) -> Vec<[u32; 4]> {
+    draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(slot)).copied()).collect()
+}
+
 /// Sets what only sound passes have: block `iFrame` begins at `iTime`.
 pub(super) fn set_offsets(uniforms: &mut UniformBlock, inputs: &FrameInputs) {
     uniforms.time_offset = inputs.time_secs as f32;
@@ -104,8 +120,7 @@ impl Program {
 
     /// The values of the author's own uniforms that a draw reads.
     fn values_read(&self, draw: &CompiledDraw) -> Vec<[u32; 4]> {
-        let slots = block(&self.custom_uniforms, &self.custom_uniform_values);
-        draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(slot)).copied()).collect()
+        read_of(draw, &block(&self.custom_uniforms, &self.custom_uniform_values))
     }
 }
 

@@ -59,6 +59,19 @@ impl<'p> Sources<'p> {
         &self.custom_uniforms
     }
 
+    /// Returns a text of the project as the compiler takes it: lines that GLSL does not have are blank.
+    ///
+    /// # Panics
+    /// If there is no such text.
+    pub fn compiler_text(&self, id: SourceId) -> &str {
+        self.text(id).text
+    }
+
+    /// Returns which text stands in place of which line.
+    pub fn include_lines(&self) -> &IncludeLines {
+        &self.lines
+    }
+
     /// The text of what fills texels of `project.passes[index]`.
     pub(super) fn fill_text(&self, index: usize, kind: FillKind) -> Option<&FillText> {
         self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind)).map(|(.., text)| text)
@@ -262,9 +275,14 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass or stage.
     pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
+        self.with_stage(index, stage, |source| Analysis::behind(source, self.preamble()))
+    }
+
+    /// Gives a stage of `project.passes[index]` as the compiler takes it.
+    pub(super) fn with_stage<T>(&self, index: usize, stage: Stage, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let pass = &self.project.passes[index];
         let kind = pass.settings.meshes().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
-        self.with_source(index, self.stage_id(index, stage), kind, |source| Analysis::behind(source, self.preamble()))
+        self.with_source(index, self.stage_id(index, stage), kind, work)
     }
 
     /// Returns what the site would refuse in Common; see [`glsl::check_common`].
@@ -295,7 +313,12 @@ impl<'p> Sources<'p> {
     pub(super) fn includes(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<Include<'_>> {
         let reached: BTreeSet<SourceId> = of.into_iter().flat_map(|id| self.lines.reach(id)).collect();
         let lines = self.lines.lines.iter().filter(|(line, _)| reached.contains(&line.source));
-        lines.map(|&(line, of)| Include { line, text: self.text(of) }).collect()
+        let missing = self.lines.missing.iter().filter_map(|said| Some((said.span?, said)));
+        let missing = missing.filter(|(line, _)| reached.contains(&line.source));
+        lines
+            .map(|&(line, of)| Include { line, text: Ok(self.text(of)) })
+            .chain(missing.map(|(line, said)| Include { line, text: Err(said) }))
+            .collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Compiled stages, found by everything that compiling them reads.
 
 use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass};
-use eddy_diag::{Diagnostic, SourceId, Span};
+use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 use eddy_glsl::{
     self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, PlainOptions, Preamble,
     Probe, Text, UntypedValue, Varying,
@@ -46,6 +46,14 @@ pub(super) struct Missing {
     key: StageKey,
     /// Its texts, rising.
     ids: Vec<SourceId>,
+}
+
+impl Missing {
+    /// Everything that reading a stage reads. `shared` returns a text of `source` as it is kept.
+    pub fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
+        let ids = ids_of(source);
+        Self { key: StageKey::new(source, link, &ids, shared), ids }
+    }
 }
 
 /// The result of compiling a stage.
@@ -117,12 +125,15 @@ struct StageKey {
     targets: Option<usize>,
 }
 
-/// A line and the text in its place.
+/// A line and the text in its place, or what is said where there is none.
 #[derive(PartialEq, Eq)]
 struct IncludeKey {
     line: (usize, u32, u32),
-    text: (usize, Arc<str>),
+    text: Result<(usize, Arc<str>), NoText>,
 }
+
+/// The severity, the words and the hints of what is said where there is no text.
+type NoText = (Severity, String, Vec<String>);
 
 impl Hash for StageKey {
     /// Other members seldom differ where these agree.
@@ -157,7 +168,10 @@ impl StageKey {
             code: text(code),
             includes: includes
                 .iter()
-                .map(|i| IncludeKey { line: (place(ids, i.line.source), i.line.start, i.line.end), text: text(i.text) })
+                .map(|i| IncludeKey {
+                    line: (place(ids, i.line.source), i.line.start, i.line.end),
+                    text: i.text.map(text).map_err(|d| (d.severity, d.message.clone(), d.hints.clone())),
+                })
                 .collect(),
             channels,
             custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
@@ -179,7 +193,7 @@ fn place(ids: &[SourceId], id: SourceId) -> usize {
 
 /// Returns every text of a stage once, rising.
 fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
-    let included = source.includes.iter().flat_map(|i| [i.line.source, i.text.id]);
+    let included = source.includes.iter().flat_map(|i| [Some(i.line.source), i.text.ok().map(|t| t.id)]).flatten();
     let mut ids: Vec<SourceId> = source.common.iter().map(|c| c.id).chain([source.code.id]).chain(included).collect();
     ids.sort_unstable();
     ids.dedup();
@@ -208,11 +222,10 @@ impl StageCache {
         link: &Link<'_>,
         shared: impl Fn(Text<'_>) -> Arc<str>,
     ) -> Result<Found, Box<Missing>> {
-        let ids = ids_of(source);
-        let key = StageKey::new(source, link, &ids, shared);
-        match self.stages.get(&key) {
-            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &ids))),
-            None => Err(Box::new(Missing { key, ids })),
+        let wanted = Missing::new(source, link, shared);
+        match self.stages.get(&wanted.key) {
+            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &wanted.ids))),
+            None => Err(Box::new(wanted)),
         }
     }
 

@@ -1,15 +1,18 @@
 //! Films that ffmpeg encodes: which encoder, with which numbers and which tags.
 
 use super::{
-    FilmError,
-    queue::{Shape, Sink},
+    FilmError, FilmSound,
+    queue::{Shape, Sink, stage_sound},
     style::PixelFormat,
     values::{Chroma, Codec, ColorRange, Format, Quality},
 };
 use eddy_engine::Pixels;
 use eddy_project::Staged;
 use eddy_video::{Encoder, Stop, Tools, file_name};
-use std::{ffi::OsString, path::Path};
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
 
 /// A description of a film that ffmpeg encodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,12 +160,7 @@ impl Coded {
         add(&["-map", "0:v:0"]);
         if has_sound {
             add(&["-map", "1:a:0"]);
-            match self.container {
-                Format::Mp4 => add(&["-c:a", "aac", "-b:a", "256k"]),
-                Format::Webm => add(&["-c:a", "libopus", "-b:a", "192k"]),
-                Format::Mov => add(&["-c:a", "pcm_s16le"]),
-                _ => add(&["-c:a", "flac"]),
-            }
+            add(self.sound_arguments());
         }
         let (matrix, range, primaries, transfer) = self.tags();
         // As properties of the frames and as options of the encoder: versions of ffmpeg differ in which they take.
@@ -173,19 +171,52 @@ impl Coded {
         let own = self.encoder_arguments(encoder);
         add(&own.iter().map(String::as_str).collect::<Vec<_>>());
         add(&["-color_range", range, "-color_primaries", primaries, "-color_trc", transfer, "-colorspace", option]);
+        add(&self.container_arguments());
+        all
+    }
+
+    /// Returns the codec of the sound.
+    fn sound_arguments(self) -> &'static [&'static str] {
         match self.container {
-            Format::Mp4 | Format::Mov => {
-                if self.codec == Codec::H265 {
-                    // The name that QuickTime knows.
-                    add(&["-tag:v", "hvc1"]);
-                }
-                add(&["-movflags", "+faststart+write_colr"]);
+            Format::Mp4 => &["-c:a", "aac", "-b:a", "256k"],
+            Format::Webm => &["-c:a", "libopus", "-b:a", "192k"],
+            Format::Mov => &["-c:a", "pcm_s16le"],
+            _ => &["-c:a", "flac"],
+        }
+    }
+
+    /// Returns how the file is put together.
+    fn container_arguments(self) -> Vec<&'static str> {
+        let mut all = Vec::new();
+        if matches!(self.container, Format::Mp4 | Format::Mov) {
+            if self.codec == Codec::H265 {
+                // The name that QuickTime knows.
+                all.extend(["-tag:v", "hvc1"]);
             }
-            _ => {}
+            all.extend(["-movflags", "+faststart+write_colr"]);
         }
         // Nothing of the time or the version, so that equal films have equal bytes.
         let muxer = if self.container == Format::Mkv { "matroska" } else { self.container.name() };
-        add(&["-map_metadata", "-1", "-fflags", "+bitexact", "-f", muxer]);
+        all.extend(["-map_metadata", "-1", "-fflags", "+bitexact", "-f", muxer]);
+        all
+    }
+
+    /// Returns what ffmpeg is told to add a sound, if there is one, to a film whose pictures stay as they are.
+    fn join_arguments(self, film: OsString, sound: Option<OsString>) -> Vec<OsString> {
+        let mut all: Vec<OsString> = ["-protocol_whitelist", "file,pipe", "-i"].map(OsString::from).into();
+        all.push(film);
+        let has_sound = sound.is_some();
+        if let Some(sound) = sound {
+            all.extend(["-protocol_whitelist", "file,pipe", "-f", "wav", "-i"].map(OsString::from));
+            all.push(sound);
+        }
+        let mut add = |texts: &[&str]| all.extend(texts.iter().map(OsString::from));
+        add(&["-map", "0:v:0", "-c:v", "copy"]);
+        if has_sound {
+            add(&["-map", "1:a:0"]);
+            add(self.sound_arguments());
+        }
+        add(&self.container_arguments());
         all
     }
 
@@ -210,14 +241,40 @@ pub struct CodedFilm {
     bytes: Vec<u8>,
     /// Kept until ffmpeg has read it.
     _sound: Option<Staged>,
+    later: Option<Later>,
+}
+
+/// A film that gets its sound when all pictures are there.
+struct Later {
+    coded: Coded,
+    /// The pictures.
+    film: Staged,
+    sound: Option<Vec<[i16; 2]>>,
+    to: PathBuf,
+    tools: Tools,
+    stop: Stop,
+}
+
+impl Later {
+    fn finish(self) -> Result<(), FilmError> {
+        let sound = self.sound.map(|sound| stage_sound(&self.to, &sound)).transpose()?;
+        let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
+        let mut arguments = self.coded.join_arguments(named(self.film.path())?, wav);
+        arguments.push(named(&self.to)?);
+        Ok(Encoder::start(&self.tools, &arguments, &self.stop)?.finish()?)
+    }
+}
+
+fn named(path: &Path) -> Result<OsString, FilmError> {
+    file_name(path).map_err(FilmError::io(path))
 }
 
 impl CodedFilm {
-    /// Starts ffmpeg, which writes `to`. `sound` is a WAV file.
+    /// Starts ffmpeg, which writes `to`.
     pub fn start(
         coded: Coded,
         shape: Shape,
-        sound: Option<Staged>,
+        sound: FilmSound<'_>,
         to: &Path,
         (tools, stop): (&Tools, &Stop),
     ) -> Result<CodedFilm, FilmError> {
@@ -228,12 +285,23 @@ impl CodedFilm {
             [only] => only,
             _ => coded.encoder(&tools.encoders()?, size)?,
         };
-        let named = |path: &Path| file_name(path).map_err(FilmError::io(path));
+        let later = match sound {
+            FilmSound::Later => {
+                let film = Staged::new(to).map_err(FilmError::io(to))?;
+                let (tools, stop, to) = (tools.clone(), stop.clone(), to.to_owned());
+                Some(Later { coded, film, sound: None, to, tools, stop })
+            }
+            _ => None,
+        };
+        let sound = match sound {
+            FilmSound::Known(sound) => Some(stage_sound(to, sound)?),
+            _ => None,
+        };
         let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
         let mut arguments = coded.arguments(shape, encoder, wav);
-        arguments.push(named(to)?);
+        arguments.push(named(later.as_ref().map_or(to, |later| later.film.path()))?);
         let encoder = Encoder::start(tools, &arguments, stop)?;
-        Ok(CodedFilm { encoder: Some(encoder), pixels: coded.pixels, bytes: Vec::new(), _sound: sound })
+        Ok(CodedFilm { encoder: Some(encoder), pixels: coded.pixels, bytes: Vec::new(), _sound: sound, later })
     }
 }
 
@@ -245,7 +313,14 @@ impl Sink for CodedFilm {
         Ok(encoder.write(&self.bytes)?)
     }
 
+    fn sound(&mut self, sound: Vec<[i16; 2]>) {
+        if let Some(later) = &mut self.later {
+            later.sound = Some(sound);
+        }
+    }
+
     fn finish(&mut self) -> Result<(), FilmError> {
-        self.encoder.take().map_or(Ok(()), |encoder| Ok(encoder.finish()?))
+        self.encoder.take().map_or(Ok(()), |encoder| encoder.finish())?;
+        self.later.take().map_or(Ok(()), Later::finish)
     }
 }

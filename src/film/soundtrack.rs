@@ -9,11 +9,23 @@ use eddy_project::{PassId, Project};
 use std::{ops::Range, sync::Arc};
 
 /// Samples that are mixed at once: ten seconds.
-const PIECE: usize = 10 * SAMPLE_RATE as usize;
+pub(super) const PIECE: usize = 10 * SAMPLE_RATE as usize;
 
 /// Returns whether anything of a project can be heard.
 pub fn has_sound(project: &Project, media: &MediaSet) -> bool {
     project.pass(&PassId::Sound).is_some() || !sounds(project, media).is_empty()
+}
+
+/// Returns the music of a project's channels, each file once.
+pub fn music(project: &Project, media: &MediaSet) -> Vec<Source> {
+    let mut sources: Vec<Source> = Vec::new();
+    for music in sounds(project, media) {
+        let source = Source::Loop(music.sound);
+        if !sources.iter().any(|known| known.is(&source)) {
+            sources.push(source);
+        }
+    }
+    sources
 }
 
 /// Returns the samples of a film; `None` where nothing is heard. `open` sets up the sound pass, if there is one, and
@@ -27,13 +39,7 @@ pub fn soundtrack<E: From<OfflineError>>(
     if !has_sound(project, media) {
         return Ok(None);
     }
-    let mut sources: Vec<Source> = Vec::new();
-    for music in sounds(project, media) {
-        let source = Source::Loop(music.sound);
-        if !sources.iter().any(|known| known.is(&source)) {
-            sources.push(source);
-        }
-    }
+    let mut sources = music(project, media);
     let samples = film.samples();
     let fade = (film.fade_secs * f64::from(SAMPLE_RATE)).round() as u64;
     if project.pass(&PassId::Sound).is_some() {

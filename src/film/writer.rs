@@ -13,6 +13,16 @@ pub enum Writer {
     Film(Film),
 }
 
+/// The sound of a film.
+#[derive(Clone, Copy, Debug)]
+pub enum FilmSound<'s> {
+    None,
+    /// Samples of the film's length, at [`eddy_audio::SAMPLE_RATE`].
+    Known(&'s [[i16; 2]]),
+    /// It comes after the frames, if there is any: see [`Film::sound`].
+    Later,
+}
+
 /// Says where a writer writes to.
 pub enum Destination {
     /// Pictures go to the files that they are pushed with.
@@ -29,7 +39,7 @@ impl Writer {
         encoding: &Encoding,
         shape: Shape,
         texels: TexelFormat,
-        sound: Option<&[[i16; 2]]>,
+        sound: FilmSound<'_>,
         to: Destination,
         cancel: &Cancel,
     ) -> Result<Writer, FilmError> {
@@ -63,6 +73,14 @@ impl Writer {
         match self {
             Writer::Film(film) => film.try_push(pixels),
             Writer::Stills(stills) => stills.try_push(path, pixels),
+        }
+    }
+
+    /// Adds the sound of a film that was begun with [`FilmSound::Later`].
+    pub fn sound(&mut self, sound: Vec<[i16; 2]>) -> Result<(), FilmError> {
+        match self {
+            Writer::Stills(_) => Ok(()),
+            Writer::Film(film) => film.sound(sound),
         }
     }
 

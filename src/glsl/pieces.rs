@@ -4,6 +4,7 @@ use super::{
     Include, Text,
     stack::{STACK_LEFT, STACK_MORE},
 };
+use eddy_diag::Diagnostic;
 use std::ops::Range;
 
 /// A stretch of a text.
@@ -13,6 +14,8 @@ pub(super) struct Piece<'a> {
     pub range: Range<usize>,
     /// A text of its own begins here, and no include: the site puts a line's end before it.
     pub begins_text: bool,
+    /// The reason why the `#include` line before the piece has no text.
+    pub missing: Option<&'a Diagnostic>,
 }
 
 /// The pieces of texts that follow each other.
@@ -30,12 +33,15 @@ pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<
 
 fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) {
     let begin = lines.partition_point(|i| i.line.source < text.id);
-    let mut done = 0;
+    let (mut done, mut missing) = (0, None);
     for include in lines[begin..].iter().take_while(|i| i.line.source == text.id) {
-        pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false });
-        // Files include files as far as their number goes.
-        stacker::maybe_grow(STACK_LEFT, STACK_MORE, || add(include.text, lines, pieces));
+        pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false, missing });
+        missing = include.text.err();
+        if let Ok(included) = include.text {
+            // Files include files as far as their number goes.
+            stacker::maybe_grow(STACK_LEFT, STACK_MORE, || add(included, lines, pieces));
+        }
         done = include.line.range().end;
     }
-    pieces.push(Piece { text, range: done..text.text.len(), begins_text: false });
+    pieces.push(Piece { text, range: done..text.text.len(), begins_text: false, missing });
 }

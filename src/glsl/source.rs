@@ -1,7 +1,7 @@
 //! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
 use super::{driver::Driver, plain::PlainOptions, probe::Probe};
-use eddy_diag::{SourceId, Span};
+use eddy_diag::{Diagnostic, SourceId, Span};
 
 /// The entry point that a pass defines, and with it the uniforms that it may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -66,7 +66,9 @@ pub struct Text<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Include<'a> {
     pub line: Span,
-    pub text: Text<'a>,
+    /// The text, or the reason why there is none. The reason is reported only where the line is compiled, so a missing file
+    /// in a group of an `#if` that is left out is no error.
+    pub text: Result<Text<'a>, &'a Diagnostic>,
 }
 
 /// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the

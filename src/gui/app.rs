@@ -113,6 +113,8 @@ struct Running {
     window_file: WindowFile,
     /// The window's size is the person's, and not the command line's.
     keeps_size: bool,
+    /// The panels that are open are for the next start too.
+    keeps_panels: bool,
     usual: UsualSizes,
 }
 
@@ -240,6 +242,9 @@ impl Running {
         let mut settings = SettingsFile::new();
         mistakes.extend(settings.refresh());
         shell.restore(settings, &remembered, options.frame_limit.is_some(), options.osc);
+        if options.follow {
+            shell.show_picture_alone();
+        }
         shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
         for text in mistakes {
             session.apply(Command::Notify { level: Level::Error, text, path: None });
@@ -282,6 +287,7 @@ impl Running {
             system_theme,
             window_file,
             keeps_size: options.size.is_none(),
+            keeps_panels: !options.follow,
             usual: UsualSizes::default(),
         })
     }
@@ -485,7 +491,10 @@ impl Running {
                 WindowPlace { is_maximized, ..usual.unwrap_or(known) }
             }
         };
-        let (open, layout) = (Some(dock.open_panels().clone()), dock.arrangement());
+        let (open, layout) = match self.keeps_panels {
+            true => (Some(dock.open_panels().clone()), dock.arrangement()),
+            false => (self.window_file.known().open.clone(), self.window_file.known().layout.clone()),
+        };
         self.window_file.keep(Remembered { place, open, layout });
     }
 

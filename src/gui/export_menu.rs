@@ -21,6 +21,11 @@ const ROWS: &[Option<(&str, Action, &str)>] = &[
         Action::ExportJson,
         "Save the project as a JSON file that Shadertoy's tools and Eddy read",
     )),
+    Some((
+        "HTML page…",
+        Action::ExportPage,
+        "Save the project as one HTML file that plays it in a browser, with its images and sounds",
+    )),
     None,
     Some((
         "Recording of input (.replay)",
@@ -61,7 +66,7 @@ pub fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &mut UiO
         }
     });
     out.place("button:export", menu.response.rect);
-    menu.response.on_hover_text("Save pictures, recordings and data, or the project for Shadertoy");
+    menu.response.on_hover_text("Save pictures, recordings and data, or the project for Shadertoy and browsers");
 }
 
 /// Returns why something cannot be exported now.

@@ -102,7 +102,7 @@ impl Files {
         if !path.ends_with(MAIN_SEPARATOR) {
             path.push(MAIN_SEPARATOR);
         }
-        if let Pick::SaveAs(name) | Pick::Json(name) = &pick {
+        if let Pick::SaveAs(name) | Pick::Json(name) | Pick::Page(name) = &pick {
             path.push_str(name);
         }
         self.typing = Some(Typing { pick, path, is_new: true, before: None });
@@ -136,6 +136,7 @@ impl Files {
             Pick::SaveAs(_) => ("Save to folder", "Save"),
             Pick::Recording => ("Play recording", "Play"),
             Pick::Json(_) => ("Export to Shadertoy JSON", "Export"),
+            Pick::Page(_) => ("Export to HTML page", "Export"),
             Pick::LabFolder => ("Keep lab results in folder", "Keep"),
             Pick::LabReport => ("Write lab report to folder", "Write"),
             Pick::Reference => ("Compare with project", "Compare"),
@@ -229,6 +230,7 @@ fn help(pick: &Pick) -> &'static str {
         Pick::SaveAs(_) => "A folder for the project; it is created if missing",
         Pick::Recording => "A .replay file that Record input has saved",
         Pick::Json(_) => "A .json file; Eddy asks before replacing one",
+        Pick::Page(_) => "A .html file; Eddy asks before replacing one",
         Pick::LabFolder => "A folder for results.jsonl; a stopped run resumes there",
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
@@ -253,6 +255,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::OpenFile => ("Open shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml", RECORDING])),
         Pick::Recording => ("Play recording", Kind::OpenFile("Recordings", &[RECORDING])),
         Pick::Json(name) => ("Export to Shadertoy JSON", Kind::Save(name.clone())),
+        Pick::Page(name) => ("Export to HTML page", Kind::Save(name.clone())),
         Pick::LabFolder => ("Keep lab results in folder", Kind::OpenFolder),
         Pick::LabReport => ("Write lab report to folder", Kind::OpenFolder),
         Pick::Reference => ("Compare with project folder", Kind::OpenFolder),

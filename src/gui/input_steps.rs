@@ -4,7 +4,8 @@
 //! next. When frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow
 //! keys, which the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass
 //! ends behind each event that can move the keyboard or open something, and one without events follows, in which what
-//! was opened takes its place. A button that is let go of where it was dragged to ends a pass of its own: egui sees no
+//! was opened takes its place. egui moves the keyboard on Tab and Escape before any widget sees the pass, and on a click before
+//! a field reads its text: what was typed before these is a pass of its own too, or it would be lost. A button that is let go of where it was dragged to ends a pass of its own: egui sees no
 //! drag in a pass that begins and ends it.
 
 use egui::{Event, Key, Modifiers, RawInput};
@@ -22,6 +23,9 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
             steps.push(nothing.clone());
         }
         is_ended = ends_step(&event);
+        if is_ended && steps.last().is_some_and(|step| step.events.iter().any(types)) {
+            steps.push(nothing.clone());
+        }
         steps.last_mut().expect("begun with one").events.push(event);
         if is_ended {
             steps.push(nothing.clone());
@@ -47,6 +51,14 @@ fn ends_step(event: &Event) -> bool {
         Event::AccessKitActionRequest(_) => true,
         _ => false,
     }
+}
+
+/// Returns whether it may be meant for the widget that has the keyboard.
+fn types(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Text(_) | Event::Paste(_) | Event::Copy | Event::Cut | Event::Ime(_) | Event::Key { pressed: true, .. }
+    )
 }
 
 fn is_function(key: Key) -> bool {
@@ -80,13 +92,44 @@ mod tests {
         let click = || vec![Event::PointerMoved(egui::Pos2::ZERO), button(true), button(false)];
         assert_eq!(steps([click(), typed()].concat()), [2, 0, 1, 0, 3]);
         assert_eq!(steps([vec![key(Key::G, Modifiers::COMMAND)], typed()].concat()), [1, 0, 3]);
-        assert_eq!(steps([typed(), vec![key(Key::F12, Modifiers::SHIFT)]].concat()), [4, 0]);
+        assert_eq!(steps([typed(), vec![key(Key::F12, Modifiers::SHIFT)]].concat()), [3, 1, 0]);
+        assert_eq!(steps([typed(), click()].concat()), [4, 1, 0, 1, 0]);
         assert_eq!(
             steps([vec![key(Key::Enter, Modifiers::NONE)], click(), click()].concat()),
             [1, 0, 2, 0, 1, 0, 2, 0, 1, 0]
         );
         let drag = vec![button(true), Event::PointerMoved(egui::Pos2::ZERO), button(false)];
         assert_eq!(steps(drag), [1, 0, 1, 1, 0]);
+    }
+
+    #[test]
+    fn what_is_typed_in_the_frame_of_a_tab_a_click_or_escape_is_in_the_field() {
+        let leave = [
+            vec![key(Key::Tab, Modifiers::NONE)],
+            vec![key(Key::Escape, Modifiers::NONE)],
+            vec![Event::PointerMoved(egui::pos2(5.0, 190.0)), button(true), button(false)],
+        ];
+        for leaves in leave {
+            let ctx = egui::Context::default();
+            let mut text = String::new();
+            let mut frame = |events: Vec<Event>| {
+                let screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(200.0, 200.0)));
+                for step in split(RawInput { events, screen_rect, ..RawInput::default() }) {
+                    let mut output = ctx.run_ui(step, |ui| {
+                        let field = ui.add(egui::TextEdit::singleline(&mut text));
+                        if text.is_empty() {
+                            field.request_focus();
+                        }
+                    });
+                    output.textures_delta.clear();
+                }
+            };
+            frame(Vec::new());
+            frame(Vec::new());
+            let typed = ["0", ".", "5"].map(|letter| Event::Text(letter.into())).to_vec();
+            frame([typed, leaves.clone()].concat());
+            assert_eq!(text, "0.5", "{leaves:?}");
+        }
     }
 
     #[test]

@@ -85,6 +85,8 @@ pub struct Options {
     pub size: Option<(u32, u32)>,
     /// Values for the project's own uniforms, as [`crate::session::Command::AssignCustomUniform`] takes them.
     pub set: Vec<String>,
+    /// Show the picture and the uniforms alone. The arrangement of the panels is not kept.
+    pub follow: bool,
     /// Draw nothing of the project before the user says so.
     pub paused: bool,
     /// A frame that takes longer pauses the picture; none: the session's own limit.

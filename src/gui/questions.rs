@@ -149,7 +149,11 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
     ui.colored_label(theme::of(ui).weak, file.display().to_string());
     if !lost.is_empty() {
         ui.add_space(4.0);
-        ui.label("Shadertoy does not have everything that this project uses:");
+        let is_page = file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("json"));
+        ui.label(match is_page {
+            true => "The page does not show everything as this window does:",
+            false => "Shadertoy does not have everything that this project uses:",
+        });
         // As high as the sentences are, up to the room there is.
         let width = ui.available_width() - 16.0;
         let font = egui::TextStyle::Body.resolve(ui.style());

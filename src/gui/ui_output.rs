@@ -31,6 +31,8 @@ pub enum Pick {
     Recording,
     /// A JSON file to export to, and a name for it.
     Json(String),
+    /// An HTML file to export to, and a name for it.
+    Page(String),
     /// A folder for the lab's report.
     LabReport,
     /// The font of code.

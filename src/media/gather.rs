@@ -24,6 +24,18 @@ pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
     pictures(project, None, set, |input| matches!(input.media(), Some(Media::File(_))))
 }
 
+/// Returns what is wrong with the files that a project names: pictures of its folder, fills and models.
+pub fn diagnose(project: &Project) -> Vec<Diagnostic> {
+    let mut set = MediaSet::new();
+    let mut found = files(project, &mut set);
+    fills(project, &mut set);
+    meshes(project, &mut set);
+    found.extend(set.fill_errors(project));
+    found.extend(set.mesh_errors(project));
+    found.extend(set.mesh_warnings(project));
+    found
+}
+
 /// Says what a channel shows whose file is not there.
 const BLACK: &str = "the channel is black and of size 0";
 

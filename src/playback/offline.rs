@@ -15,7 +15,7 @@ use eddy_engine::{
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
-use eddy_project::{PassId, Project};
+use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
     sync::mpsc::{RecvTimeoutError, channel},
     time::{Duration, Instant},
@@ -264,15 +264,32 @@ impl Offline {
         })
     }
 
-    /// Draws block `number` of the sound pass of a program that was built with [`BuildOptions::sound`]: see
-    /// [`Engine::draw_sound`]. A block is given up after [`Offline::set_frame_limit`]'s time, else after
-    /// [`SOUND_LIMIT`]. `iDate` is that of the run's first frame.
-    pub fn draw_sound(&mut self, number: u32) -> Result<Vec<[i16; 2]>, OfflineError> {
+    /// Gives all blocks of sound a date in the place of that of the first frame.
+    pub fn set_sound_date(&mut self, date: [f32; 4]) {
+        self.sound_date = Some(date);
+    }
+
+    /// Gives the author's own uniforms values for the blocks of sound to come. Returns those that the sound pass reads.
+    pub fn set_sound_values(&mut self, values: &CustomUniformValues) -> Result<Vec<[u32; 4]>, OfflineError> {
+        // The first frame of a recording brings values of its own.
+        self.sound_date()?;
+        Ok(self.engine.as_mut().ok_or_else(gone)?.set_sound_values(values))
+    }
+
+    fn sound_date(&mut self) -> Result<[f32; 4], OfflineError> {
         let date = match self.sound_date {
             Some(date) => date,
             None => self.next_inputs()?.date,
         };
         self.sound_date = Some(date);
+        Ok(date)
+    }
+
+    /// Draws block `number` of the sound pass of a program that was built with [`BuildOptions::sound`]: see
+    /// [`Engine::draw_sound`]. A block is given up after [`Offline::set_frame_limit`]'s time, else after
+    /// [`SOUND_LIMIT`]. `iDate` is that of the run's first frame.
+    pub fn draw_sound(&mut self, number: u32) -> Result<Vec<[i16; 2]>, OfflineError> {
+        let date = self.sound_date()?;
         let limit = self.frame_limit.unwrap_or(SOUND_LIMIT);
         let work = move |engine: &mut Engine| engine.draw_sound(number, date, &mut || Some(SOUND_ROWS));
         match self.within_limit(limit, work)? {

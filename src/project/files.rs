@@ -12,14 +12,19 @@ use std::{
     ffi::OsStr,
     fs,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 /// Name of the file that describes a folder.
 pub(super) const MANIFEST: &str = "eddy.toml";
 
+/// Texts that an editor holds and has not saved, by the paths of their files. They stand for what is on disk.
+pub type EditedTexts = BTreeMap<PathBuf, Arc<str>>;
+
 /// The text files of a project, by name relative to its folder.
 pub(super) struct Files<'a> {
     place: Storage<'a>,
+    edited: Option<&'a EditedTexts>,
     /// Bytes that may still be read: see [`limits::ALL_TEXTS`].
     left: Cell<u64>,
 }
@@ -54,7 +59,18 @@ impl<'a> Files<'a> {
     }
 
     fn of(place: Storage<'a>) -> Self {
-        Self { place, left: Cell::new(limits::ALL_TEXTS.bytes) }
+        Self { place, edited: None, left: Cell::new(limits::ALL_TEXTS.bytes) }
+    }
+
+    /// Reads a folder on disk with these texts in place of what is there.
+    pub fn edited(folder: &'a Path, edited: &'a EditedTexts) -> Self {
+        Self { edited: Some(edited), ..Self::on_disk(folder) }
+    }
+
+    /// The text that an editor has of a file.
+    fn in_editor(&self, name: &str) -> Option<&Arc<str>> {
+        let (Storage::Disk(folder), Some(edited)) = (&self.place, self.edited) else { return None };
+        edited.get(&folder.join(confine::relative("", name).ok()?))
     }
 
     /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder
@@ -83,12 +99,27 @@ impl<'a> Files<'a> {
             }
             Storage::Memory(files) => files.keys().cloned().collect(),
         };
+        if let (Storage::Disk(folder), Some(edited)) = (&self.place, self.edited) {
+            let here = edited.keys().filter(|path| path.parent() == Some(folder));
+            names.extend(here.filter_map(|path| path.file_name()?.to_str().map(str::to_owned)));
+        }
         names.sort();
+        names.dedup();
         Ok(names)
     }
 
     /// Reads a text of at most `limit` bytes. All that one `Files` reads is at most [`limits::ALL_TEXTS`].
     pub fn read(&self, name: &str, limit: Limit) -> Read {
+        if let Some(text) = self.in_editor(name) {
+            let smaller = limit.bytes.min(self.left.get());
+            return match text.len() as u64 > smaller {
+                true => Read::Refused(FileError { file: name.to_owned(), reason: Reason::TooLarge(limit) }),
+                false => {
+                    self.left.set(self.left.get() - text.len() as u64);
+                    Read::Text(text.to_string())
+                }
+            };
+        }
         let bytes = match self.place {
             Storage::Disk(folder) => {
                 let left = Limit { bytes: self.left.get(), ..limits::ALL_TEXTS };
@@ -120,6 +151,7 @@ impl<'a> Files<'a> {
     /// then reading says why.
     pub fn exists(&self, name: &str) -> bool {
         match self.place {
+            Storage::Disk(_) if self.in_editor(name).is_some() => true,
             Storage::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
             Storage::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
             Storage::Memory(files) => files.contains_key(name),

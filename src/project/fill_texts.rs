@@ -1,6 +1,6 @@
 //! The fills of a project's passes, and the texts that diagnostics about them point into.
 
-use super::{Fill, FillKind, Pass, Project};
+use super::{Fill, FillKind, FillValue, Pass, Project};
 use eddy_diag::{SourceId, Span};
 use std::{ops::Range, sync::Arc};
 
@@ -40,6 +40,22 @@ impl Project {
         let (n, (.., fill)) = self.fills().enumerate().find(|(_, (p, k, _))| (*p, *k) == (pass, kind))?;
         let (text, range) = fill.text();
         Some(FillText { id: self.fill_id(n), text, range })
+    }
+
+    /// Returns the first expression of `eddy.toml`, in words, that uses one of the author's own uniforms: no edit of a
+    /// text reaches it.
+    pub fn fill_that_names(&self, uniform: &str) -> Option<String> {
+        self.custom_uniforms().get(uniform)?;
+        let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        self.fills().find_map(|(index, kind, fill)| {
+            let FillValue::Expression(text) = &fill.value else { return None };
+            let is_used = text.split(|c| !is_of_name(c)).any(|word| word == uniform);
+            let what = match kind {
+                FillKind::Initial => "initial state",
+                FillKind::Boundary => "edges",
+            };
+            is_used.then(|| format!("the {what} of {}", self.passes[index].id.title()))
+        })
     }
 
     /// Returns where a fill is written.

@@ -118,6 +118,10 @@ pub const TEXTS: usize = 10_000;
 pub const INCLUDED: u64 = 10_000;
 /// Files directly in a project's folder.
 pub const FILES: usize = 50_000;
+/// Folders above a file in which the language server looks for the project that it belongs to.
+pub const FOLDERS_UP: usize = 16;
+/// A message to the language server.
+pub const LSP_MESSAGE: Limit = Limit { bytes: 64 << 20, of: "a message to the language server" };
 /// Passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
 pub const DRAWS: u64 = 20_000;
 /// Values in `[uniforms]`.

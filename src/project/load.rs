@@ -4,7 +4,7 @@ use super::{
     Origin, Pass, PassId, Project, ProjectError, Source,
     atomic::sweep,
     confine, file_names,
-    files::{self, Files, MANIFEST, Read},
+    files::{self, EditedTexts, Files, MANIFEST, Read},
     folder, includes, json,
     limits::{self, Limit},
     manifest,
@@ -23,10 +23,18 @@ pub(super) fn folder_name(path: &Path) -> String {
 
 pub(super) fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
     sweep(path);
-    let files = Files::on_disk(path);
+    of_folder(path, &Files::on_disk(path))
+}
+
+/// A folder with texts of an editor in place of what is on disk. Nothing in it is removed.
+pub(super) fn load_edited_folder(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
+    of_folder(path, &Files::edited(path, edited))
+}
+
+fn of_folder(path: &Path, files: &Files<'_>) -> Result<Loaded, ProjectError> {
     let has_manifest = files.exists(MANIFEST);
     let origin = Origin::Folder { path: path.to_owned(), has_manifest };
-    load_files(&path.display().to_string(), folder_name(path), &files, origin)
+    load_files(&path.display().to_string(), folder_name(path), files, origin)
 }
 
 /// A folder on disk or in the binary. `what` names it in errors.
@@ -79,18 +87,22 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
-pub(super) fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
+pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
     let what = path.display().to_string();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let text = read_text(path, &name, limits::GLSL_TEXT)?;
+    let text = match edited.get(path).filter(|text| text.len() as u64 <= limits::GLSL_TEXT.bytes) {
+        Some(text) => text.to_string(),
+        None => read_text(path, &name, limits::GLSL_TEXT)?,
+    };
     let mut project = Project::new(
         path.file_stem().unwrap_or_default().to_string_lossy(),
         vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
         Origin::File(path.to_owned()),
     );
     let folder = path.parent().unwrap_or(Path::new(""));
-    let warnings = folder::channels(&mut project, &Files::on_disk(folder));
-    project.read_includes();
+    let files = Files::edited(folder, edited);
+    let warnings = folder::channels(&mut project, &files);
+    includes::read(&mut project, Some(&files));
     finish(&what, Loaded { sources: project.sources(), project, warnings })
 }
 

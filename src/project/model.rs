@@ -373,6 +373,20 @@ impl Project {
         }
     }
 
+    /// Returns the project with the edits of a fix made in its texts.
+    pub fn with_edits(&self, fix: &eddy_diag::Fix) -> Project {
+        let mut edited = self.clone();
+        let mut sources: Vec<_> = fix.edits.iter().map(|edit| edit.span.source).collect();
+        sources.dedup();
+        for id in sources {
+            let text = self.tab_of(id).and_then(|tab| edited.source_mut(&tab));
+            if let Some(source) = text {
+                source.text = fix.applied(id, &self.texts().get(id).map_or("".into(), |s| s.text.clone())).into();
+            }
+        }
+        edited
+    }
+
     /// Every tab there is: Common, then passes as they are drawn; a pass's stages behind it. Behind all of them come the
     /// files that they include.
     pub fn tabs(&self) -> Vec<Tab> {

@@ -146,6 +146,15 @@ impl Writes {
     }
 }
 
+/// Writes one file that the person at the machine named, whole or not at all. One that is there with the same bytes is not
+/// in the way.
+pub fn write_named(path: &Path, bytes: Vec<u8>, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut writes = Writes::into(folder, BTreeSet::new());
+    writes.add_named(path.file_name().unwrap_or_default().to_string_lossy().into_owned(), Content::Bytes(bytes));
+    writes.write(overwrite)
+}
+
 /// Copies a file of `folder` into `kept`, under the same name. What is there already stays.
 fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
     let (from, to) = (folder.join(name), kept.join(name));

@@ -154,7 +154,7 @@ impl Session {
         let shared = declared.filter(|s| is_shared(s.source)).map(|s| (s.source, s.start as usize));
         if let Some((source, at)) = uniform.or(shared) {
             let all = rename::everywhere(project, source, at);
-            let all = all.into_iter().map(|(id, start, end)| (SourceId(id), start as usize..end as usize));
+            let all = all.into_iter().map(|(id, start, end)| (id, start as usize..end as usize));
             places.extend(all);
         }
         // What the pass in front has stands first, in its own order.

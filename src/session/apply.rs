@@ -31,6 +31,7 @@ impl Session {
             | Command::Save
             | Command::SaveAs(_)
             | Command::ExportJson(_)
+            | Command::ExportPage(_)
             | Command::SaveAsCancelled
             | Command::Close
             | Command::Answer(_) => self.apply_to_files(command),

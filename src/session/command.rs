@@ -44,6 +44,9 @@ pub enum Command {
     /// Writes the project as Shadertoy JSON, and leaves it where it is. What that form cannot say, and a file that is
     /// there, lead to [`Question::Export`].
     ExportJson(PathBuf),
+    /// Writes the project as an HTML file that plays it in a browser, and leaves it where it is. What the page cannot show,
+    /// and a file that is there, lead to [`Question::Export`].
+    ExportPage(PathBuf),
     /// The folder picker of [`Request::SaveAs`] was closed without a choice.
     SaveAsCancelled,
     /// The whole new text of a tab. Compiles a while after the last one, or at once where that is fast.
@@ -286,7 +289,7 @@ pub enum Question {
     /// The folder of a Save As already holds these files, which would be replaced: all of them. Answers: Overwrite,
     /// which keeps a copy of each for [`KEPT_DAYS`](super::KEPT_DAYS) days, and Cancel.
     Overwrite { folder: PathBuf, files: Vec<PathBuf> },
-    /// A JSON file that was to be written is there, or cannot say everything of the project: `lost` has a sentence for
+    /// A JSON or HTML file that was to be written is there, or cannot say everything of the project: `lost` has a sentence for
     /// each thing. Answers: Export, which keeps a copy of what is replaced for [`KEPT_DAYS`](super::KEPT_DAYS) days, and
     /// Cancel.
     Export { file: PathBuf, exists: bool, lost: Vec<String> },

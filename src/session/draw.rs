@@ -63,6 +63,9 @@ impl Session {
         let mut inputs = self.playback.next_frame(self.now, is_step, may_run)?;
         inputs.microphone = self.audio.spectrum(is_new);
         self.films.note_frame(is_new, self.now);
+        if is_new {
+            self.note_heard(inputs.time_secs);
+        }
         self.take_values_back();
         Some(inputs)
     }

@@ -106,7 +106,10 @@ fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
         text[begin..].lines().next().map(str::trim_start)
     });
     let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
-    word.is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
+    // Text may stand in front of an `#include`: a comment that ends in its line.
+    diagnostic.message.starts_with("#include ")
+        || word
+            .is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
 }
 
 #[cfg(test)]

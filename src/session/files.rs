@@ -4,6 +4,7 @@ use super::{
     Session,
     command::{Answer, Command, PendingAction, Question, Request},
     documents::Documents,
+    export_page::is_page,
     recovery::{KEPT_DAYS, place_for_replaced},
     scene, template,
     view::{About, Level, TabDiagnostic},
@@ -37,6 +38,7 @@ impl Session {
             }
             Command::SaveAs(folder) => self.save_as(&folder, &[]),
             Command::ExportJson(file) => self.export_json(&file),
+            Command::ExportPage(file) => self.export_page(&file),
             _ => self.dialog.after_save = None,
         }
     }
@@ -226,6 +228,7 @@ impl Session {
             }
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
             (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
+            (Question::Export { file, exists, .. }, Answer::Export) if is_page(&file) => self.write_page(&file, exists),
             (Question::Export { file, exists, .. }, Answer::Export) => self.write_json(&file, exists),
             (Question::Export { .. } | Question::Film { .. }, Answer::Cancel) => {}
             (Question::Film { .. }, Answer::Finish) => self.close_after_film(),

@@ -24,6 +24,7 @@ mod documents;
 mod draw;
 mod drawing;
 mod export;
+mod export_page;
 mod files;
 mod films;
 mod frames;

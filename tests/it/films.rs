@@ -5,6 +5,11 @@ use crate::support::{
     ffmpeg::{decoded, decoded_by, decoded_sound, has_ffmpeg, probed},
     program::{Bench, run},
 };
+use eddy::{
+    engine::FrameInputs,
+    playback::recording::{RecordedFrame, Recording},
+    project::CustomUniformValue,
+};
 use std::fs;
 
 /// Twelve patches of 32x24 pixels, of colours that fill the cube of all.
@@ -194,6 +199,54 @@ fn a_range_has_the_sound_of_its_time_and_sound_can_be_left_out() {
     b.line("render flash --pass sound --secs 1.5 --out music/a.wav").expect(0);
     b.line("render music --size 64x36 --frames 180 --out c.mov").expect(0);
     assert_eq!(clicks(&decoded_sound(&b.path("c.mov"))), [0, 44_100, 66_150, 110_250], "in a loop of 1.5 s");
+}
+
+/// Writes a recording of frames with these times, in which a slider is moved before frame 100.
+fn record(b: &Bench, name: &str, times: impl IntoIterator<Item = f64>) {
+    let frame = |(n, time_secs): (usize, f64)| {
+        let inputs = FrameInputs { time_secs, ..FrameInputs::at_fixed_step(n as i32, 60.0) };
+        let level = (n >= 100).then(|| ("level".to_owned(), CustomUniformValue::Float(0.4)));
+        RecordedFrame { inputs, size: (64, 36), values: level.into_iter().collect(), reset: false }
+    };
+    let recording = Recording { project: "flash".into(), frames: times.into_iter().enumerate().map(frame).collect() };
+    let mut bytes = Vec::new();
+    recording.write(&mut bytes).unwrap();
+    b.write(name, bytes);
+}
+
+#[test]
+fn a_film_of_a_recording_has_the_sound_of_its_times() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    flashing(&b);
+    let level = "#iUniform float level = 0.9 in { 0.0, 1.0 }\n";
+    let click = "vec2 mainSound(int samp, float time) { return vec2(samp % 44100 < 44 ? level : 0.0); }";
+    b.write("flash/sound.glsl", format!("{level}{click}"));
+    // A second from 0.5 s on, half a second in which time stands still, and a second from 2.75 s on.
+    let step = |n: i32| f64::from(n) / 60.0;
+    let first = (0..60).map(|n| 0.5 + step(n)).chain([0.5 + step(59); 30]);
+    record(&b, "jumps.replay", first.chain((0..60).map(|n| 2.75 + step(n))));
+    b.line("render flash --replay jumps.replay --out a.mov").expect(0);
+    let sound = decoded_sound(&b.path("a.mov"));
+    assert_eq!(sound.len(), 110_250);
+    assert_eq!(clicks(&sound), [22_050, 77_175], "seconds 1 and 3");
+    assert_eq!(flashes(&decoded(&b.path("a.mov"))), [30, 105]);
+    let levels = [22_060, 77_185].map(|n| f64::from(sound[n]) / 32_768.0);
+    assert!((levels[0] - 0.9).abs() < 1e-3 && (levels[1] - 0.4).abs() < 1e-3, "{levels:?}");
+    assert!(sound[45_000..66_000].iter().all(|sample| *sample == 0), "time stands still");
+    // A range of it, with a step.
+    b.line("render flash --replay jumps.replay --frames 96-148:2 --out b.mov").expect(0);
+    assert_eq!(clicks(&decoded_sound(&b.path("b.mov"))), [(105 - 96) * 735]);
+    // Of a screen with 120 frames per second: slower with the usual rate, and as it was with its own.
+    record(&b, "fast.replay", (0..90).map(|n| 0.5 + f64::from(n) / 120.0));
+    let slow = b.line("render flash --replay fast.replay --out c.mov").expect(0);
+    assert!((slow.out + &slow.err).contains("0.50 times the recorded speed; --fps 120 plays"));
+    let [click] = clicks(&decoded_sound(&b.path("c.mov")))[..] else { panic!("one click") };
+    assert!(click.abs_diff(44_100) < 735, "{click}: half a second of the recording takes one");
+    let own = b.line("render flash --replay fast.replay --fps 120 --out d.mov").expect(0);
+    assert!(!(own.out + &own.err).contains("recorded speed"));
+    assert_eq!(clicks(&decoded_sound(&b.path("d.mov"))), [22_050]);
+    b.line("render flash --replay fast.replay --no-audio --out e.mov").expect(0);
+    assert_eq!(probed(&b.path("e.mov"))["streams"].as_array().unwrap().len(), 1);
 }
 
 #[test]

@@ -34,6 +34,42 @@ fn an_error_in_an_included_file_is_shown_there() {
 }
 
 #[test]
+fn a_file_that_no_compiled_group_includes_may_be_missing() {
+    let b = Bench::new();
+    let image = "void mainImage(out vec4 o, in vec2 p) { o = vec4(K); }\n";
+    for group in ["#ifdef NOISE\n@#endif\n", "#if 0\n@#endif\n", "#if 1\n#else\n#if 1\n@#endif\n#endif\n"] {
+        let group = group.replace('@', "#include \"lib/none.glsl\"\n#include \"../out.glsl\"\n");
+        b.write("p/common.glsl", "const float K = 1.0;\n");
+        b.write("p/image.glsl", format!("{group}{image}"));
+        let run = b.line("check p").expect(0);
+        assert!(!run.err.contains("none.glsl"), "{}", run.err);
+        b.line("export p --out p.json --force").expect(0);
+    }
+    // A macro of Common decides, and the words are those of a line outside of any group.
+    let guarded = format!("#ifdef NOISE\n#include \"lib/none.glsl\"\n#endif\n{image}");
+    b.write("p/image.glsl", guarded.as_str());
+    b.line("check p").expect(0);
+    b.write("p/common.glsl", "#define NOISE\nconst float K = 1.0;\n");
+    let run = b.line("check p").expect(1);
+    let words = "#include \"lib/none.glsl\": there is no file lib/none.glsl";
+    assert!(run.err.contains(words) && run.err.contains("image.glsl:2:1"), "{}", run.err);
+    assert_eq!(run.err.matches(words).count(), 1, "{}", run.err);
+    assert!(b.line("export p --out q.json").expect(1).err.contains(words));
+    assert!(b.line("translate p --to wgsl --out w").expect(1).err.contains(words));
+    // In Common itself, which every pass has in front, and in a file that is included.
+    b.write("p/image.glsl", format!("#include \"tone.glsl\"\n{image}"));
+    b.write("p/buffer_a.glsl", image);
+    b.write("p/tone.glsl", "#if 1\n#include \"later.glsl\"\n#else\n#include \"never.glsl\"\n#endif\n");
+    b.write("p/common.glsl", "#include \"first.glsl\"\nconst float K = 1.0;\n#if 0\n#include \"never.glsl\"\n#endif\n");
+    let run = b.line("check p").expect(1);
+    for (place, file) in [("common.glsl:1:1", "first.glsl"), ("tone.glsl:2:1", "later.glsl")] {
+        let words = format!("there is no file {file}");
+        assert!(run.err.contains(place) && run.err.matches(&words).count() == 1, "{}", run.err);
+    }
+    assert!(!run.err.contains("never.glsl"), "{}", run.err);
+}
+
+#[test]
 fn line_numbers_count_through_included_lines_as_in_the_export() {
     let Some(b) = Bench::with_gpu() else { return };
     let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(float(FIRST), float(__LINE__), 0.0, 1.0); }\n";

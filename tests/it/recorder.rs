@@ -1,7 +1,12 @@
 //! Films that a session makes: a range has the bytes that `eddy render` writes, what is recorded live has every frame, and
 //! nothing is left of what is cancelled.
 
-use crate::support::{self, ffmpeg::has_ffmpeg, program::run, stage::*};
+use crate::support::{
+    self,
+    ffmpeg::{decoded, decoded_sound, has_ffmpeg, probed},
+    program::run,
+    stage::*,
+};
 use eddy::{
     film::Format,
     gpu::Gpu,
@@ -169,6 +174,87 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
         .windows(2)
         .map(|pair| i32::from(pair[1].get_pixel(0, 0).0[1]) - i32::from(pair[0].get_pixel(0, 0).0[1]));
     assert!(moved.collect::<Vec<_>>() == [51, 51], "the hand is in it from frame 5 on");
+}
+
+/// Ticks thirty times a second of a clock of its own until a recording has so many frames.
+fn record_until(stage: &mut Stage, now: &mut Instant, count: u32) {
+    for _ in 0..100_000 {
+        match stage.session.film() {
+            Some(FilmView::Live(live)) if live.frames >= count => return,
+            // The clock stands still while the encoder has no room.
+            Some(FilmView::Live(live)) if live.waits => {}
+            Some(FilmView::Live(_)) => *now += Duration::from_micros(33_334),
+            other => panic!("{other:?}"),
+        }
+        stage.session.tick(*now);
+    }
+    panic!("{:?}", stage.session.film());
+}
+
+/// In the film a second of time begins where the picture becomes dark, and with it a click.
+#[test]
+fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
+    let Some(gpu) = support::gpu().filter(|_| has_ffmpeg()) else { return };
+    let sound = "#iUniform float level = 0.9 in { 0.0, 1.0 }\n\
+                 vec2 mainSound(int samp, float time) { return vec2(samp % 44100 < 44 ? level : 0.0); }\n";
+    let image = "void mainImage(out vec4 o, in vec2 p) { o = vec4(vec3(fract(iTime)), 1.0); }\n";
+    let manifest = "eddy = 1\n[passes.image]\n[passes.sound]\n";
+    let files = [("eddy.toml", manifest), ("image.glsl", image), ("sound.glsl", sound)];
+    for format in [Format::Mkv, Format::Mp4] {
+        let mut stage = Stage::open(gpu.clone(), &files);
+        assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
+        stage.act(Command::SetFixedSize(Some((64, 36))));
+        let order = live(&stage, &form("0-1", "30", format));
+        stage.session.apply(Command::Reset);
+        stage.session.apply(Command::MakeFilm(order));
+        let mut now = Instant::now();
+        record_until(&mut stage, &mut now, 45);
+        // A pause, a jump in time, and another value of a slider.
+        stage.session.apply(Command::Pause);
+        stage.session.apply(Command::Seek(2.5));
+        stage.session.apply(Command::AssignCustomUniform("level=0.4".into()));
+        for _ in 0..5 {
+            now += Duration::from_secs(1);
+            stage.session.tick(now);
+        }
+        stage.session.apply(Command::Play);
+        record_until(&mut stage, &mut now, 80);
+        stage.act(Command::StopFilm);
+        let film = made(&mut stage);
+        assert!(matches!(stage.session.film(), Some(FilmView::Done(done)) if done.note.is_none()));
+        let pixels = decoded(&film);
+        let shown: Vec<f64> =
+            pixels.chunks_exact(64 * 36 * 3).map(|frame| f64::from(frame[frame.len() / 2]) / 255.0).collect();
+        assert_eq!(shown.len(), 80);
+        let begins = (0..80).filter(|&n| n == 0 || shown[n] < shown[n - 1] - 0.5);
+        let begins: Vec<f64> = begins.map(|n| n as f64 / 30.0 - shown[n]).collect();
+        assert_eq!(begins.len(), 3, "{begins:?}");
+        let samples = decoded_sound(&film);
+        assert!(samples.len().abs_diff(80 * 1_470) < 1_470, "{}", samples.len());
+        let mut clicks: Vec<usize> = Vec::new();
+        for n in (0..samples.len()).filter(|&n| samples[n].unsigned_abs() > 3_000) {
+            if clicks.last().is_none_or(|last| n - last > 4_410) {
+                clicks.push(n);
+            }
+        }
+        assert_eq!(clicks.len(), 3, "{format:?}: {clicks:?}");
+        for (click, begin) in clicks.iter().zip(&begins) {
+            let apart = (*click as f64 / 44_100.0 - begin).abs();
+            assert!(apart < 1.0 / 60.0, "{format:?}: a click at {click} is {apart} s from {begin}");
+        }
+        if format == Format::Mkv {
+            // Without loss: the slider's values.
+            let levels = clicks.iter().map(|n| (f64::from(samples[n + 10]) / 3_276.8).round()).collect::<Vec<_>>();
+            assert_eq!(levels, [9.0, 9.0, 4.0]);
+        }
+        let streams = probed(&film)["streams"].as_array().unwrap().len();
+        assert_eq!(streams, 2);
+        assert!(
+            names(&stage.folder()).iter().all(|name| !name.starts_with(".eddy-save")),
+            "{:?}",
+            names(&stage.folder())
+        );
+    }
 }
 
 #[test]

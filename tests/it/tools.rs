@@ -43,6 +43,42 @@ fn completions_are_scripts_of_their_shells() {
     assert!(b.line("completions tcsh").expect(2).err.contains("powershell"));
 }
 
+/// The script is run with programs of the same names in the places of `scripts/setup` and cargo.
+#[cfg(unix)]
+#[test]
+fn every_command_works_through_the_run_script() {
+    use std::os::unix::fs::PermissionsExt;
+    let b = Bench::new();
+    b.line("man --out pages").expect(0);
+    let pages = b.names("pages").into_iter();
+    let commands = pages.filter_map(|page| page.strip_prefix("eddy-")?.strip_suffix(".1").map(str::to_owned));
+    // A page of a command within a command has one more part.
+    let commands: Vec<String> = commands.filter(|name| !name.contains('-')).chain(["help".into()]).collect();
+    assert!(commands.len() > 10 && commands.contains(&"doctor".to_owned()), "{commands:?}");
+    b.write("scripts/run", std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/run")).unwrap());
+    let nothing = ["want_compiler", "want_graphics", "want_window", "install_missing", "need_rust", "say"];
+    b.write("scripts/setup", nothing.map(|name| format!("{name}() {{ :; }}\n")).concat());
+    let eddy = env!("CARGO_BIN_EXE_eddy");
+    let cargo = format!(
+        "#!/bin/sh\n[ \"$1\" = run ] || exit 0\nwhile [ \"$1\" != -- ]; do shift; done\nshift\n\
+         [ \"$*\" != help ] || exec '{eddy}' help\necho \"$@\"\n"
+    );
+    b.write("bin/cargo", cargo);
+    std::fs::set_permissions(b.path("bin/cargo"), PermissionsExt::from_mode(0o755)).unwrap();
+    let script = |arguments: &[&str]| {
+        let mut script = Command::new("sh");
+        let path = format!("{}:{}", b.path("bin").display(), std::env::var("PATH").unwrap());
+        script.current_dir(b.path(".")).arg("scripts/run").args(arguments).env("PATH", path);
+        run(script.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY")).expect(0).out
+    };
+    for command in &commands {
+        assert_eq!(script(&[command, "x"]).trim(), format!("{command} x"));
+    }
+    assert_eq!(script(&["--version"]).trim(), "--version");
+    // A project is none of them: without a display its pictures are drawn.
+    assert!(script(&["my-project"]).starts_with("render my-project --size"));
+}
+
 #[test]
 fn bash_completes_a_command() {
     if !has("bash") {

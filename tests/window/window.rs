@@ -78,7 +78,7 @@ fn colour(window: &mut Window) -> [u8; 3] {
 }
 
 /// Waits until the picture has a colour: what was compiled newest may be of the text before.
-fn turns(window: &mut Window, expected: [u8; 3]) {
+pub(super) fn turns(window: &mut Window, expected: [u8; 3]) {
     for _ in 0..30 {
         if colour(window) == expected {
             return;

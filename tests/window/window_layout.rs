@@ -72,6 +72,26 @@ fn every_size_has_room_for_the_picture_and_the_code() {
 }
 
 #[test]
+fn a_window_beside_an_editor_shows_the_picture_alone_for_this_run() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let folder = project(home.path());
+    let path = folder.to_str().unwrap();
+    let mut window = Window::open(&display, home.path(), &["--follow", path]);
+    window.compiled();
+    let layout = window.wait_until("the picture alone", "layout", |e| e["rects"]["panel:uniforms"].is_array());
+    assert!(layout["rects"]["editor"].is_null() && layout["rects"]["panel:channels"].is_null(), "{layout}");
+    // What the editor saves is drawn.
+    let image = fs::read_to_string(folder.join("image.glsl")).unwrap();
+    fs::write(folder.join("image.glsl"), image.replace("* tint, 1.0", "* tint * 0.5, 1.0")).unwrap();
+    window.compiled();
+    window.keys(&["ctrl+q"]);
+    assert_eq!(window.ends(), Some(0));
+    let mut window = Window::open(&display, home.path(), &[path]);
+    window.shows("editor");
+    window.shows("panel:channels");
+}
+
+#[test]
 fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());

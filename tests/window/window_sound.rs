@@ -1,6 +1,12 @@
 //! End to end: mute, volume and the microphone in the bar, on a machine without a sound device.
 
-use crate::support::window::{Display, Window};
+use crate::{
+    support::{
+        drops::Drops,
+        window::{Display, Window, folder_of},
+    },
+    window::turns,
+};
 use serde_json::Value;
 use std::{
     fs,
@@ -81,6 +87,33 @@ fn mute_and_volume_are_kept_and_a_missing_device_is_told_of_once() {
     window.wait_until("the volume", "sound", |e| (e["volume"].as_f64().unwrap() - volume).abs() < 0.011);
     let error = fs::read_to_string(home.path().join(crate::support::window::STANDARD_ERROR)).unwrap();
     assert!(!error.contains("ALSA lib"), "{error}");
+}
+
+#[test]
+fn a_file_of_music_that_is_dropped_on_a_channel_is_read_and_heard() {
+    let Some(display) = Display::of_size(1300, 800) else { return };
+    let home = tempfile::tempdir().unwrap();
+    // The tone's bin of the spectrum: 441 Hz of 22,050 Hz in 1,024 bins, of which the texture has 512.
+    let green =
+        "void mainImage(out vec4 o, in vec2 p) { o = vec4(0, texelFetch(iChannel1, ivec2(20, 0), 0).x, 0, 1); }";
+    let folder = folder_of(home.path().join("project"), &[("image.glsl", green)]);
+    let music = home.path().join("music");
+    fs::create_dir(&music).unwrap();
+    let song = music.join("a song.wav");
+    fs::write(&song, tone()).unwrap();
+    let mut window = open(&display, home.path(), &folder);
+    turns(&mut window, [0, 0, 0]);
+    window.hides("button:mute");
+    let at = window.centre("channel:1");
+    window.move_to(at);
+    assert!(Drops::of(&display).drop_file(window.number(), &song, at), "the window takes a file");
+    window.wait_until("a project with sound", "sound", |e| e["has_sound"] == true);
+    window.shows("button:mute");
+    turns(&mut window, [0, 255, 0]);
+    display.shot("dropped.png");
+    window.keys(&["ctrl+s"]);
+    says(&folder.join("eddy.toml"), "a song.wav");
+    assert_eq!(fs::read(folder.join("a song.wav")).unwrap(), fs::read(&song).unwrap(), "a copy of it is saved");
 }
 
 #[test]

@@ -19,7 +19,7 @@ use crate::{
     playback::{script::ScriptedInputs, trial::COMMAND},
     video::CameraSource,
 };
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use run::WithoutPass;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
@@ -46,6 +46,9 @@ pub struct Window {
     /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Show the picture and the uniforms alone, beside another editor: what it saves is drawn at once
+    #[arg(long, requires = "project")]
+    pub follow: bool,
     /// Open the project paused, without drawing anything
     #[arg(long)]
     pub paused: bool,
@@ -90,10 +93,12 @@ pub enum Command {
     List,
     /// Convert a Shadertoy JSON file to a project folder
     Import(ImportArgs),
-    /// Convert a project to a Shadertoy JSON file
+    /// Convert a project to a Shadertoy JSON file, or to an HTML file that plays it
     Export(ExportArgs),
     /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
     Translate(TranslateArgs),
+    /// Serve an editor over the Language Server Protocol, on standard input and output
+    Lsp,
     /// Describe this machine and this build, for a report; sends nothing
     Doctor(DoctorArgs),
     /// Print completions for a shell
@@ -180,12 +185,27 @@ pub struct ImportArgs {
 #[command(after_help = PROJECT)]
 pub struct ExportArgs {
     pub project: String,
-    /// JSON file to write
-    #[arg(long, value_name = "FILE.json")]
+    /// File to write, which ends in .json or .html
+    #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// Format of the file [default: by its ending]
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<ExportFormat>,
+    /// Folder with Shadertoy's textures, music and videos, for html
+    #[arg(long, value_name = "DIR")]
+    pub media: Option<PathBuf>,
     /// Overwrite an existing file
     #[arg(long)]
     pub force: bool,
+}
+
+/// A form that a project is exported in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// Shadertoy JSON
+    Json,
+    /// One HTML file that plays the project in a browser by WebGL 2
+    Html,
 }
 
 #[cfg(test)]

@@ -111,6 +111,9 @@ pub struct RenderArgs {
     /// Progress on standard error
     #[arg(long, value_name = "STYLE", default_value = "auto")]
     pub progress: progress::Style,
+    /// No progress, and no line that says how long a long call takes
+    #[arg(long, conflicts_with = "progress")]
+    pub quiet: bool,
     /// Print one JSON object per line instead of text: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,
@@ -149,6 +152,11 @@ impl RenderArgs {
     /// Returns how many times as wide and high pictures are drawn.
     pub fn factor(&self) -> u32 {
         self.supersample.unwrap_or(1)
+    }
+
+    /// Returns how progress is shown.
+    pub fn progress(&self) -> progress::Style {
+        if self.quiet { progress::Style::None } else { self.progress }
     }
 
     /// Returns what frames are drawn with. Err: a script that cannot be read.

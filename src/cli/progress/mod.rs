@@ -1,12 +1,14 @@
 //! Progress of `eddy render` on standard error: a bar, lines for a log, or lines that a scheduler reads.
 
+mod estimate;
 mod openjd;
 mod terminal;
 
 use super::report::Report;
+use estimate::Estimate;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{
-    cell::Cell,
+    cell::{Cell, RefCell},
     io::{self, Write},
     time::{Duration, Instant},
 };
@@ -20,7 +22,7 @@ const OPENJD_EVERY: Duration = Duration::from_secs(1);
 /// The ways to show progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Style {
-    /// A bar where standard error is a terminal, and nothing elsewhere
+    /// A bar where standard error is a terminal; elsewhere one line that says how long it takes, if that is over a minute
     Auto,
     /// A bar in any case
     Bar,
@@ -80,8 +82,10 @@ impl CallProgress {
         }
         bar.set_prefix(title.to_owned());
         let now = Instant::now();
-        let progress =
-            Progress { call: self, bar, title: title.to_owned(), pictures, steps, began: now, told: Cell::new(now) };
+        // Where nobody sees a bar, a call that takes hours says so once.
+        let estimate = (self.style == Style::Auto && bar.is_hidden()).then(RefCell::default);
+        let title = title.to_owned();
+        let progress = Progress { call: self, bar, title, pictures, steps, began: now, told: Cell::new(now), estimate };
         if self.style == Style::Openjd {
             progress.tell(0);
         }
@@ -114,12 +118,19 @@ pub struct Progress<'a> {
     began: Instant,
     /// The time of the last line.
     told: Cell<Instant>,
+    estimate: Option<RefCell<Estimate>>,
 }
 
 impl Progress<'_> {
     /// A frame is done, or is known to be there.
     pub fn step(&self) {
         self.bar.inc(1);
+        if let Some(estimate) = &self.estimate {
+            let steps = (self.bar.position(), self.steps.into(), self.call.unit);
+            if let Some(words) = estimate.borrow_mut().step(steps, self.began.elapsed()) {
+                say(&format!("{}: {words}", self.title));
+            }
+        }
         let every = match self.call.style {
             Style::Plain => PLAIN_EVERY,
             Style::Openjd => OPENJD_EVERY,

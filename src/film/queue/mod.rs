@@ -1,7 +1,8 @@
 //! Encoding on a thread of its own, behind a queue that holds a bounded number of frames.
 
 use super::{
-    FilmError, apng::Apng, coded::CodedFilm, gif::Gif, pipe::Plain, rate::Rate, still::Still, style::FilmEncoding,
+    FilmError, FilmSound, apng::Apng, coded::CodedFilm, gif::Gif, pipe::Plain, rate::Rate, still::Still,
+    style::FilmEncoding,
 };
 use eddy_audio::wav;
 use eddy_engine::Pixels;
@@ -46,6 +47,9 @@ pub enum Output {
 /// A writer of one film, on the thread that encodes.
 pub(super) trait Sink: Send {
     fn frame(&mut self, pixels: &Pixels) -> Result<(), FilmError>;
+
+    /// Takes the sound of a film for which it comes after the frames.
+    fn sound(&mut self, _: Vec<[i16; 2]>) {}
 
     /// Completes the file that is staged.
     fn finish(&mut self) -> Result<(), FilmError>;
@@ -122,9 +126,15 @@ fn capacity(width: u32, height: u32) -> usize {
     (limits::FILM_QUEUE_BYTES / bytes.max(1)).clamp(1, MOST) as usize
 }
 
+/// A part of a film.
+pub(super) enum Part {
+    Frame(Pixels),
+    Sound(Vec<[i16; 2]>),
+}
+
 /// A film that is being written. Dropped before [`Film::finish`], it is given up and nothing is left of it.
 pub struct Film {
-    queue: Queue<Pixels>,
+    queue: Queue<Part>,
     shape: Shape,
     pushed: u32,
     cancel: Cancel,
@@ -139,6 +149,7 @@ impl Film {
         output: Output,
         tools: &Tools,
     ) -> Result<Film, FilmError> {
+        let sound = sound.map_or(FilmSound::None, FilmSound::Known);
         Self::start_with(encoding, shape, sound, output, (tools, &Cancel::default()))
     }
 
@@ -146,13 +157,13 @@ impl Film {
     pub fn start_with(
         encoding: &FilmEncoding,
         shape: Shape,
-        sound: Option<&[[i16; 2]]>,
+        sound: FilmSound<'_>,
         output: Output,
         (tools, cancel): (&Tools, &Cancel),
     ) -> Result<Film, FilmError> {
         let (sink, staged) = sink(encoding, shape, sound, output, (tools, &cancel.stop))?;
         let heard = cancel.clone();
-        let work = move |jobs: Receiver<Job<Pixels>>| encode(&jobs, sink, staged, shape, &heard);
+        let work = move |jobs: Receiver<Job<Part>>| encode(&jobs, sink, staged, shape, &heard);
         let queue = Queue::start(capacity(shape.width, shape.height), work)?;
         Ok(Film { queue, shape, pushed: 0, cancel: cancel.clone() })
     }
@@ -160,7 +171,7 @@ impl Film {
     /// Adds the next frame, and waits while too many are waiting to be encoded.
     pub fn push(&mut self, frame: Pixels) -> Result<(), FilmError> {
         self.check_size(&frame)?;
-        self.queue.push(Job::Next(frame))?;
+        self.queue.push(Job::Next(Part::Frame(frame)))?;
         self.pushed += 1;
         Ok(())
     }
@@ -168,8 +179,8 @@ impl Film {
     /// Adds the next frame, or gives it back where too many are waiting to be encoded.
     pub fn try_push(&mut self, frame: Pixels) -> Result<Option<Pixels>, FilmError> {
         self.check_size(&frame)?;
-        match self.queue.try_push(Job::Next(frame))? {
-            Some(Job::Next(frame)) => Ok(Some(frame)),
+        match self.queue.try_push(Job::Next(Part::Frame(frame)))? {
+            Some(Job::Next(Part::Frame(frame))) => Ok(Some(frame)),
             _ => {
                 self.pushed += 1;
                 Ok(None)
@@ -180,6 +191,11 @@ impl Film {
     fn check_size(&self, frame: &Pixels) -> Result<(), FilmError> {
         let (of, film) = ((frame.width, frame.height), (self.shape.width, self.shape.height));
         if of == film { Ok(()) } else { Err(FilmError::Size { of, film }) }
+    }
+
+    /// Adds the sound of a film that was begun with [`FilmSound::Later`]: of its length, after its last frame.
+    pub fn sound(&mut self, sound: Vec<[i16; 2]>) -> Result<(), FilmError> {
+        self.queue.push(Job::Next(Part::Sound(sound)))
     }
 
     /// Waits until the file is complete and has taken its place.
@@ -239,7 +255,7 @@ impl StagedFile {
 fn sink(
     encoding: &FilmEncoding,
     shape: Shape,
-    sound: Option<&[[i16; 2]]>,
+    sound: FilmSound<'_>,
     output: Output,
     with: (&Tools, &Stop),
 ) -> Result<(Box<dyn Sink>, Option<StagedFile>), FilmError> {
@@ -251,8 +267,8 @@ fn sink(
     let mut staged = Staged::new(&path).map_err(FilmError::io(&path))?;
     let sink: Box<dyn Sink> = match encoding {
         FilmEncoding::Coded(coded) => {
-            let sound = sound.map(|sound| stage_sound(&path, sound)).transpose()?;
-            Box::new(CodedFilm::start(*coded, shape, sound, staged.path(), with)?)
+            let to = staged.path().to_owned();
+            Box::new(CodedFilm::start(*coded, shape, sound, &to, with)?)
         }
         FilmEncoding::Gif => Box::new(Gif::start(shape, staged.path(), with)?),
         _ => {
@@ -283,7 +299,7 @@ fn plain<W: Write + Send + 'static>(
 }
 
 /// Writes a sound to a temporary file beside the film.
-fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
+pub(super) fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
     // What a WAV file holds.
     if sound.len() >= (u32::MAX / 4 - 16) as usize {
         return Err(FilmError::LongSound);
@@ -294,7 +310,7 @@ fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
 }
 
 fn encode(
-    jobs: &Receiver<Job<Pixels>>,
+    jobs: &Receiver<Job<Part>>,
     mut sink: Box<dyn Sink>,
     staged: Option<StagedFile>,
     shape: Shape,
@@ -310,8 +326,12 @@ fn encode(
     loop {
         cancel.check()?;
         match jobs.recv() {
+            Ok(Job::Next(Part::Sound(sound))) => {
+                sink.sound(sound);
+                continue;
+            }
             Ok(Job::Next(_)) if shape.frames == Some(frames) => return Err(FilmError::Stopped),
-            Ok(Job::Next(pixels)) => sink.frame(&pixels).map_err(named)?,
+            Ok(Job::Next(Part::Frame(pixels))) => sink.frame(&pixels).map_err(named)?,
             Ok(Job::Finish) if shape.frames.is_none_or(|wanted| wanted == frames) => break,
             Ok(Job::Finish) | Err(_) => return Err(FilmError::Stopped),
         }

@@ -285,7 +285,7 @@ fn uniforms_of_the_author_are_checked_with_each_pass_that_has_them() {
 fn common_includes_a_text() {
     let common = "#include \"noise.glsl\"\nfloat f(float x) { return noise(x) * N; }";
     let line = Span::new(COMMON, 0..common.find('\n').unwrap());
-    let text = |text| [Include { line, text: Text { id: INCLUDED, text } }];
+    let text = |text| [Include { line, text: Ok(Text { id: INCLUDED, text }) }];
     let whole = text("#define N 2.0\nfloat noise(float x) { return fract(x * N); }");
     let mut case = Case::new(common, IMAGE);
     case.includes = &whole;
@@ -294,9 +294,22 @@ fn common_includes_a_text() {
     case.includes = &broken;
     let (kept, said) = case.run();
     assert_eq!((kept, said.is_empty()), (Kept::Nothing, false));
+    // A file that is not there is an error only where its line is compiled.
+    let said = Diagnostic::error(line, "there is no file noise.glsl");
+    let missing = [Include { line, text: Err(&said) }];
+    let mut case = Case::new(common, IMAGE);
+    case.includes = &missing;
+    let (kept, messages) = case.run();
+    assert!(kept == Kept::Nothing && messages[0] == said.message, "{messages:?}");
+    let guarded = "#if 0\n#include \"noise.glsl\"\n#endif\nfloat f(float x) { return x; }";
+    let at = Span::new(COMMON, 6..guarded.find("\n#endif").unwrap());
+    let missing = [Include { line: at, text: Err(&said) }];
+    let mut case = Case::new(guarded, IMAGE);
+    case.includes = &missing;
+    case.is(Kept::Checked, &[]);
     let code = format!("#include \"noise.glsl\"\n{IMAGE}");
     let line = Span::new(CODE, 0..code.find('\n').unwrap());
-    let in_pass = [Include { line, text: Text { id: INCLUDED, text: "float g() { return 1.0; }" } }];
+    let in_pass = [Include { line, text: Ok(Text { id: INCLUDED, text: "float g() { return 1.0; }" }) }];
     let mut case = Case::new("float f(float x) { return x; }", &code);
     case.includes = &in_pass;
     case.is(Kept::Checked, &[]);

@@ -30,7 +30,7 @@ impl Preprocessor<'_, '_> {
     /// Notes the ends of lines of the next piece that was not asked for yet.
     fn count_piece(&mut self) {
         let piece = self.line.ends.len();
-        let Piece { text, range, begins_text } = &self.pieces[piece];
+        let Piece { text, range, begins_text, .. } = &self.pieces[piece];
         let before = match self.line.ends.last() {
             // The site puts a line's end behind Common.
             Some((before, ends)) => before + ends.len() as i32 + i32::from(*begins_text),

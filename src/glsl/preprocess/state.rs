@@ -193,7 +193,11 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             let token = self.raw();
             match token.kind {
                 Kind::Hash if token.has(LINE_START) => self.directive(token),
-                Kind::Eof if self.next_piece() => {}
+                Kind::Eof if self.next_piece() => {
+                    if let Some(missing) = self.pieces[self.current].missing {
+                        self.report.add(missing.clone());
+                    }
+                }
                 Kind::OpenComment => self.open_comment(&token),
                 Kind::BadChar | Kind::Hash if self.is_misplaced(&token) => {}
                 _ if token.has(LINE_START) && self.hides_directive(&token) => {}

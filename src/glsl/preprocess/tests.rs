@@ -3,23 +3,33 @@
 
 use super::*;
 use crate::{
-    Text,
+    Include, Text,
     lex::{Kind, words},
     pieces,
 };
-use eddy_diag::SourceId;
+use eddy_diag::{Diagnostic, SourceId, Span};
 
 /// The tokens as text with single spaces, and the diagnostics' messages.
 fn run(text: &str) -> (String, Vec<String>) {
     run_texts(&[text])
 }
 
+/// Runs texts whose `#include` lines have no text in their places, as those of files that are not there.
 fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     let texts: Vec<_> = texts.iter().enumerate().map(|(i, text)| Text { id: SourceId(i as u16), text }).collect();
+    let missing: Vec<Diagnostic> = texts
+        .iter()
+        .flat_map(|text| text.text.match_indices("#include \"missing").map(move |(at, _)| (text, at)))
+        .map(|(text, at)| {
+            let line = text.text[at..].lines().next().unwrap();
+            Diagnostic::error(Span::new(text.id, at..at + line.len()), format!("{line} is missing"))
+        })
+        .collect();
+    let includes: Vec<_> = missing.iter().map(|said| Include { line: said.span.unwrap(), text: Err(said) }).collect();
     let mut names = words::interner();
     let mut report = Report::default();
     let done =
-        preprocess(&pieces::of(&texts, &[]), Unit::CommonAlone, Preprocessed::default(), &mut names, &mut report);
+        preprocess(&pieces::of(&texts, &includes), Unit::CommonAlone, Preprocessed::default(), &mut names, &mut report);
     assert_eq!(done.tokens.len(), done.origins.tokens.len());
     assert_eq!(done.tokens.last().unwrap().kind, Kind::Eof);
     let shown: Vec<String> = done.tokens[..done.tokens.len() - 1]
@@ -293,6 +303,39 @@ fn other_directives() {
     refuses("#1", "name of a directive");
     refuses("a #define B", "`a` comes before `#define`");
     refuses("a #b", "no meaning here");
+}
+
+#[test]
+fn a_missing_include_is_an_error_only_where_its_line_is_compiled() {
+    const LINE: &str = "#include \"missing.glsl\"";
+    for text in [
+        "#ifdef NONE\n@\n#endif\nx",
+        "#if 0\n@\n#endif\nx",
+        "#if 1\nx\n#else\n@\n#endif",
+        "#if 1\nx\n#elif 1\n@\n@\n#endif",
+        "#if 0\n#if 1\n@\n#else\n@\n#endif\n@\n#endif\nx",
+        "#if 1\n#ifndef NONE\n#else\n@\n#endif\n#endif\nx",
+        "#define NONE\n#undef NONE\n#ifdef NONE\n@\n#endif\nx",
+    ] {
+        gives(&text.replace('@', LINE), "x");
+    }
+    for text in [
+        "@\nx",
+        "x\n@",
+        "#ifndef NONE\n@\n#endif\nx",
+        "#if 0\n#else\n@\n#endif\nx",
+        "#if 0\n@\n#elif 1\n@\n#else\n@\n#endif\nx",
+        "#define F(a) a\nF(x\n@\n)",
+    ] {
+        assert_eq!(refuses(&text.replace('@', LINE), "#include \"missing.glsl\" is missing"), "x", "{text}");
+    }
+    // A macro of the text before, as one of Common's.
+    let guarded = format!("#ifdef NOISE\n{LINE}\n#endif\nx");
+    assert_eq!(run_texts(&["", &guarded]), ("x".into(), vec![]));
+    let (tokens, said) = run_texts(&["#define NOISE\n", &guarded]);
+    assert_eq!((tokens.as_str(), said.len()), ("x", 1), "{said:?}");
+    // Numbers of lines go on as if the line were blank.
+    assert_eq!(run(&format!("#if 0\n{LINE}\n#endif\n__LINE__")), run("#if 0\n\n#endif\n__LINE__"));
 }
 
 #[test]

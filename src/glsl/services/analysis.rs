@@ -10,7 +10,7 @@ use crate::{
     source::{ChannelKind, PassKind, PassSource},
     stages::Link,
 };
-use eddy_diag::{SourceId, Span};
+use eddy_diag::{Diagnostic, SourceId, Span};
 
 /// A place in the texts of a pass: later texts come after earlier ones.
 pub(super) type Position = (usize, u32);
@@ -31,6 +31,7 @@ pub struct Analysis {
     pub(super) uniform_types: Vec<TypeId>,
     /// Name and type of the author's own uniforms.
     pub(super) custom_uniforms: Vec<(String, TypeId)>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl std::fmt::Debug for Analysis {
@@ -46,10 +47,11 @@ impl Analysis {
 
     /// Does the same with Common read already: the `preamble` is of the pass's own.
     pub fn behind(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
-        let FrontEnd { mut module, origins, mut names, .. } = FrontEnd::run(source, &Link::default(), preamble);
+        let FrontEnd { mut module, origins, mut names, diagnostics, .. } =
+            FrontEnd::run(source, &Link::default(), preamble);
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
         let mut texts: Vec<_> = source.common.into_iter().collect();
-        for text in source.includes.iter().map(|i| i.text).chain([source.code]) {
+        for text in source.includes.iter().filter_map(|i| i.text.ok()).chain([source.code]) {
             if !texts.iter().any(|t| t.id == text.id) {
                 texts.push(text);
             }
@@ -67,9 +69,20 @@ impl Analysis {
             symbols: Symbols::default(),
             uniform_types,
             custom_uniforms,
+            diagnostics,
         };
         analysis.symbols = analysis.occurrences();
         analysis
+    }
+
+    /// Returns what is wrong with the pass: what [`crate::diagnose`] says of it.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// Returns every text this was made of: Common, what is included anywhere, then the pass's own.
+    pub fn texts(&self) -> impl Iterator<Item = SourceId> {
+        self.sources.iter().map(|source| source.id)
     }
 
     /// Returns the text this was made of.

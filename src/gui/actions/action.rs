@@ -44,6 +44,7 @@ pub enum Action {
     PlayRecording,
     StopReplay,
     ExportJson,
+    ExportPage,
     SaveMeasures,
     SaveSound,
     LabReport,

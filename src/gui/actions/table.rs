@@ -89,6 +89,8 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),
     row(Action::ExportJson, "export-json", "Export to Shadertoy JSON", &[], Group::Project)
         .found_by("save share upload file"),
+    row(Action::ExportPage, "export-html", "Export to HTML page for browsers", &[], Group::Project)
+        .found_by("save share web browser webgl publish site"),
     row(Action::Bookmarklet, "bookmarklet", "Open Shadertoy bookmarklet page", &[], Group::Project)
         .found_by("download import browser save json"),
     row(Action::Open, "open", "Open file", &["Ctrl+O"], Group::Project).found_by("load import project json"),

@@ -8,8 +8,9 @@ use crate::{
 use egui::{Button, Label, ProgressBar, Response, RichText, Role, ScrollArea, Ui, vec2};
 
 /// The text below the first button.
-const LIVE: &str = "Every frame that the window draws while you play with mouse, keys and sliders, without sound. No frame \
-                    is left out: where drawing or encoding takes longer, the picture runs slower.";
+const LIVE: &str = "Every frame that the window draws while you play with mouse, keys and sliders. No frame is left out: \
+                    where drawing or encoding takes longer, the picture runs slower. The sound is that of the times that \
+                    the frames show, also after a pause or a jump, and is computed at the end.";
 /// The text below the second one.
 const RANGE: &str = "The frames of the range, from frame 0 without input, as eddy render writes them. You can go on working \
                      meanwhile.";

@@ -82,6 +82,10 @@ impl Shell {
                 let name = format!("{}.json", file_stem(&session.project().name));
                 self.files.ask(Pick::Json(name), start_folder(session));
             }
+            Action::ExportPage => {
+                let name = format!("{}.html", file_stem(&session.project().name));
+                self.files.ask(Pick::Page(name), start_folder(session));
+            }
             Action::LabReport if self.lab.has_results() => self.files.ask(Pick::LabReport, start_folder(session)),
             Action::LabReport => out.ask(Command::Notify {
                 level: Level::Info,

@@ -158,6 +158,12 @@ impl Shell {
         self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
     }
 
+    /// Closes every panel but the picture and the uniforms, wherever they were.
+    pub fn show_picture_alone(&mut self) {
+        self.dock.reset();
+        self.dock.restore(Some([Panel::Picture, Panel::Uniforms].into()), None);
+    }
+
     /// Begins with no texture: the window has another device. `wake` is called as before.
     pub fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
         self.viewport.forget_texture();
@@ -510,6 +516,7 @@ impl Shell {
                 out.ask(Command::PlayRecording(path));
             }
             Pick::Json(_) => out.ask(Command::ExportJson(path)),
+            Pick::Page(_) => out.ask(Command::ExportPage(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),

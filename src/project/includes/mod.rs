@@ -1,7 +1,8 @@
 //! `#include "file"` lines: texts inside texts.
 //!
 //! A path is relative to the file whose line names it, and stays within the project's folder; an included file may
-//! include others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of
+//! include others. The lines count wherever they stand outside comments, in conditionals too; only what is missing is
+//! reported by the preprocessor, where a line is compiled. A file that is a tab of
 //! the project is taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
 //!
 //! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the
@@ -40,6 +41,9 @@ impl From<String> for Trouble {
 pub struct IncludeLines {
     /// A line, and the text that stands in its place; no text leads to itself.
     pub lines: Vec<(Span, SourceId)>,
+    /// The lines that have no text, each with what is said of it where it is compiled; the span is the line.
+    pub missing: Vec<Diagnostic>,
+    /// Errors wherever their lines stand.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -186,7 +190,7 @@ impl Project {
         }
     }
 
-    /// Returns what every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are
+    /// Returns what every `#include` line leads to, and what is wrong with those that lead to no text. Spans and ids are
     /// of [`Project::sources`].
     pub fn include_lines(&self) -> IncludeLines {
         let mut found = IncludeLines::default();
@@ -204,27 +208,30 @@ impl Project {
                     Ok(name) => name,
                     Err(e) => {
                         let message = format!("#include \"{path}\": {e}");
-                        found.diagnostics.push(Diagnostic::error(span, message).hint(e.hint()));
+                        found.missing.push(Diagnostic::error(span, message).hint(e.hint()));
                         continue;
                     }
                 };
                 match ids.get(name.as_str()) {
-                    Some(&target) if target == Self::COMMON_ID && id != Self::COMMON_ID => found.diagnostics.push(
+                    Some(&target) if target == Self::COMMON_ID && id != Self::COMMON_ID => found.missing.push(
                         Diagnostic::warning(
                             span,
                             format!("{name} is Common, which is inserted before every pass: it is not included again"),
                         )
                         .hint("remove this line"),
                     ),
-                    Some(&target) => match self.included(target).and_then(|i| i.trouble.as_ref()) {
-                        Some(why) => {
-                            found.diagnostics.push(Diagnostic::error(span, format!("#include \"{path}\": {why}")))
+                    Some(&target) => {
+                        let trouble = self.included(target).and_then(|i| Some((i.trouble.as_ref()?, i.is_limit)));
+                        let error = |why| Diagnostic::error(span, format!("#include \"{path}\": {why}"));
+                        match trouble {
+                            Some((why, true)) => found.diagnostics.push(error(why)),
+                            Some((why, false)) => found.missing.push(error(why)),
+                            None => found.lines.push((span, target)),
                         }
-                        None => found.lines.push((span, target)),
-                    },
+                    }
                     None if self.includes.last().is_some_and(|i| i.is_limit) => {}
                     None => found
-                        .diagnostics
+                        .missing
                         .push(Diagnostic::error(span, format!("#include \"{path}\": there is no file {name}"))),
                 }
             }

@@ -19,7 +19,8 @@ fn open(dir: &tempfile::TempDir) -> Project {
 }
 
 fn said(project: &Project) -> String {
-    render_all(&project.include_lines().diagnostics, &project.sources())
+    let lines = project.include_lines();
+    render_all(&[lines.diagnostics, lines.missing].concat(), &project.sources())
 }
 
 fn image(project: &Project) -> String {

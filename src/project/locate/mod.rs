@@ -3,9 +3,9 @@
 use super::{
     Loaded, PassId, ProjectError,
     file_names::{self, Role},
-    files::{Files, MANIFEST},
-    json,
-    load::{folder_name, load_folder, load_glsl, load_json},
+    files::{EditedTexts, Files, MANIFEST},
+    json, limits,
+    load::{folder_name, load_edited_folder, load_folder, load_glsl, load_json},
     nearest, presets,
 };
 use std::{
@@ -21,9 +21,29 @@ pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     match locate(spec)? {
         Location::Preset(name) => presets::load(name),
         Location::Folder(path) => load_folder(&path),
-        Location::Glsl(path) => load_glsl(&path),
+        Location::Glsl(path) => load_glsl(&path, &EditedTexts::new()),
         Location::Json(path, wanted) => load_json(&path, wanted.as_deref()),
     }
+}
+
+/// Reads the project of a folder, or of one GLSL file, as [`load`] does, with texts of an editor in place of what is on
+/// disk. Their paths begin as `path` does.
+pub fn load_edited(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
+    let is_file = edited.contains_key(path) || fs::metadata(path).is_ok_and(|m| !m.is_dir());
+    if is_file { load_glsl(path, edited) } else { load_edited_folder(path, edited) }
+}
+
+/// Returns the folder of the project that a file most likely belongs to: the nearest one with an `eddy.toml`, from the
+/// file's own upwards; where there is none, its own if that holds the Image pass of a project.
+pub fn folder_around(file: &Path) -> Option<PathBuf> {
+    let folders = file.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty());
+    let described = folders.take(limits::FOLDERS_UP).find(|folder| Files::on_disk(folder).exists(MANIFEST));
+    described.or_else(|| file.parent().filter(|folder| holds_project(folder))).map(Path::to_owned)
+}
+
+/// Returns whether a file of this name describes a project.
+pub fn is_manifest(file: &Path) -> bool {
+    file.file_name().is_some_and(|name| name == MANIFEST)
 }
 
 /// Returns what an output of `spec` is named after: the preset's, the folder's or the file's name without its

@@ -127,6 +127,11 @@ impl Audio {
         }
     }
 
+    /// Returns the music of the program that draws.
+    pub fn music(&self) -> &[ChannelSound] {
+        &self.sounds
+    }
+
     pub fn set_volume(&mut self, volume: f32) {
         if volume.is_finite() {
             self.volume = volume.clamp(0.0, 1.0);

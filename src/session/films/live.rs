@@ -2,6 +2,7 @@
 
 use super::{
     FilmOrder,
+    heard::HeardSounds,
     target::{Pictures, Target},
     work::Finish,
 };
@@ -10,7 +11,7 @@ use crate::{
     drawing::{RenderTask, Renderer, Tasks, Ticket},
 };
 use eddy_engine::{EngineError, Pixels};
-use eddy_film::{Cancel, FilmError, Shape, Writer};
+use eddy_film::{Cancel, Encoding, FilmError, FilmSound, Shape, Writer};
 use eddy_project::PassId;
 use eddy_texture::TexelFormat;
 use std::{
@@ -98,11 +99,15 @@ pub(super) struct Live {
     waiting: VecDeque<Pixels>,
     /// Frames that it has taken.
     pushed: u32,
+    /// Says what is heard with the frames, for a film with sound.
+    pub heard: Option<HeardSounds>,
 }
 
 impl Live {
     pub fn new(order: FilmOrder, target: Target, before: (CanvasSize, Option<f64>)) -> Self {
+        let holds_sound = matches!(&order.encoding, Encoding::Film(film) if film.holds_sound());
         Self {
+            heard: (holds_sound && order.with_sound).then(HeardSounds::default),
             pace: Pace::new(order.fps),
             pictures: Pictures::new(&target),
             order,
@@ -174,7 +179,8 @@ impl Live {
             let writer = match &mut self.writer {
                 Some(writer) => writer,
                 None => self.writer.insert(
-                    begin(&self.order, &self.target, &self.cancel, self.texels).map_err(|error| error.to_string())?,
+                    begin(&self.order, &self.target, &self.cancel, (self.texels, self.heard.is_some()))
+                        .map_err(|error| error.to_string())?,
                 ),
             };
             if (pixels.width, pixels.height) != self.order.size {
@@ -207,6 +213,7 @@ impl Live {
             pushed: self.pushed,
             target: self.target,
             rate: self.order.rate,
+            sound: None,
         }
     }
 }
@@ -214,10 +221,16 @@ impl Live {
 /// The number of the last frame, as far as names of pictures go: six digits are five hours at 60 frames per second.
 pub(super) const LAST: u32 = 999_999;
 
-fn begin(order: &FilmOrder, target: &Target, cancel: &Cancel, texels: TexelFormat) -> Result<Writer, FilmError> {
+fn begin(
+    order: &FilmOrder,
+    target: &Target,
+    cancel: &Cancel,
+    (texels, has_sound): (TexelFormat, bool),
+) -> Result<Writer, FilmError> {
     let (width, height) = order.size;
     let shape = Shape { width, height, rate: order.rate, frames: None };
-    Writer::start(&order.encoding, shape, texels, None, target.destination(), cancel)
+    let sound = if has_sound { FilmSound::Later } else { FilmSound::None };
+    Writer::start(&order.encoding, shape, texels, sound, target.destination(), cancel)
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Films that leave the window: of what it draws while somebody plays, and of a range of frames that is drawn exactly.
 //!
-//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]), the thread that draws a range and
-//! completes files ([`work`]), and the files' places ([`target`]). One film is made at a time.
+//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]) with what is heard ([`heard`]), the
+//! thread that draws a range and completes files ([`work`]), and the files' places ([`target`]). One film is made at a
+//! time.
 
 mod form;
+mod heard;
 mod live;
 mod order;
 mod target;
@@ -11,6 +13,7 @@ mod words;
 mod work;
 
 pub use form::{CheckedForm, FilmFacts, FilmField, FilmForm, FilmPreset};
+pub(super) use heard::HeardPass;
 pub use order::{FilmDone, FilmOrder, FilmPlace, FilmProgress, FilmStage, FilmView, LiveView};
 
 use super::{
@@ -24,13 +27,14 @@ use eddy_background::{Background, Status, Wake};
 use eddy_film::{Cancel, FilmError};
 use eddy_playback::capture;
 use eddy_video::Tools;
+use heard::Heard;
 use live::Live;
 use std::{
     sync::Arc,
     time::{Duration, Instant},
 };
 use target::Target;
-use work::{RangeJob, Work};
+use work::{Finish, LateSound, RangeJob, Work};
 
 /// The film that is made, and the newest one that was.
 pub(super) struct Films {
@@ -227,13 +231,30 @@ impl Session {
 
     /// Ends a recording, whose film is completed.
     pub(super) fn stop_film(&mut self) {
-        let Some(live) = self.end_live() else { return };
+        let Some(mut live) = self.end_live() else { return };
         if live.frames() == 0 {
             self.films.ended = Some(Ended::Failed("no frame was drawn while it was recorded".into()));
             return;
         }
         self.films.cancel = live.cancel.clone();
-        self.films.work.start(Work::Finish(Box::new(live.finish())));
+        let sound = self.late_sound(&mut live);
+        self.films.work.start(Work::Finish(Box::new(Finish { sound, ..live.finish() })));
+    }
+
+    /// Returns what the sound of a recording is computed of; `None` where nothing was heard, or there is no device.
+    fn late_sound(&self, live: &mut Live) -> Option<LateSound> {
+        let heard = live.heard.take()?;
+        let gpu = self.drawing.device().wait().ok()?;
+        let trials = self.options.trials.as_ref();
+        let trial = trials.map(|trials| trials.trial(self.options.media_dir.clone(), Arc::default()));
+        Some(LateSound { gpu, trial, heard })
+    }
+
+    /// A frame with this time is drawn: notes what is heard with it.
+    pub(super) fn note_heard(&mut self, secs: f64) {
+        let Some(heard) = self.films.live.as_mut().and_then(|live| live.heard.as_mut()) else { return };
+        let (music, number) = (self.audio.music(), self.sounding.number());
+        heard.note(secs, (number, music), || Heard::new(music, self.sounding.heard()));
     }
 
     /// Takes the recording away, and gives the picture back its size and its time.

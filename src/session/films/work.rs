@@ -2,12 +2,13 @@
 
 use super::{
     FilmDone, FilmOrder, FilmProgress, FilmStage,
+    heard::{HeardPass, HeardSounds},
     target::{Pictures, Target},
 };
 use eddy_background::Control;
 use eddy_engine::{BuildOptions, Pixels, Trial};
 use eddy_film::{
-    Cancel, Encoding, FilmTime, Rate, Seam, Shape, Shown, Still, Writer, check_tools, has_sound, soundtrack,
+    Cancel, Encoding, FilmSound, FilmTime, Rate, Seam, Shape, Shown, Still, Writer, check_tools, has_sound, soundtrack,
 };
 use eddy_gpu::{self as gpu, Gpu, GpuOptions};
 use eddy_media::{self as media, MediaSet};
@@ -60,6 +61,35 @@ pub(super) struct Finish {
     pub pushed: u32,
     pub target: Target,
     pub rate: Rate,
+    pub sound: Option<LateSound>,
+}
+
+/// The sound of a recording, which is computed when all frames are there.
+pub(super) struct LateSound {
+    pub gpu: Gpu,
+    pub trial: Option<Trial>,
+    pub heard: HeardSounds,
+}
+
+impl LateSound {
+    /// Returns the samples of a film of so many frames; `None` where nothing was heard.
+    fn samples(
+        self,
+        frames: u32,
+        rate: Rate,
+        control: &Control<FilmProgress>,
+    ) -> Result<Option<Vec<[i16; 2]>>, Stopped> {
+        let Self { gpu, trial, heard } = self;
+        let open = |pass: &HeardPass| {
+            let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or_else(|_| gpu.clone());
+            let mut offline = Offline::new(&gpu, (16, 16), ScriptedInputs::new(60.0)).map_err(OfflineError::from)?;
+            offline.set_sound_date(pass.date);
+            let options = BuildOptions { trial: trial.clone(), ..BuildOptions::sound() };
+            offline.build(&pass.project, &pass.media, &options).map_err(|error| Stopped(first_error(&error)))?;
+            Ok(offline)
+        };
+        heard.samples(frames, rate, open, || Ok(control.check()?))
+    }
 }
 
 /// Returns the work of the thread.
@@ -92,13 +122,25 @@ fn complete(mut finish: Finish, control: &Control<FilmProgress>) -> Result<FilmD
         }
         writer.push(Some(path), pixels, None).map_err(|error| error.to_string())?;
     }
+    let mut note = None;
+    if let Some(sound) = finish.sound.take() {
+        match sound.samples(frames, finish.rate, control) {
+            Ok(Some(samples)) => writer.sound(samples).map_err(|error| error.to_string())?,
+            Ok(None) => {}
+            Err(Stopped(why)) => {
+                control.check()?;
+                // The frames cannot be drawn another time.
+                note = Some(format!("it has no sound: {why}"));
+            }
+        }
+    }
     writer.finish().map_err(|error| error.to_string())?;
     still_wanted(control, &finish.target)?;
     if let Some(pictures) = finish.pictures.take() {
         pictures.keep();
     }
     let secs = f64::from(frames) / finish.rate.per_second();
-    Ok(FilmDone { path: finish.target.path().to_owned(), frames, secs, note: None })
+    Ok(FilmDone { path: finish.target.path().to_owned(), frames, secs, note })
 }
 
 /// Takes a film away that was cancelled when it had just become complete.
@@ -110,7 +152,7 @@ fn still_wanted(control: &Control<FilmProgress>, target: &Target) -> Result<(), 
 }
 
 /// The reason why a range is not drawn, as a sentence.
-struct Stopped(String);
+pub(super) struct Stopped(pub String);
 
 impl From<OfflineError> for Stopped {
     fn from(error: OfflineError) -> Self {
@@ -263,6 +305,7 @@ impl Drawing<'_> {
         let RangeJob { pass, order, target, cancel, .. } = &self.job;
         let texels = offline.engine().map_err(OfflineError::from)?.format(pass, 0).unwrap_or_default();
         let shape = Shape { width: pixels.width, height: pixels.height, rate: order.rate, frames: Some(count) };
+        let sound = sound.map_or(FilmSound::None, FilmSound::Known);
         let started = Writer::start(&order.encoding, shape, texels, sound, target.destination(), cancel);
         started.map_err(|error| Stopped(error.to_string()))
     }

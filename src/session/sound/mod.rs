@@ -10,6 +10,7 @@ mod save;
 use super::{
     Session, SessionOptions,
     drawing::Open,
+    films::HeardPass,
     view::{About, Level},
 };
 use eddy_audio::Track;
@@ -77,6 +78,12 @@ impl Source {
             texels,
             values: project.custom_uniform_values.clone(),
         })
+    }
+
+    /// Both differ in the values of uniforms alone.
+    fn is_same_code(&self, other: &Source) -> bool {
+        let all = |source: &Source| (source.opened, source.texts.clone(), source.channels.clone(), source.texels);
+        all(self) == all(other)
     }
 }
 
@@ -166,8 +173,10 @@ pub(super) struct Sounding {
     shared: Arc<Shared>,
     /// The sound that was ordered last, or is about to be.
     source: Option<Source>,
-    /// The project and the pictures that it was ordered with.
-    kept: Option<(Project, MediaSet)>,
+    /// The project and the pictures that it was ordered with, and its `iDate`.
+    kept: Option<(Project, MediaSet, [f32; 4])>,
+    /// Counts the orders that differ in more than the values of uniforms.
+    codes: u64,
     pending: Option<Order>,
     trouble: Option<String>,
     /// Revision and blocks made, as the front end was told.
@@ -202,6 +211,7 @@ impl Sounding {
             shared: Arc::default(),
             source: None,
             kept: None,
+            codes: 0,
             pending: None,
             trouble: None,
             seen: (0, 0),
@@ -218,7 +228,7 @@ impl Sounding {
     pub fn change_device(&mut self, open: Open) {
         self.open = open;
         self.separate();
-        if let Some((project, media)) = self.kept.take() {
+        if let Some((project, media, _)) = self.kept.take() {
             let opened = self.source.take().map_or(0, |source| source.opened);
             self.order(project, media, opened);
         }
@@ -252,7 +262,12 @@ impl Sounding {
         let number = self.orders.fetch_add(1, Ordering::Relaxed) + 1;
         self.shared.now().order = number;
         self.pending = Some(Order { number, project: project.clone(), media: media.clone(), date, opened });
-        (self.source, self.kept, self.trouble) = (source, Some((project, media)), None);
+        let is_same_code = match (&self.source, &source) {
+            (Some(before), Some(source)) => before.is_same_code(source),
+            _ => false,
+        };
+        self.codes += u64::from(!is_same_code);
+        (self.source, self.kept, self.trouble) = (source, Some((project, media, date)), None);
     }
 
     /// Hands the thread what waits.
@@ -295,6 +310,17 @@ impl Sounding {
         let now = self.shared.now().clone();
         let seen = (now.revision, now.track.map_or(0, |track| track.made()));
         std::mem::replace(&mut self.seen, seen) != seen
+    }
+
+    /// Returns the number of the newest order; 0: nothing is heard.
+    pub fn number(&self) -> u64 {
+        self.shared.now().order
+    }
+
+    /// Returns the sound that is heard, for a film.
+    pub fn heard(&self) -> Option<HeardPass> {
+        let (project, media, date) = self.kept.as_ref()?;
+        Some(HeardPass { code: self.codes, project: project.clone(), media: media.clone(), date: *date })
     }
 
     fn is_making(&self) -> bool {
@@ -349,7 +375,7 @@ impl Session {
 
     /// The author's own uniforms have other values.
     pub(super) fn sound_values_turned(&mut self, values: &CustomUniformValues) {
-        let Some((project, media)) = &self.sounding.kept else { return };
+        let Some((project, media, _)) = &self.sounding.kept else { return };
         let project = Project { custom_uniform_values: values.clone(), ..project.clone() };
         let (media, opened) = (media.clone(), self.sounding.source.as_ref().map_or(0, |source| source.opened));
         self.sounding.order(project, media, opened);

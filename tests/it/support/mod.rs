@@ -5,6 +5,7 @@ pub mod clock;
 pub mod compiled;
 pub mod compute;
 pub mod display;
+pub mod drops;
 pub mod env;
 pub mod explained;
 pub mod ffmpeg;

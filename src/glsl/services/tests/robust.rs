@@ -8,6 +8,10 @@ fn ask_all(m: &Marked) {
     let analysis: Analysis = m.analysis();
     for (source, text) in [(super::COMMON, &m.common), (super::CODE, &m.code)] {
         analysis.classes(source);
+        let symbols = analysis.outline(source);
+        assert!(symbols.iter().all(|one| text.get(one.place.clone()) == Some(one.name.as_str())), "{text}");
+        assert!(analysis.folds(source).iter().all(|fold| text.get(fold.range.clone()).is_some()), "{text}");
+        assert!(analysis.hints(source, 0..text.len()).iter().all(|hint| text.is_char_boundary(hint.at)), "{text}");
         for at in 0..=text.len() + 2 {
             analysis.hover(source, at);
             analysis.near(source, at);

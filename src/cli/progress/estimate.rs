@@ -1,0 +1,105 @@
+//! The time that a long call will take, said once where nothing else says how far it is.
+
+use std::time::Duration;
+
+/// A call that takes no longer is not announced.
+const LEAST: Duration = Duration::from_secs(60);
+/// Steps after the first one that are measured, and for how long at least; slow ones are measured by one step alone.
+const STEPS: u64 = 3;
+const MEASURED: Duration = Duration::from_secs(3);
+const SLOW: Duration = Duration::from_secs(30);
+
+/// Waits until the time can be told. The first step takes longer than the others: drivers compile in it.
+#[derive(Debug, Default)]
+pub struct Estimate {
+    first: Option<Duration>,
+    is_done: bool,
+}
+
+impl Estimate {
+    /// Returns what to say when so many of all steps are done after a time; once, and nothing if it takes a minute or less.
+    pub fn step(&mut self, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> Option<String> {
+        if self.is_done || done == 0 {
+            return None;
+        }
+        let first = *self.first.get_or_insert(elapsed);
+        let (steps, took) = (done - 1, elapsed.saturating_sub(first));
+        let is_measured = (steps >= STEPS && took >= MEASURED) || (steps >= 1 && took >= SLOW);
+        if !is_measured {
+            return None;
+        }
+        self.is_done = true;
+        let whole = first.as_secs_f64() + took.as_secs_f64() / steps as f64 * all.saturating_sub(1) as f64;
+        (whole > LEAST.as_secs_f64()).then(|| format!("about {} for {} {unit}", length(whole), grouped(all)))
+    }
+}
+
+/// Returns a length of time in words, to the minute, and from two days on to the hour.
+fn length(secs: f64) -> String {
+    let minutes = (secs / 60.0).round().min(1e12) as u64;
+    let (hours, minutes) = (minutes / 60, minutes % 60);
+    match (hours, minutes) {
+        (0, minutes) => format!("{} min", minutes.max(1)),
+        (hours @ 1..48, 0) => format!("{hours} h"),
+        (hours @ 1..48, minutes) => format!("{hours} h {minutes} min"),
+        (hours, _) if hours % 24 == 0 => format!("{} days", hours / 24),
+        (hours, _) => format!("{} days {} h", hours / 24, hours % 24),
+    }
+}
+
+/// Returns a number with a comma between each three digits.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (n, digit) in digits.chars().enumerate() {
+        if n > 0 && (digits.len() - n).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns what is said of steps of a length, and after how many, by a clock of our own.
+    fn said(all: u64, first: f64, step: f64) -> Option<(u64, String)> {
+        let mut estimate = Estimate::default();
+        let mut found = None;
+        for done in 1..=all {
+            let elapsed = Duration::from_secs_f64(first + step * (done - 1) as f64);
+            if let Some(words) = estimate.step((done, all, "frames"), elapsed) {
+                assert_eq!(found, None, "it is said once");
+                found = Some((done, words));
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn a_long_call_says_once_how_long_it_takes() {
+        assert_eq!(said(10_000, 8.0, 1.2), Some((4, "about 3 h 20 min for 10,000 frames".into())));
+        assert_eq!(said(600, 1.0, 0.25), Some((13, "about 3 min for 600 frames".into())), "3 s are measured");
+        assert_eq!(said(40, 90.0, 45.0), Some((2, "about 31 min for 40 frames".into())), "one slow frame is enough");
+        // The first frame is no measure of the others.
+        assert_eq!(said(1_000, 50.0, 0.1), Some((31, "about 2 min for 1,000 frames".into())));
+    }
+
+    #[test]
+    fn a_minute_or_less_is_not_announced() {
+        assert_eq!(said(200, 0.5, 0.25), None);
+        assert_eq!(said(1, 500.0, 1.0), None, "it is over");
+        assert_eq!(said(10_000, 0.1, 0.000_1), None);
+    }
+
+    #[test]
+    fn lengths_are_words() {
+        let of = |secs: u64| length(secs as f64);
+        assert_eq!([61, 89, 90, 3_569].map(of), ["1 min", "1 min", "2 min", "59 min"]);
+        assert_eq!([3_600, 12_000, 86_400 + 7_200].map(of), ["1 h", "3 h 20 min", "26 h"]);
+        assert_eq!([2 * 86_400, 2 * 86_400 + 3_600 * 5 + 900].map(of), ["2 days", "2 days 5 h"]);
+        assert_eq!([0, 999, 1_000, 1_234_567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+    }
+}

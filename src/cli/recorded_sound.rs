@@ -1,0 +1,74 @@
+//! The sound of a film of recorded frames: at the times that they were recorded at, with the values that sliders had.
+
+use super::{
+    args::RunArgs,
+    machine::{Machine, Trouble, open_sound_of},
+    render::note,
+    report::Report,
+};
+use crate::{
+    audio::{Scene, Source},
+    film::{self, Moment, Rate, SoundPass},
+    media::MediaSet,
+    playback::{recording::Recording, script::ScriptedInputs},
+    project::{CustomUniformValues, PassId, Project},
+};
+
+/// A film is said to be slower or faster than its recording from this difference on.
+const OTHER_SPEED: f64 = 0.05;
+
+/// Returns the samples of a film of these recorded frames. Where the film is slower or faster than the recording, the sound is,
+/// too, and a note says how both get the same speed.
+pub fn recorded_sound(
+    machine: &mut Machine,
+    report: &mut Report,
+    (project, media): (&Project, &MediaSet),
+    (run, recording): (&RunArgs, &Recording),
+    (frames, rate): (&[u32], Rate),
+    inputs: &ScriptedInputs,
+) -> Result<Option<Vec<[i16; 2]>>, Trouble> {
+    let mut values: Vec<&CustomUniformValues> = Vec::new();
+    let mut moments = Vec::new();
+    for frame in frames.iter().filter_map(|frame| recording.frames.get(*frame as usize)) {
+        if values.last().is_none_or(|last| **last != frame.values) {
+            values.push(&frame.values);
+        }
+        moments.push(Moment { secs: frame.inputs.time_secs, sound: values.len() - 1 });
+    }
+    if let Some(speed) = film::speed(&moments, rate).filter(|speed| (speed - 1.0).abs() > OTHER_SPEED) {
+        note(report, other_speed(speed, run.fps));
+    }
+    let music = film::music(project, media);
+    let mut pass = match project.pass(&PassId::Sound) {
+        Some(_) => Some(SoundPass::new(open_sound_of(machine, report, (project, media), run, inputs.clone())?)),
+        None => None,
+    };
+    let samples = film::soundtrack_of(&moments, rate, |sound, secs| {
+        let mut sources = music.clone();
+        if let Some(pass) = &mut pass {
+            sources.push(Source::Track(pass.track(values[sound], secs, || Ok::<_, Trouble>(()))?));
+        }
+        Ok::<_, Trouble>(Scene { sources })
+    });
+    samples.map(Some)
+}
+
+/// Says that picture and sound run at another speed than they were recorded at, and the rate at which they would not.
+fn other_speed(speed: f64, fps: f64) -> String {
+    let rate = (fps / speed * 100.0).round() / 100.0;
+    format!("picture and sound run at {speed:.2} times the recorded speed; --fps {rate} plays the recording as it was")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_speed_is_said_with_the_rate_that_mends_it() {
+        assert_eq!(
+            other_speed(60.0 / 144.0, 60.0),
+            "picture and sound run at 0.42 times the recorded speed; --fps 144 plays the recording as it was"
+        );
+        assert!(other_speed(2.0, 59.94).contains("--fps 29.97 "));
+    }
+}

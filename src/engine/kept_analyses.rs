@@ -1,0 +1,77 @@
+//! The stages of a project as an editor understands them, kept while nothing that they were made of changes.
+
+use super::{
+    Sources,
+    preamble::KeptPreamble,
+    stage_cache::{KeptStages, Missing},
+};
+use eddy_diag::{self as diag, Diagnostic};
+use eddy_glsl::{Driver, Link, services::Analysis};
+use eddy_project::{FillKind, Project, Stage};
+use std::sync::Arc;
+
+/// A stage of a pass, read.
+#[derive(Clone, Debug)]
+pub struct StageAnalysis {
+    /// The pass, of [`Project::passes`].
+    pub index: usize,
+    pub stage: Stage,
+    pub analysis: Arc<Analysis>,
+}
+
+/// Analyses of every stage of a project, for who asks again after each edit.
+#[derive(Default)]
+pub struct KeptAnalyses {
+    kept: Vec<(Missing, Arc<Analysis>)>,
+    preamble: KeptPreamble,
+    /// Stages of passes that draw meshes: what a vertex stage hands on is known when it is compiled.
+    stages: KeptStages,
+}
+
+impl KeptAnalyses {
+    /// Reads every stage of every pass. What was read last time and did not change since is not read again.
+    pub fn analyse(&mut self, project: &Project, texts: &Sources<'_>) -> Vec<StageAnalysis> {
+        self.preamble.lend(texts);
+        let before = std::mem::take(&mut self.kept);
+        let mut found = Vec::new();
+        for (index, pass) in project.passes.iter().enumerate() {
+            let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
+            for stage in [Stage::Own].into_iter().chain((0..files).map(Stage::File)) {
+                let key = texts.with_stage(index, stage, |source| {
+                    Missing::new(source, &Link::default(), |text| texts.shared(text))
+                });
+                let known = before.iter().find(|(other, _)| *other == key).map(|(_, analysis)| analysis.clone());
+                let analysis = known.unwrap_or_else(|| Arc::new(texts.analyse_stage(index, stage)));
+                self.kept.push((key, analysis.clone()));
+                found.push(StageAnalysis { index, stage, analysis });
+            }
+        }
+        self.preamble.keep(texts);
+        found
+    }
+
+    /// Returns everything that the compiler says of Common alone, of every pass and of its fills, each once. `read` is
+    /// what [`Self::analyse`] returned of the same texts.
+    pub fn diagnose(&mut self, project: &Project, texts: &Sources<'_>, read: &[StageAnalysis]) -> Vec<Diagnostic> {
+        let mut found: Vec<Diagnostic> = texts.diagnostics.clone();
+        found.extend(texts.check_common());
+        for (index, pass) in project.passes.iter().enumerate() {
+            if pass.settings.meshes().is_some() {
+                match self.stages.compile(texts, index) {
+                    Ok(pass) => diag::append(&mut found, pass.diagnostics),
+                    Err(errors) => diag::append(&mut found, errors),
+                }
+            } else if let Some(own) = read.iter().find(|one| one.index == index) {
+                diag::append(&mut found, own.analysis.diagnostics().iter().cloned());
+            }
+            for kind in FillKind::ALL {
+                match texts.compile_fill(index, kind, false, Driver::default()) {
+                    Some(Ok(fill)) => diag::append(&mut found, fill.diagnostics),
+                    Some(Err(errors)) => diag::append(&mut found, errors),
+                    None => {}
+                }
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,97 @@
+//! The texts that the editor has open.
+
+use super::{
+    positions::{Encoding, Lines},
+    uris,
+};
+use eddy_project::EditedTexts;
+use gen_lsp_types::{TextDocumentContentChangeEvent, TextDocumentItem, VersionedTextDocumentIdentifier};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+
+#[derive(Clone, Debug)]
+pub(crate) struct Document {
+    pub uri: String,
+    /// The file's, or one that no file has for a document that is not saved yet.
+    pub path: PathBuf,
+    pub version: i32,
+    pub text: Arc<str>,
+}
+
+/// Documents by their paths.
+#[derive(Debug, Default)]
+pub(crate) struct Documents {
+    open: BTreeMap<PathBuf, Document>,
+    /// The same texts, as projects read them.
+    texts: EditedTexts,
+}
+
+/// A folder that no file system has: documents without a file lie there, each in one of its own.
+const UNSAVED: &str = "/\u{0}unsaved";
+
+/// Returns the path that a document is known by.
+pub(crate) fn path_of(uri: &str) -> PathBuf {
+    uris::path(uri).unwrap_or_else(|| {
+        let name = uri.rsplit(['/', ':']).next().unwrap_or_default();
+        let folder: String = uri.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+        PathBuf::from(UNSAVED).join(folder).join(name)
+    })
+}
+
+impl Documents {
+    pub fn open(&mut self, item: TextDocumentItem) -> PathBuf {
+        let path = path_of(&item.uri.0);
+        let text: Arc<str> = item.text.into();
+        self.texts.insert(path.clone(), text.clone());
+        let document = Document { uri: item.uri.0, path: path.clone(), version: item.version, text };
+        self.open.insert(path.clone(), document);
+        path
+    }
+
+    /// Makes changes one after the other. Those of a document that is not open are dropped.
+    pub fn change(
+        &mut self,
+        of: &VersionedTextDocumentIdentifier,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        encoding: Encoding,
+    ) -> Option<PathBuf> {
+        let path = path_of(&of.text_document_identifier.uri.0);
+        let document = self.open.get_mut(&path)?;
+        let mut text = document.text.to_string();
+        for change in changes {
+            match change {
+                TextDocumentContentChangeEvent::TextDocumentContentChangePartial(part) => {
+                    let range = Lines::new(&text, encoding).bytes(part.range);
+                    text.replace_range(range, &part.text);
+                }
+                TextDocumentContentChangeEvent::TextDocumentContentChangeWholeDocument(whole) => text = whole.text,
+            }
+        }
+        document.version = of.version;
+        document.text = text.into();
+        self.texts.insert(path.clone(), document.text.clone());
+        Some(path)
+    }
+
+    pub fn close(&mut self, uri: &str) -> Option<PathBuf> {
+        let path = path_of(uri);
+        self.texts.remove(&path);
+        self.open.remove(&path).map(|_| path)
+    }
+
+    pub fn get(&self, path: &std::path::Path) -> Option<&Document> {
+        self.open.get(path)
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Document> {
+        self.open.values()
+    }
+
+    pub fn texts(&self) -> &EditedTexts {
+        &self.texts
+    }
+
+    /// Returns the URI of a file, as the editor spells it if it has it open.
+    pub fn uri(&self, path: &std::path::Path) -> String {
+        self.open.get(path).map_or_else(|| uris::uri(path), |document| document.uri.clone())
+    }
+}

@@ -1,0 +1,337 @@
+//! A project, or one plain stage, as it is with the editor's texts: what stands where, what it means and what is wrong.
+
+use super::{documents::Documents, plain};
+use eddy_diag::{self as diag, Diagnostic, Fix, SourceId, SourceMap, Span};
+use eddy_engine::{KeptAnalyses, Sources, StageAnalysis};
+use eddy_glsl::{
+    PassKind, PassSource, Text,
+    services::{Analysis, Programs},
+};
+use eddy_media as media;
+use eddy_project::{self as project, Channel, EditedTexts, PassId, PassSettings, Project, ProjectError, Stage};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// The folder or the file that a program is read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Root {
+    /// A folder with a project.
+    Folder(PathBuf),
+    /// One GLSL file with what it names.
+    File(PathBuf),
+}
+
+impl Root {
+    pub fn path(&self) -> &Path {
+        match self {
+            Root::Folder(path) | Root::File(path) => path,
+        }
+    }
+
+    /// The folder that names of files begin at.
+    fn base(&self) -> &Path {
+        match self {
+            Root::Folder(path) => path,
+            Root::File(path) => path.parent().unwrap_or(Path::new("")),
+        }
+    }
+}
+
+pub(crate) struct Program {
+    pub root: Root,
+    /// A text that it is made of has changed since it was read.
+    pub is_stale: bool,
+    /// Its diagnostics have changed since they were told.
+    pub is_untold: bool,
+    /// `None`: one plain stage, or texts that make no project.
+    pub project: Option<Project>,
+    /// The texts, and behind those of the project the files that diagnostics point into besides.
+    pub texts: SourceMap,
+    /// The file of each text.
+    pub paths: Vec<PathBuf>,
+    pub stages: Vec<StageAnalysis>,
+    /// The kind of each stage where there is no project: stage `n` is text `n`.
+    plain: Vec<PassKind>,
+    /// The names in `#iUniform` lines.
+    pub uniforms: Vec<(String, Span)>,
+    /// The diagnostics of the texts.
+    said: Vec<Diagnostic>,
+    media: Media,
+    /// Documents that have been told of diagnostics.
+    pub told: BTreeSet<String>,
+    kept: KeptAnalyses,
+}
+
+/// The diagnostics of pictures and models, which are read again where a project names others.
+#[derive(Default)]
+struct Media {
+    of: Option<Vec<([Option<Channel>; 4], PassSettings)>>,
+    said: Vec<Diagnostic>,
+}
+
+impl Program {
+    pub fn new(root: Root) -> Self {
+        Self {
+            root,
+            is_stale: true,
+            is_untold: true,
+            project: None,
+            texts: SourceMap::default(),
+            paths: Vec::new(),
+            stages: Vec::new(),
+            plain: Vec::new(),
+            uniforms: Vec::new(),
+            said: Vec::new(),
+            media: Media::default(),
+            told: BTreeSet::new(),
+            kept: KeptAnalyses::default(),
+        }
+    }
+
+    /// Reads it again.
+    pub fn read(&mut self, documents: &Documents) {
+        (self.is_stale, self.is_untold) = (false, true);
+        let text = documents.get(self.root.path()).map(|document| document.text.clone());
+        if let (Root::File(path), Some(text)) = (&self.root, text)
+            && let Some(kind) = plain::stage(path, &text)
+        {
+            let texts = vec![(path.clone(), text, kind)];
+            self.take_alone(texts);
+            self.said = self.stages[0].analysis.diagnostics().to_vec();
+            return;
+        }
+        match project::load_edited(self.root.path(), documents.texts()) {
+            Ok(loaded) => self.take_project(loaded),
+            Err(error) => {
+                let around = self.root.base();
+                let here = documents.iter().filter(|document| document.path.starts_with(around));
+                let is_text = |path: &Path| !project::is_manifest(path);
+                let alone = here.filter(|document| is_text(&document.path)).map(|document| {
+                    let kind = plain::stage(&document.path, &document.text).unwrap_or(PassKind::Image);
+                    (document.path.clone(), document.text.clone(), kind)
+                });
+                let alone: Vec<_> = match &self.root {
+                    Root::Folder(_) => alone.collect(),
+                    Root::File(path) => alone.filter(|(other, ..)| other == path).collect(),
+                };
+                self.take_alone(alone);
+                self.take_error(&error);
+            }
+        }
+    }
+
+    fn take_project(&mut self, loaded: project::Loaded) {
+        let project::Loaded { project, warnings, sources } = loaded;
+        let texts = Sources::new(&project);
+        self.stages = self.kept.analyse(&project, &texts);
+        let mut said = warnings;
+        said.extend(self.kept.diagnose(&project, &texts, &self.stages));
+        let advice = project::advice(&project);
+        let is_new = |d: &Diagnostic| !said.iter().any(|known| d.repeats(known));
+        let advice: Vec<Diagnostic> = advice.into_iter().filter(is_new).collect();
+        said.extend(advice);
+        self.said = said;
+        let includes = project.includes.iter().map(|included| &included.source);
+        let own = project.common.iter().map(Some).chain(project.common.is_none().then_some(None));
+        let own = own.chain(project.passes.iter().map(|pass| Some(&pass.source)));
+        let own = own.chain(project.stages().map(|(_, stage)| Some(stage))).chain(includes.map(Some));
+        let base = self.root.base().to_owned();
+        let file = |source: Option<&project::Source>| {
+            source.map_or_else(PathBuf::new, |s| s.path.clone().unwrap_or_else(|| base.join(&s.name)))
+        };
+        let mut paths: Vec<PathBuf> = own.map(file).collect();
+        let beside = sources.iter().skip(paths.len()).map(|(_, text)| base.join(&text.name));
+        paths.extend(beside.collect::<Vec<_>>());
+        self.uniforms = project.custom_uniform_names();
+        (self.paths, self.texts) = (paths, sources);
+        self.plain.clear();
+        drop(texts);
+        self.project = Some(project);
+    }
+
+    /// Takes texts that belong to no project, each for itself.
+    fn take_alone(&mut self, texts: Vec<(PathBuf, Arc<str>, PassKind)>) {
+        self.project = None;
+        (self.texts, self.stages, self.paths, self.plain) = Default::default();
+        self.uniforms.clear();
+        self.media = Media::default();
+        for (index, (path, text, kind)) in texts.into_iter().enumerate() {
+            let id = self.texts.add(path.file_name().unwrap_or_default().to_string_lossy(), text.clone());
+            let analysis = Arc::new(alone(kind, id, &text));
+            self.stages.push(StageAnalysis { index, stage: Stage::Own, analysis });
+            self.paths.push(path);
+            self.plain.push(kind);
+        }
+    }
+
+    /// Says why the files make no project. What it points into comes behind the texts.
+    fn take_error(&mut self, error: &ProjectError) {
+        let Some((diagnostics, sources)) = error.diagnostics() else {
+            self.said = vec![Diagnostic::error(None, error.to_string())];
+            return;
+        };
+        let ids: Vec<SourceId> = sources
+            .iter()
+            .map(|(_, text)| {
+                self.paths.push(self.root.base().join(&text.name));
+                self.texts.add(text.name.clone(), text.text.clone())
+            })
+            .collect();
+        let moved = |span: &mut Span| {
+            if let Some(id) = ids.get(usize::from(span.source.0)) {
+                span.source = *id;
+            }
+        };
+        self.said = diagnostics.to_vec();
+        for diagnostic in &mut self.said {
+            diagnostic.span.iter_mut().for_each(moved);
+            diagnostic.labels.iter_mut().for_each(|label| moved(&mut label.span));
+            let edits = diagnostic.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
+            edits.for_each(|edit| moved(&mut edit.span));
+        }
+    }
+
+    /// Everything that is wrong, each once.
+    pub fn diagnostics(&self) -> Vec<Diagnostic> {
+        let mut all = self.said.clone();
+        diag::append(&mut all, self.media.said.iter().cloned());
+        all
+    }
+
+    /// The pictures and models are others than those that were looked at last.
+    pub fn has_unseen_media(&self) -> bool {
+        let Some(project) = &self.project else { return false };
+        let now = project.passes.iter().map(|pass| (&pass.channels, &pass.settings));
+        self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s)| (c, s)).eq(now))
+    }
+
+    /// Looks at pictures and models, which may take as long as they are large.
+    pub fn look_at_media(&mut self) {
+        let Some(project) = &self.project else { return };
+        let of = project.passes.iter().map(|pass| (pass.channels.clone(), pass.settings.clone())).collect();
+        let said = media::diagnose(project);
+        self.is_untold |= said != self.media.said;
+        self.media = Media { of: Some(of), said };
+    }
+
+    /// Files on disk have changed.
+    pub fn forget_media(&mut self) {
+        self.media.of = None;
+    }
+
+    /// Returns the text of a file.
+    pub fn id_of(&self, path: &Path) -> Option<SourceId> {
+        let at = self.paths.iter().position(|other| other == path)?;
+        Some(SourceId(at as u16))
+    }
+
+    pub fn contains(&self, path: &Path) -> bool {
+        self.id_of(path).is_some()
+    }
+
+    /// Returns the file of a text.
+    pub fn path_of(&self, id: SourceId) -> Option<&Path> {
+        self.paths.get(usize::from(id.0)).map(PathBuf::as_path).filter(|path| !path.as_os_str().is_empty())
+    }
+
+    pub fn text(&self, id: SourceId) -> &str {
+        self.texts.get(id).map_or("", |text| &text.text)
+    }
+
+    /// Returns the stage that a text is read with: its own; of what several have in them, that of Image or the first.
+    pub fn analysis(&self, id: SourceId) -> Option<&Analysis> {
+        let Some(project) = &self.project else {
+            return self.stages.get(usize::from(id.0)).map(|stage| &*stage.analysis);
+        };
+        let own = self.stages.iter().find(|stage| project.stage_id(stage.index, stage.stage) == id);
+        let has_it = |stage: &&StageAnalysis| stage.analysis.text(id).is_some();
+        let image = |stage: &&StageAnalysis| project.passes[stage.index].id == PassId::Image;
+        let with = || self.stages.iter().filter(has_it);
+        let found = own.or_else(|| with().find(image)).or_else(|| with().next())?;
+        Some(&found.analysis)
+    }
+
+    /// The file that a diagnostic without a place is shown in.
+    pub fn main_path(&self) -> Option<&Path> {
+        let image = self.project.as_ref().and_then(|project| {
+            let index = project.passes.iter().position(|pass| pass.id == PassId::Image)?;
+            self.path_of(Project::pass_id(index))
+        });
+        let root = match &self.root {
+            Root::File(path) => Some(path.as_path()),
+            Root::Folder(_) => None,
+        };
+        image.or(root).or_else(|| self.paths.iter().map(PathBuf::as_path).find(|path| !path.as_os_str().is_empty()))
+    }
+
+    /// Hands out all stages together.
+    pub fn programs<T>(&self, work: impl FnOnce(&Programs<'_>) -> T) -> T {
+        let analyses: Vec<&Analysis> = self.stages.iter().map(|stage| &*stage.analysis).collect();
+        work(&Programs { analyses: &analyses, uniforms: &self.uniforms, texts: &self.texts })
+    }
+
+    /// Returns the edits that give the name at a byte of a text another one, or why that cannot be.
+    pub fn rename(&self, at: (SourceId, usize), to: &str) -> Result<Fix, String> {
+        self.programs(|programs| {
+            let (name, _) = programs.renamable(at.0, at.1)?;
+            if let Some(place) = self.project.as_ref().and_then(|project| project.fill_that_names(&name)) {
+                return Err(format!("`{name}` is used in {place} too: write `{to}` there first, then rename it"));
+            }
+            programs.rename(at, to, |fix, check| match &self.project {
+                Some(project) => {
+                    let renamed = project.with_edits(fix);
+                    let texts = Sources::new(&renamed);
+                    let stages = KeptAnalyses::default().analyse(&renamed, &texts);
+                    let analyses: Vec<&Analysis> = stages.iter().map(|stage| &*stage.analysis).collect();
+                    let uniforms = renamed.custom_uniform_names();
+                    check(&Programs { analyses: &analyses, uniforms: &uniforms, texts: &renamed.texts() });
+                }
+                None => {
+                    let mut texts = SourceMap::default();
+                    for (id, text) in self.texts.iter() {
+                        texts.add(text.name.clone(), fix.applied(id, &text.text));
+                    }
+                    let read = self.plain.iter().zip(texts.iter());
+                    let read: Vec<Analysis> = read.map(|(kind, (id, text))| alone(*kind, id, &text.text)).collect();
+                    let analyses: Vec<&Analysis> = read.iter().collect();
+                    check(&Programs { analyses: &analyses, uniforms: &[], texts: &texts });
+                }
+            })
+        })
+    }
+
+    /// Returns whether it is a file that is nobody else's: a pass of its own, not one that others include.
+    pub fn is_whole(&self) -> bool {
+        match &self.root {
+            Root::Folder(_) => true,
+            Root::File(path) => self.id_of(path).is_some_and(|id| plain::has_entry(self.text(id))),
+        }
+    }
+}
+
+/// Reads a text of no project.
+fn alone(kind: PassKind, id: SourceId, text: &str) -> Analysis {
+    Analysis::new(&PassSource::new(kind, Text { id, text }))
+}
+
+/// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone.
+pub(crate) fn root_of(path: &Path, edited: &EditedTexts) -> Root {
+    if project::is_manifest(path) {
+        return Root::Folder(path.parent().unwrap_or(Path::new("")).to_owned());
+    }
+    let alone = Root::File(path.to_owned());
+    let Some(folder) = project::folder_around(path) else { return alone };
+    let belongs = match project::load_edited(&folder, edited) {
+        Ok(loaded) => {
+            let includes = loaded.project.includes.iter().map(|included| &included.source);
+            loaded.project.tab_sources().chain(includes).any(|source| source.path.as_deref() == Some(path))
+        }
+        // A mistake in `eddy.toml` is told where its files are open.
+        Err(ProjectError::Invalid { .. }) => path.parent() == Some(&folder),
+        Err(_) => false,
+    };
+    if belongs { Root::Folder(folder) } else { alone }
+}

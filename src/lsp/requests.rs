@@ -1,0 +1,227 @@
+//! The requests about documents, by their methods.
+
+use super::{
+    actions, completion,
+    documents::path_of,
+    hints, hover,
+    messages::{Answer, answer, error, failed},
+    navigation,
+    positions::{Encoding, Lines},
+    program::Program,
+    published::Places,
+    symbols, tokens,
+    workspace::Workspace,
+};
+use eddy_diag::SourceId;
+use gen_lsp_types::{
+    self as lsp, CodeActionContext, CodeActionKind, Contents, Hover, Position, PrepareRenamePlaceholder,
+    PrepareRenameResult, ReferenceContext, TextDocumentIdentifier, TextDocumentPositionParams,
+};
+use lsp_server::ErrorCode;
+use serde::{Deserialize, de::DeserializeOwned};
+use serde_json::Value;
+
+/// The abilities of an editor that not every editor has.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Abilities {
+    /// Parameters of a signature are said by where they stand in it.
+    pub label_offsets: bool,
+}
+
+/// Parameters that are read by what Eddy needs of them: an editor may add others.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct OfDocument {
+    text_document: TextDocumentIdentifier,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct OfRange {
+    text_document: TextDocumentIdentifier,
+    range: lsp::Range,
+    context: Option<CodeActionContext>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct OfReferences {
+    context: ReferenceContext,
+    #[serde(flatten)]
+    place: TextDocumentPositionParams,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct OfRename {
+    new_name: String,
+    #[serde(flatten)]
+    place: TextDocumentPositionParams,
+}
+
+#[derive(Deserialize)]
+struct OfQuery {
+    query: String,
+}
+
+fn read<T: DeserializeOwned>(params: Value) -> Result<T, lsp_server::ResponseError> {
+    serde_json::from_value(params).map_err(|why| error(ErrorCode::InvalidParams, why.to_string()))
+}
+
+/// A text of a program that is asked about.
+struct Asked<'a> {
+    program: &'a Program,
+    places: Places<'a>,
+    id: SourceId,
+}
+
+impl<'a> Asked<'a> {
+    fn lines(&mut self) -> Lines<'a> {
+        self.places.lines(self.id).clone()
+    }
+
+    fn offset(&mut self, position: Position) -> usize {
+        let id = self.id;
+        self.places.lines(id).offset(position)
+    }
+}
+
+/// Asks about a document. One that is not open, or of which nothing is known, gets the empty answer.
+fn ask(
+    workspace: &mut Workspace,
+    encoding: Encoding,
+    document: &TextDocumentIdentifier,
+    work: impl FnOnce(Asked<'_>) -> Answer,
+) -> Answer {
+    let path = path_of(&document.uri.0);
+    if workspace.find(&path).is_err() {
+        return Ok(Value::Null);
+    }
+    // Asked for again, as what is found borrows the documents too.
+    let owner = workspace.owner(&path).map(|index| &workspace.programs[index]);
+    let Some((program, id)) = owner.and_then(|program| Some((program, program.id_of(&path)?))) else {
+        return Ok(Value::Null);
+    };
+    work(Asked { program, places: Places::new(program, &workspace.documents, encoding), id })
+}
+
+/// Answers a request; `None` for a method that Eddy does not know.
+pub(crate) fn request(
+    workspace: &mut Workspace,
+    (encoding, abilities): (Encoding, Abilities),
+    method: &str,
+    params: Value,
+) -> Option<Answer> {
+    let about_place = |params: Value, workspace: &mut Workspace, work: &dyn Fn(Asked<'_>, usize) -> Answer| -> Answer {
+        let TextDocumentPositionParams { text_document, position } = read(params)?;
+        ask(workspace, encoding, &text_document, |mut asked| {
+            let at = asked.offset(position);
+            work(asked, at)
+        })
+    };
+    let about_document = |params: Value, workspace: &mut Workspace, work: &dyn Fn(Asked<'_>) -> Answer| -> Answer {
+        let OfDocument { text_document } = read(params)?;
+        ask(workspace, encoding, &text_document, work)
+    };
+    Some(match method {
+        "textDocument/hover" => about_place(params, workspace, &|mut asked, at| {
+            let found = hover::hover(asked.program, asked.id, at);
+            answer(found.map(|(text, span)| Hover {
+                contents: Contents::MarkupContent(text),
+                range: Some(asked.places.range(span)),
+            }))
+        }),
+        "textDocument/completion" => about_place(params, workspace, &|mut asked, at| {
+            let lines = asked.lines();
+            answer(completion::completions(asked.program, asked.id, at, &lines))
+        }),
+        "textDocument/signatureHelp" => about_place(params, workspace, &|asked, at| {
+            answer(hover::signature(asked.program, asked.id, at, encoding, abilities.label_offsets))
+        }),
+        "textDocument/definition" | "textDocument/declaration" => about_place(params, workspace, &|mut asked, at| {
+            answer(navigation::definition(asked.program, &mut asked.places, asked.id, at))
+        }),
+        "textDocument/documentHighlight" => about_place(params, workspace, &|mut asked, at| {
+            answer(navigation::highlights(asked.program, &mut asked.places, asked.id, at))
+        }),
+        "textDocument/references" => references(workspace, encoding, params),
+        "textDocument/prepareRename" => about_place(params, workspace, &|mut asked, at| {
+            let found = asked.program.programs(|programs| programs.renamable(asked.id, at));
+            let (placeholder, span) = found.map_err(failed)?;
+            let range = asked.places.range(span);
+            answer(PrepareRenameResult::PrepareRenamePlaceholder(PrepareRenamePlaceholder { range, placeholder }))
+        }),
+        "textDocument/rename" => rename(workspace, encoding, params),
+        "textDocument/documentSymbol" => about_document(params, workspace, &|mut asked| {
+            let lines = asked.lines();
+            answer(symbols::of_document(asked.program, asked.id, &lines))
+        }),
+        "textDocument/foldingRange" => about_document(params, workspace, &|mut asked| {
+            let lines = asked.lines();
+            answer(tokens::folds(asked.program, asked.id, &lines))
+        }),
+        "textDocument/semanticTokens/full" => about_document(params, workspace, &|mut asked| {
+            let lines = asked.lines();
+            answer(tokens::tokens(asked.program, asked.id, &lines, 0..u32::MAX))
+        }),
+        "textDocument/semanticTokens/range" => about_range(workspace, encoding, params, |mut asked, range, _| {
+            let lines = asked.lines();
+            let rows = range.start.line..range.end.line.saturating_add(1);
+            answer(tokens::tokens(asked.program, asked.id, &lines, rows))
+        }),
+        "textDocument/inlayHint" => about_range(workspace, encoding, params, |mut asked, range, _| {
+            let lines = asked.lines();
+            answer(hints::hints(asked.program, asked.id, &lines, lines.bytes(range)))
+        }),
+        "textDocument/codeAction" => about_range(workspace, encoding, params, |mut asked, range, context| {
+            // An editor that asks for refactorings alone gets no fixes.
+            let only = context.and_then(|context| context.only);
+            let is_wanted = |kind: &CodeActionKind| matches!(kind, CodeActionKind::QuickFix | CodeActionKind::Empty);
+            if only.is_some_and(|only| !only.iter().any(is_wanted)) {
+                return answer(Vec::<lsp::CodeAction>::new());
+            }
+            let bytes = asked.lines().bytes(range);
+            answer(actions::actions(asked.program, &mut asked.places, asked.id, bytes))
+        }),
+        "workspace/symbol" => read(params).and_then(|OfQuery { query }| {
+            workspace.settle();
+            let mut found = Vec::new();
+            for program in &workspace.programs {
+                symbols::of_program(program, &workspace.documents, encoding, &query, &mut found);
+            }
+            answer(found)
+        }),
+        "textDocument/formatting" | "textDocument/rangeFormatting" | "textDocument/onTypeFormatting" => {
+            Err(failed("Eddy does not format shaders: their layout is their author's"))
+        }
+        _ => return None,
+    })
+}
+
+fn about_range(
+    workspace: &mut Workspace,
+    encoding: Encoding,
+    params: Value,
+    work: impl FnOnce(Asked<'_>, lsp::Range, Option<CodeActionContext>) -> Answer,
+) -> Answer {
+    let OfRange { text_document, range, context } = read(params)?;
+    ask(workspace, encoding, &text_document, |asked| work(asked, range, context))
+}
+
+fn references(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
+    let OfReferences { context, place } = read(params)?;
+    ask(workspace, encoding, &place.text_document, |mut asked| {
+        let at = asked.offset(place.position);
+        let all = context.include_declaration;
+        answer(navigation::references(asked.program, &mut asked.places, asked.id, at, all))
+    })
+}
+
+fn rename(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
+    let OfRename { new_name, place } = read(params)?;
+    ask(workspace, encoding, &place.text_document, |mut asked| {
+        let at = asked.offset(place.position);
+        let fix = asked.program.rename((asked.id, at), &new_name).map_err(failed)?;
+        answer(actions::edit(asked.program, &mut asked.places, &fix))
+    })
+}

@@ -1,0 +1,313 @@
+//! Messages in, messages out: the life of a server, the documents that it is told of, and what it does while nothing is
+//! asked.
+
+use super::{
+    messages::error,
+    positions::Encoding,
+    program::Root,
+    published::publish,
+    requests::{self, Abilities},
+    tokens, uris,
+    workspace::Workspace,
+};
+use eddy_project as project;
+use gen_lsp_types::{
+    CodeActionKind, CodeActionOptions, CodeActionProvider, CompletionOptions, DeclarationProvider, DefinitionProvider,
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, DocumentHighlightProvider,
+    DocumentSymbolProvider, FoldingRangeProvider, Full, HoverProvider, InlayHintProvider, ReferencesProvider,
+    RenameOptions, RenameProvider, Save, SemanticTokensOptions, SemanticTokensOptionsRange, SemanticTokensProvider,
+    ServerCapabilities, SignatureHelpOptions, TextDocumentSync, TextDocumentSyncKind, TextDocumentSyncOptions,
+    WorkspaceSymbolProvider,
+};
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::PathBuf,
+};
+
+/// The state of a server.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Life {
+    #[default]
+    Begun,
+    Running,
+    /// `shutdown` was asked for.
+    Ending,
+}
+
+/// A language server without a stream.
+#[derive(Default)]
+pub struct Server {
+    life: Life,
+    encoding: Encoding,
+    abilities: Abilities,
+    /// The editor tells of files that change on disk where it is asked to.
+    watches_files: bool,
+    workspace: Workspace,
+    /// Projects of folders that the editor has open: they are read also while none of their files is open.
+    folders: Vec<PathBuf>,
+}
+
+impl Server {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes a message in; what is to be sent is added to `out`. Returns the exit code when the editor has said that the
+    /// server shall end: 0, or 1 if it did not ask to shut down first.
+    pub fn handle(&mut self, message: Message, out: &mut Vec<Message>) -> Option<u8> {
+        match message {
+            Message::Request(request) => self.request(request, out),
+            Message::Notification(Notification { method, .. }) if method == "exit" => {
+                return Some(u8::from(self.life != Life::Ending));
+            }
+            Message::Notification(notification) => {
+                self.guarded(|server| server.notified(notification, out));
+            }
+            // Of what this server asks, no answer is needed.
+            Message::Response(_) => {}
+        }
+        None
+    }
+
+    /// Does the next piece of work that nobody waits for: reads what has changed, tells of diagnostics, looks at pictures.
+    /// Returns false when there is none.
+    pub fn idle(&mut self, out: &mut Vec<Message>) -> bool {
+        if self.life != Life::Running {
+            return false;
+        }
+        let mut did = false;
+        self.guarded(|server| did = server.idle_work(out));
+        did
+    }
+
+    fn idle_work(&mut self, out: &mut Vec<Message>) -> bool {
+        let is_stale = self.workspace.programs.iter().any(|program| program.is_stale);
+        if is_stale {
+            self.workspace.settle();
+        }
+        let folders = &self.folders;
+        let left = self.workspace.take_left(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
+        for program in left {
+            // Whoever has these documents now tells of them.
+            for uri in program.told {
+                if self.owner_of(&uri).is_none() {
+                    out.push(told(&json!({"uri": uri, "diagnostics": []})));
+                }
+            }
+        }
+        if let Some(index) = self.workspace.programs.iter().position(|program| program.is_untold) {
+            self.publish(index, out);
+            return true;
+        }
+        let unseen = self.workspace.programs.iter_mut().find(|program| program.has_unseen_media());
+        let Some(program) = unseen else { return is_stale };
+        program.look_at_media();
+        true
+    }
+
+    fn owner_of(&self, uri: &str) -> Option<usize> {
+        let path = super::documents::path_of(uri);
+        self.workspace.documents.get(&path)?;
+        self.workspace.owner(&path)
+    }
+
+    fn publish(&mut self, index: usize, out: &mut Vec<Message>) {
+        let owners: Vec<(PathBuf, Option<usize>)> = (self.workspace.documents.iter())
+            .map(|document| (document.path.clone(), self.workspace.owner(&document.path)))
+            .collect();
+        let is_others = |path: &std::path::Path| {
+            owners.iter().any(|(other, owner)| other == path && owner.is_some_and(|owner| owner != index))
+        };
+        let Workspace { documents, programs } = &mut self.workspace;
+        for params in publish(&mut programs[index], documents, self.encoding, is_others) {
+            out.push(told(&params));
+        }
+    }
+
+    /// Does what must not end the server, whatever it meets.
+    fn guarded(&mut self, work: impl FnOnce(&mut Self)) -> bool {
+        let done = catch_unwind(AssertUnwindSafe(|| work(self)));
+        if done.is_err() {
+            log::error!("a message could not be handled; the documents are read again");
+            // What was half done is done from the beginning.
+            self.workspace.programs.clear();
+            let paths: Vec<PathBuf> = self.workspace.documents.iter().map(|d| d.path.clone()).collect();
+            for path in paths {
+                self.workspace.begin(Root::File(path));
+            }
+        }
+        done.is_ok()
+    }
+
+    fn request(&mut self, Request { id, method, params }: Request, out: &mut Vec<Message>) {
+        let answer = match (self.life, method.as_str()) {
+            (Life::Begun, "initialize") => {
+                self.life = Life::Running;
+                Ok(self.initialize(&params))
+            }
+            (Life::Begun, _) => Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first")),
+            (_, "initialize") => Err(error(ErrorCode::InvalidRequest, "\"initialize\" was sent before")),
+            (Life::Ending, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
+            (Life::Running, "shutdown") => {
+                self.life = Life::Ending;
+                Ok(Value::Null)
+            }
+            (Life::Running, _) => {
+                let setting = (self.encoding, self.abilities);
+                let mut answer = None;
+                let is_done = self.guarded(|server| {
+                    answer = requests::request(&mut server.workspace, setting, &method, params);
+                });
+                match answer {
+                    Some(answer) => answer,
+                    None if is_done => {
+                        Err(error(ErrorCode::MethodNotFound, format!("Eddy does not know the method {method}")))
+                    }
+                    None => Err(error(ErrorCode::InternalError, "this is a bug in Eddy: please report it")),
+                }
+            }
+        };
+        out.push(Message::Response(Response { id, response_result: answer }));
+    }
+
+    /// Reads what the editor can, by itself: an editor may say more than any version of the protocol knows.
+    fn initialize(&mut self, params: &Value) -> Value {
+        let at = |path: &str| params.pointer(path);
+        let encodings = at("/capabilities/general/positionEncodings");
+        let encodings: Vec<String> =
+            encodings.and_then(|list| serde_json::from_value(list.clone()).ok()).unwrap_or_default();
+        self.encoding = Encoding::choose(&encodings);
+        let signature = "/capabilities/textDocument/signatureHelp/signatureInformation/parameterInformation";
+        let is_on = |path: &str| at(path).and_then(Value::as_bool).unwrap_or_default();
+        self.abilities.label_offsets = is_on(&format!("{signature}/labelOffsetSupport"));
+        self.watches_files = is_on("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration");
+        let folders = at("/workspaceFolders").and_then(Value::as_array).into_iter().flatten();
+        let folders = folders.filter_map(|folder| folder.get("uri")?.as_str());
+        let root = at("/rootUri").and_then(Value::as_str);
+        let is_project = |path: &PathBuf| project::folder_around(&path.join("image.glsl")).as_ref() == Some(path);
+        for path in folders.chain(root).filter_map(uris::path).filter(is_project) {
+            if !self.folders.contains(&path) {
+                self.workspace.begin(Root::Folder(path.clone()));
+                self.folders.push(path);
+            }
+        }
+        json!({
+            "capabilities": capabilities(self.encoding),
+            "serverInfo": { "name": "eddy", "version": env!("CARGO_PKG_VERSION") },
+        })
+    }
+
+    fn notified(&mut self, Notification { method, params }: Notification, out: &mut Vec<Message>) {
+        if self.life != Life::Running {
+            return;
+        }
+        match method.as_str() {
+            "initialized" if self.watches_files => out.push(watch()),
+            "textDocument/didOpen" => {
+                if let Some(DidOpenTextDocumentParams { text_document }) = read(&method, params) {
+                    let path = self.workspace.documents.open(text_document);
+                    self.workspace.opened(&path);
+                }
+            }
+            "textDocument/didChange" => {
+                if let Some(DidChangeTextDocumentParams { text_document, content_changes }) = read(&method, params) {
+                    let changed = self.workspace.documents.change(&text_document, content_changes, self.encoding);
+                    if let Some(path) = changed {
+                        self.workspace.changed(&path);
+                    }
+                }
+            }
+            "textDocument/didClose" => {
+                if let Some(DidCloseTextDocumentParams { text_document }) = read(&method, params)
+                    && let Some(path) = self.workspace.documents.close(&text_document.uri.0)
+                {
+                    // What is on disk counts again.
+                    self.workspace.changed(&path);
+                }
+            }
+            "workspace/didChangeWatchedFiles" => self.workspace.changed_on_disk(),
+            // Who tells of files that change has told of this one too.
+            "textDocument/didSave" if !self.watches_files => self.workspace.changed_on_disk(),
+            // `$/cancelRequest` is for who waits for messages; all others are not Eddy's.
+            _ => {}
+        }
+    }
+
+    /// Answers a request that the editor has cancelled before its turn came.
+    pub fn cancelled(id: RequestId) -> Message {
+        Message::Response(Response { id, response_result: Err(error(ErrorCode::RequestCanceled, "cancelled")) })
+    }
+}
+
+/// Reads the parameters of a notification; of one that makes no sense nobody can be told.
+fn read<T: DeserializeOwned>(method: &str, params: Value) -> Option<T> {
+    serde_json::from_value(params).inspect_err(|why| log::warn!("{method}: {why}")).ok()
+}
+
+fn told(params: &impl serde::Serialize) -> Message {
+    Message::Notification(Notification::new("textDocument/publishDiagnostics".into(), params))
+}
+
+/// Asks the editor to tell of files that change on disk.
+fn watch() -> Message {
+    let pattern = "**/*.{glsl,frag,vert,fs,vs,toml,png,jpg,jpeg,webp,hdr,exr,npy,glb,gltf,obj,mp3,ogg,wav,mp4,webm}";
+    let params = json!({ "registrations": [{
+        "id": "eddy-files",
+        "method": "workspace/didChangeWatchedFiles",
+        "registerOptions": { "watchers": [{ "globPattern": pattern }] },
+    }] });
+    Message::Request(Request {
+        id: RequestId::from("eddy-files".to_owned()),
+        method: "client/registerCapability".into(),
+        params,
+    })
+}
+
+/// The capabilities of this server.
+fn capabilities(encoding: Encoding) -> ServerCapabilities {
+    let letters = |all: &[&str]| Some(all.iter().map(|letter| (*letter).to_owned()).collect());
+    ServerCapabilities {
+        position_encoding: Some(encoding.kind()),
+        text_document_sync: Some(TextDocumentSync::Options(TextDocumentSyncOptions {
+            open_close: Some(true),
+            change: Some(TextDocumentSyncKind::Incremental),
+            save: Some(Save::Bool(true)),
+            ..TextDocumentSyncOptions::default()
+        })),
+        completion_provider: Some(CompletionOptions {
+            trigger_characters: letters(&[".", "#"]),
+            ..CompletionOptions::default()
+        }),
+        hover_provider: Some(HoverProvider::Bool(true)),
+        signature_help_provider: Some(SignatureHelpOptions {
+            trigger_characters: letters(&["(", ","]),
+            ..SignatureHelpOptions::default()
+        }),
+        declaration_provider: Some(DeclarationProvider::Bool(true)),
+        definition_provider: Some(DefinitionProvider::Bool(true)),
+        references_provider: Some(ReferencesProvider::Bool(true)),
+        document_highlight_provider: Some(DocumentHighlightProvider::Bool(true)),
+        document_symbol_provider: Some(DocumentSymbolProvider::Bool(true)),
+        workspace_symbol_provider: Some(WorkspaceSymbolProvider::Bool(true)),
+        code_action_provider: Some(CodeActionProvider::CodeActionOptions(CodeActionOptions {
+            code_action_kinds: Some(vec![CodeActionKind::QuickFix]),
+            ..CodeActionOptions::default()
+        })),
+        rename_provider: Some(RenameProvider::RenameOptions(RenameOptions {
+            prepare_provider: Some(true),
+            ..RenameOptions::default()
+        })),
+        folding_range_provider: Some(FoldingRangeProvider::Bool(true)),
+        semantic_tokens_provider: Some(SemanticTokensProvider::SemanticTokensOptions(SemanticTokensOptions {
+            legend: tokens::legend(),
+            range: Some(SemanticTokensOptionsRange::Bool(true)),
+            full: Some(Full::Bool(true)),
+            ..SemanticTokensOptions::default()
+        })),
+        inlay_hint_provider: Some(InlayHintProvider::Bool(true)),
+        ..ServerCapabilities::default()
+    }
+}

@@ -1,0 +1,151 @@
+//! The stream of messages: `Content-Length` and JSON, both ways, and the order in which messages are handled.
+
+use super::server::Server;
+use eddy_project::limits;
+use lsp_server::{ErrorCode, Message, Notification, RequestId};
+use serde_json::{Value, json};
+use std::{
+    collections::VecDeque,
+    io::{self, BufRead, BufReader, Read, Write},
+    sync::mpsc::{Receiver, TryRecvError, channel},
+};
+
+/// A message from the editor.
+enum Incoming {
+    Message(Message),
+    /// A message that is no JSON of the protocol, and why.
+    Malformed(String),
+}
+
+/// Serves one editor until it says that it ends or closes its stream. Returns the exit code: 0 where it ended as the
+/// protocol has it. Err: the streams cannot be read or written.
+pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Result<u8> {
+    let (sender, incoming) = channel();
+    // It ends with the stream; a read cannot be interrupted, so nobody waits for it.
+    std::thread::Builder::new().name("messages".into()).spawn(move || {
+        let mut input = BufReader::new(input);
+        while let Some(message) = read(&mut input).unwrap_or_else(|why| {
+            log::error!("the editor's messages cannot be read: {why}");
+            None
+        }) {
+            if sender.send(message).is_err() {
+                break;
+            }
+        }
+    })?;
+    run(&incoming, output)
+}
+
+fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> {
+    let mut server = Server::new();
+    let mut waiting: VecDeque<Incoming> = VecDeque::new();
+    let mut out = Vec::new();
+    let mut is_open = true;
+    loop {
+        while is_open {
+            match incoming.try_recv() {
+                Ok(message) => waiting.push_back(message),
+                Err(TryRecvError::Empty) => break,
+                Err(TryRecvError::Disconnected) => is_open = false,
+            }
+        }
+        take_cancelled(&mut waiting, &mut out);
+        match waiting.pop_front() {
+            Some(Incoming::Message(message)) => {
+                if let Some(code) = server.handle(message, &mut out) {
+                    write_all(&mut output, &mut out)?;
+                    return Ok(code);
+                }
+            }
+            Some(Incoming::Malformed(why)) => {
+                // What cannot be read has no id.
+                let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
+                write_value(&mut output, json!({ "id": null, "error": error }))?;
+                output.flush()?;
+            }
+            None if server.idle(&mut out) => {}
+            // Whoever closes the stream without a word has gone.
+            None if !is_open => return Ok(1),
+            None => match incoming.recv() {
+                Ok(message) => waiting.push_back(message),
+                Err(_) => is_open = false,
+            },
+        }
+        write_all(&mut output, &mut out)?;
+    }
+}
+
+/// Answers requests that wait and are cancelled by a later message.
+fn take_cancelled(waiting: &mut VecDeque<Incoming>, out: &mut Vec<Message>) {
+    let id = |message: &Incoming| match message {
+        Incoming::Message(Message::Notification(Notification { method, params })) if method == "$/cancelRequest" => {
+            serde_json::from_value::<RequestId>(params.get("id")?.clone()).ok()
+        }
+        _ => None,
+    };
+    let cancelled: Vec<RequestId> = waiting.iter().filter_map(id).collect();
+    if cancelled.is_empty() {
+        return;
+    }
+    waiting.retain(|message| match message {
+        Incoming::Message(Message::Request(request)) if cancelled.contains(&request.id) => {
+            out.push(Server::cancelled(request.id.clone()));
+            false
+        }
+        message => id(message).is_none(),
+    });
+}
+
+/// Reads the next message; `None` at the end of the stream.
+fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
+    let mut length = None;
+    loop {
+        let mut line = Vec::new();
+        // A header is short: a stream that is none of the protocol's must not fill the memory.
+        if input.by_ref().take(LONGEST_HEADER).read_until(b'\n', &mut line)? == 0 {
+            return Ok(None);
+        }
+        let line = String::from_utf8_lossy(&line);
+        let line = line.trim();
+        match line.split_once(':') {
+            None if line.is_empty() && length.is_some() => break,
+            Some((name, value)) if name.eq_ignore_ascii_case("Content-Length") => length = value.trim().parse().ok(),
+            // Other headers say nothing; what is no header is passed over up to one that is.
+            _ => {}
+        }
+    }
+    let length: u64 = length.unwrap_or_default();
+    let limit = limits::LSP_MESSAGE;
+    let mut text = Vec::new();
+    if length > limit.bytes {
+        io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
+        return Ok(Some(Incoming::Malformed(format!("the message is larger than {limit}"))));
+    }
+    if input.by_ref().take(length).read_to_end(&mut text)? as u64 != length {
+        return Ok(None);
+    }
+    Ok(Some(match serde_json::from_slice(&text) {
+        Ok(message) => Incoming::Message(message),
+        Err(why) => Incoming::Malformed(format!("the message is not one of JSON-RPC: {why}")),
+    }))
+}
+
+/// Bytes of a line of a message's head.
+const LONGEST_HEADER: u64 = 4096;
+
+fn write_all(output: &mut impl Write, out: &mut Vec<Message>) -> io::Result<()> {
+    if out.is_empty() {
+        return Ok(());
+    }
+    for message in out.drain(..) {
+        write_value(output, serde_json::to_value(message)?)?;
+    }
+    output.flush()
+}
+
+fn write_value(output: &mut impl Write, mut value: Value) -> io::Result<()> {
+    value["jsonrpc"] = "2.0".into();
+    let text = serde_json::to_vec(&value)?;
+    write!(output, "Content-Length: {}\r\n\r\n", text.len())?;
+    output.write_all(&text)
+}

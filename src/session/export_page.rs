@@ -1,0 +1,101 @@
+//! Exports the open project as an HTML file that plays it. What the page cannot show is named before anything is written,
+//! and no file is replaced unasked.
+
+use super::{
+    Session,
+    command::Question,
+    recovery::place_for_replaced,
+    view::{About, Level},
+};
+use eddy_diag::{self as diag, Diagnostic, Severity};
+use eddy_project::{self as project, Overwrite, ProjectError};
+use eddy_web as web;
+use std::path::{Path, PathBuf};
+
+impl Session {
+    /// Writes the project to an HTML file, where it shows everything and nothing is there; else asks first. The project
+    /// stays where it is, saved or not.
+    pub(super) fn export_page(&mut self, file: &Path) {
+        self.settled(About::Export);
+        let file = as_html(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+        self.settle_includes();
+        if file.is_dir() {
+            let text = format!("not exported: {} is a folder; give the name of a .html file", file.display());
+            self.notice_about(About::Export, Level::Error, text);
+            return;
+        }
+        let Some((_, lost)) = self.page() else { return };
+        let exists = file.symlink_metadata().is_ok();
+        if exists || !lost.is_empty() {
+            self.ask(Question::Export { file, exists, lost });
+        } else {
+            self.write_page(&file, false);
+        }
+    }
+
+    /// `replaces`: the user lets it replace the file that is there.
+    pub(super) fn write_page(&mut self, file: &Path, replaces: bool) {
+        let Some((html, lost)) = self.page() else { return };
+        let kept = replaces.then(|| place_for_replaced(self.options.recovery.as_deref(), file));
+        let overwrite = kept.as_deref().map_or(Overwrite::Refuse, Overwrite::KeepIn);
+        match project::write_named(file, html.into_bytes(), overwrite) {
+            Ok(()) => {
+                let text = format!("exported {}", file.display());
+                self.notice_with_path(About::Export, Level::Info, text, file.to_owned());
+                if let Some(kept) = kept.filter(|kept| kept.exists()) {
+                    self.tell_of_kept(1, kept);
+                }
+            }
+            // It came there while the question stood.
+            Err(ProjectError::WouldOverwrite { .. }) if !replaces => {
+                self.ask(Question::Export { file: file.to_owned(), exists: true, lost });
+            }
+            Err(e) => self.notice_about(About::Export, Level::Error, format!("not exported: {e}")),
+        }
+    }
+
+    /// Returns the page of the project and what it does not show, each as a sentence. `None`: it has errors, which are told.
+    fn page(&mut self) -> Option<(String, Vec<String>)> {
+        match web::export(self.project(), self.options.media_dir.as_deref()) {
+            Ok(page) => {
+                // The compiler's warnings have a place, and are in the list of problems already.
+                let is_new = |d: &&Diagnostic| d.severity == Severity::Warning && d.span.is_none();
+                let lost = page.diagnostics.iter().filter(is_new).map(|d| d.message.clone()).collect();
+                Some((page.html, lost))
+            }
+            Err(errors) => {
+                let errors: Vec<Diagnostic> = errors.into_iter().filter(Diagnostic::is_error).collect();
+                let told = diag::render_all(&errors, &self.project().sources());
+                self.notice_about(About::Export, Level::Error, format!("not exported: {}", told.trim_end()));
+                None
+            }
+        }
+    }
+}
+
+/// Returns whether a file is a page by its ending.
+pub(super) fn is_page(file: &Path) -> bool {
+    file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm"))
+}
+
+/// Returns a file with the ending that makes it a page.
+fn as_html(file: &Path) -> PathBuf {
+    if is_page(file) {
+        return file.to_owned();
+    }
+    let mut name = file.file_name().unwrap_or_default().to_owned();
+    name.push(".html");
+    file.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_without_an_ending_gets_one() {
+        for (given, wanted) in [("/a/b", "/a/b.html"), ("/a/b.HTM", "/a/b.HTM"), ("/a/v1.2", "/a/v1.2.html")] {
+            assert_eq!(as_html(Path::new(given)), Path::new(wanted));
+        }
+    }
+}

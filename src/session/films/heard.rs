@@ -1,0 +1,95 @@
+//! The sounds that are heard while a film is recorded, frame by frame.
+//!
+//! A player's own samples are not recorded: they are late by what the device takes, and have gaps where the machine is busy.
+//! Sound depends on the time alone, so it is computed afterwards for the times that the frames show.
+
+use eddy_audio::{Scene, Sound, Source};
+use eddy_film::{Moment, Rate, SoundPass, soundtrack_of};
+use eddy_media::{ChannelSound, MediaSet};
+use eddy_playback::offline::{Offline, OfflineError};
+use eddy_project::Project;
+use std::sync::Arc;
+
+/// The music and the sound pass of some frames.
+pub(super) struct Heard {
+    music: Vec<Arc<Sound>>,
+    pass: Option<HeardPass>,
+}
+
+/// A sound pass with the values of its uniforms.
+#[derive(Clone)]
+pub(in super::super) struct HeardPass {
+    /// Passes of the same number differ in the values alone.
+    pub code: u64,
+    pub project: Project,
+    pub media: MediaSet,
+    /// `iDate` of all blocks.
+    pub date: [f32; 4],
+}
+
+impl Heard {
+    pub fn new(music: &[ChannelSound], pass: Option<HeardPass>) -> Self {
+        let mut different: Vec<Arc<Sound>> = Vec::new();
+        for sound in music.iter().map(|music| &music.sound) {
+            if !different.iter().any(|known| Arc::ptr_eq(known, sound)) {
+                different.push(sound.clone());
+            }
+        }
+        Self { music: different, pass }
+    }
+}
+
+/// Says what is heard with each frame of a film.
+#[derive(Default)]
+pub(super) struct HeardSounds {
+    moments: Vec<Moment>,
+    heard: Vec<Heard>,
+    /// The order of the sound pass and the music of the newest frame.
+    newest: Option<(u64, Vec<Arc<Sound>>)>,
+}
+
+impl HeardSounds {
+    /// A frame has a time. `key` tells whether it sounds as the frame before did.
+    pub fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> Heard) {
+        let (number, music) = key;
+        let is_same = self.newest.as_ref().is_some_and(|(newest, known)| {
+            let mut pairs = known.iter().zip(music);
+            *newest == number && known.len() == music.len() && pairs.all(|(a, b)| Arc::ptr_eq(a, &b.sound))
+        });
+        if !is_same {
+            self.newest = Some((number, music.iter().map(|music| music.sound.clone()).collect()));
+            self.heard.push(heard());
+        }
+        self.moments.push(Moment { secs, sound: self.heard.len() - 1 });
+    }
+
+    /// Returns the samples of a film of so many frames; `None` where nothing is heard in it. `open` sets a sound pass up, and
+    /// `goes_on` is asked before each of its blocks.
+    pub fn samples<E: From<OfflineError>>(
+        mut self,
+        frames: u32,
+        rate: Rate,
+        open: impl Fn(&HeardPass) -> Result<Offline, E>,
+        mut goes_on: impl FnMut() -> Result<(), E>,
+    ) -> Result<Option<Vec<[i16; 2]>>, E> {
+        self.moments.truncate(frames as usize);
+        if self.heard.iter().all(|heard| heard.music.is_empty() && heard.pass.is_none()) {
+            return Ok(None);
+        }
+        let mut pass: Option<(u64, SoundPass)> = None;
+        let samples = soundtrack_of(&self.moments, rate, |sound, secs| {
+            let heard = &self.heard[sound];
+            let mut sources: Vec<Source> = heard.music.iter().cloned().map(Source::Loop).collect();
+            if let Some(of) = &heard.pass {
+                let (_, pass) = match pass.take() {
+                    Some(known) if known.0 == of.code => pass.insert(known),
+                    _ => pass.insert((of.code, SoundPass::new(open(of)?))),
+                };
+                let track = pass.track(&of.project.custom_uniform_values, secs, &mut goes_on)?;
+                sources.push(Source::Track(track));
+            }
+            Ok(Scene { sources })
+        });
+        samples.map(Some)
+    }
+}
