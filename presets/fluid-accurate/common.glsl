@@ -22,7 +22,7 @@
 // - Pressure: div grad q = div u, then u -= grad q, which on this grid leaves exactly the residual of q as divergence.
 //   One V(2,2)-cycle (A. Brandt, "Multi-Level Adaptive Solutions to Boundary-Value Problems", Math. Comp. 31, 1977;
 //   weighted Jacobi 0.8) a frame: ten grids, each half of the one before, so that the coarsest has a handful of cells
-//   on any canvas that a device can draw. (With seven it had 15 x 8 at 1920 x 1080, which 40 sweeps do not solve: what
+//   on any canvas that a device can draw; grids of one cell, which change nothing, are not drawn (`when` in eddy.toml). (With seven it had 15 x 8 at 1920 x 1080, which 40 sweeps do not solve: what
 //   they left grew from frame to frame.) It begins where the last frame ended, as q is what the pressure changes by.
 //   What it leaves is at most 0.2 of the divergence (root mean square, canvases from 1920 x 1080 to 66 x 250, odd ones
 //   among them), and the next frame's takes up the rest. Twenty Jacobi sweeps leave more than 0.9 of the long waves.
