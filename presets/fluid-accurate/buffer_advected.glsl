@@ -10,11 +10,13 @@ vec2 driven(vec2 velocity, vec2 cell, vec2 size) {
         vec2 canvas = size * 2.0;
         vec2 moved = (mouse.zw - mouse.xy) / (canvas.y * max(iTimeDelta, 1e-3));
         float quick = length(moved);
-        if (quick > 1e-3) velocity = mix(velocity, moved * min(1.0, 3.0 / quick), 0.6 * brush(at, mouse, canvas));
+        float grip = share(0.6 * brush(at, mouse, canvas), iTimeDelta);
+        if (quick > 1e-3) velocity = mix(velocity, moved * min(1.0, 3.0 / quick), grip);
     } else {
         for (int i = 0; i < JETS; i++) {
             vec4 nozzle = jet(i, iTime, size.x / size.y);
-            velocity = mix(velocity, jet_speed * nozzle.zw, 0.25 * jets * jetWeight(at, nozzle));
+            float push = share(0.25 * jets * jetWeight(at, nozzle), speed * iTimeDelta);
+            velocity = mix(velocity, jet_speed * nozzle.zw, push);
         }
     }
     return velocity;

@@ -1,9 +1,13 @@
-// Three dyes, one a jet, in rgb. Channel 0 is the velocity, channel 1 this buffer in the last frame, channel 2 the
-// mouse.
+// Three dyes, one a jet, in rgb; what was poured of them in this frame, in a. Channel 0 is the velocity, channel 1 this
+// buffer in the last frame, channel 2 the mouse, channel 3 how much dye there should be, and the step.
 #include "staggered.glsl"
 
+const float STRONGEST = 1.3; // of what is poured
+
 vec3 dyeOf(ivec2 p) {
-    vec4 q = texelFetch(iChannel1, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1), 0);
+    ivec2 size = ivec2(iResolution.xy);
+    p = walls == PERIODIC ? p - size * ivec2(floor(vec2(p) / vec2(size))) : clamp(p, ivec2(0), size - 1);
+    vec4 q = texelFetch(iChannel1, p, 0);
     return isFinite(q) ? q.rgb : vec3(0.0);
 }
 
@@ -28,20 +32,23 @@ vec3 dyeAt(vec2 at) {
 
 void mainImage(out vec4 dye, in vec2 fragCoord) {
     vec2 canvas = iResolution.xy, toGrid = vec2(textureSize(iChannel0, 0)) / canvas;
-    vec2 from = quickPath(iChannel0, fragCoord * toGrid, speed * iTimeDelta * iChannelResolution[0].y);
-    vec3 now = dyeAt(from / toGrid - 0.5) * exp(-speed * iTimeDelta / fade_seconds);
+    vec4 ledger = texelFetch(iChannel3, ivec2(0), 0);
+    if (!isFinite(ledger)) ledger = vec4(0.0, 1.0, 1.0, speed * iTimeDelta);
+    vec2 from = quickPath(iChannel0, fragCoord * toGrid, ledger.w * iChannelResolution[0].y);
+    vec3 carried = min(dyeAt(from / toGrid - 0.5) * ledger.y, STRONGEST) * ledger.z, now = carried;
 
     vec2 at = (fragCoord - 0.5 * canvas) / canvas.y;
     vec4 mouse = texelFetch(iChannel2, ivec2(0), 0);
     if (mouse.z > 0.0) {
         vec3 colour = max(vec3(sin(iTime), sin(iTime + 2.0943951), sin(iTime + 4.1887902)), 0.0);
-        now = mix(now, 1.3 * colour, 0.4 * brush(at, mouse, canvas));
+        now = mix(now, STRONGEST * colour, share(0.4 * brush(at, mouse, canvas), iTimeDelta));
     } else {
         for (int i = 0; i < JETS; i++) {
             float w = jets * jetWeight(at, jet(i, iTime, canvas.x / canvas.y));
             vec3 colour = vec3(i == 0, i == 1, i == 2);
-            now = mix(now, 1.3 * colour, 0.4 * w);
+            now = mix(now, STRONGEST * colour, share(0.4 * w, ledger.w));
         }
     }
-    dye = vec4(now, 1.0);
+    vec3 poured = now - carried;
+    dye = vec4(now, poured.r + poured.g + poured.b);
 }

@@ -1,7 +1,7 @@
-// Half of the step's viscosity, along x. Channel 0 is the velocity of the last frame.
+// Half of the step's viscosity, along x. Channel 0 is the velocity of the last frame, channel 1 the pace.
 #include "heat.glsl"
 
 void mainImage(out vec4 velocity, in vec2 fragCoord) {
-    float amount = viscosityHere(0.5 * speed * iTimeDelta, iChannelResolution[0].y);
+    float amount = viscosityHere(0.5 * stepNow(iChannel1), iChannelResolution[0].y);
     velocity = vec4(spreadAlong(iChannel0, ivec2(fragCoord), ivec2(1, 0), amount), 0.0, 0.0);
 }

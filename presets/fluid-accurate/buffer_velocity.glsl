@@ -1,6 +1,6 @@
 // The velocity without its divergence, u - grad q, in xy; the pressure times the step in z, the step in w.
 // Channel 0 is the velocity that the pressure of the last step has pushed, channel 1 the finest grid's q, channel 2
-// this buffer. q is what the pressure has changed by since.
+// this buffer, channel 3 the pace. q is what the pressure has changed by since.
 
 // How much of q goes into the pressure that the next step begins with. With 2 it is the pressure at the end of the step
 // and rings; with 1 it is that in its middle, and what changes is damped. Carried by a velocity that makes nothing
@@ -25,7 +25,7 @@ void mainImage(out vec4 velocity, in vec2 fragCoord) {
     float q = at(p, size);
     u -= q - vec2(at(p - ivec2(1, 0), size), at(p - ivec2(0, 1), size));
     vec4 before = texelFetch(iChannel2, p, 0);
-    float step = speed * iTimeDelta;
+    float step = stepNow(iChannel3);
     // The mean of a pressure means nothing. What is taken here keeps it from wandering off.
     float pressure = 0.9999 * stepRatio(before.w, step) * before.z;
     velocity = vec4(u, (isFinite(vec4(pressure)) ? pressure : 0.0) + PRESSURE_GAIN * q, step);

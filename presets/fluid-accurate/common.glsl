@@ -14,11 +14,15 @@
 //   extrapolated from the last two; a velocity at the step's beginning makes what the flow carries arrive late, again
 //   by first order. Where the flow deforms by more than 1 in a step, paths cross, the way back means nothing, and only
 //   the way there is taken.
+// - Pace: where the sliders ask for steps in which the flow would deform by more than 2 (neighbouring cells part by two
+//   cells), each step is shortened to that, time in the fluid goes slower, and Image hatches the foot of the picture. A
+//   lid of speed 2 without viscosity at ten times the speed else made the fluid five times as fast as itself; now nothing
+//   is faster than 1.1 times the lid. Left alone at its defaults, the preset never gets there.
 // - Viscosity: the heat equation's own weights (heat.glsl), so that no viscosity and no step is too much.
 // - Pressure: div grad q = div u, then u -= grad q, which on this grid leaves exactly the residual of q as divergence.
 //   One V(2,2)-cycle (A. Brandt, "Multi-Level Adaptive Solutions to Boundary-Value Problems", Math. Comp. 31, 1977;
 //   weighted Jacobi 0.8) a frame: ten grids, each half of the one before, so that the coarsest has a handful of cells
-//   on any canvas that a device can draw. (With seven it had 15 x 8 at 1920 x 1080, which 40 sweeps do not solve: what
+//   on any canvas that a device can draw; grids of one cell, which change nothing, are not drawn (`when` in eddy.toml). (With seven it had 15 x 8 at 1920 x 1080, which 40 sweeps do not solve: what
 //   they left grew from frame to frame.) It begins where the last frame ended, as q is what the pressure changes by.
 //   What it leaves is at most 0.2 of the divergence (root mean square, canvases from 1920 x 1080 to 66 x 250, odd ones
 //   among them), and the next frame's takes up the rest. Twenty Jacobi sweeps leave more than 0.9 of the long waves.
@@ -31,11 +35,13 @@
 // - The cavity of Ghia, Ghia, Shin, two cells a step: within 0.004 of the tables at Re = 400 and 0.01 at Re = 100; at
 //   Re = 1000 within 0.009 of a high-order method, from which the table itself is 0.0185 off. No noise at the lid.
 //
-// Units: canvas heights and seconds. The grid is half the canvas each way; the dye has every pixel.
+// Units: canvas heights and seconds. The grid is half the canvas each way; the dye has every pixel. Jets and hand push by
+// the second, not by the frame: a frame rate of 30, 60 or 144 gives the same flow until eddies part by chance. So does a
+// canvas of another size, as far as its cells resolve the jets.
 
 // Canvas heights squared a second.
 #iUniform float viscosity = 0.0 in { 0.0, 0.01 }
-// Time against the clock's.
+// Time against the clock's, where the flow bears such steps.
 #iUniform float speed = 1.0 in { 0.0, 10.0 }
 #iUniform bool limiter = true
 // 0: walls along which the fluid slips, 1: walls to which it sticks, 2: none, the picture repeats.
@@ -53,10 +59,23 @@ bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
 }
 
+// What the pace is in its buffer, and the step at it, in seconds of the fluid.
+float paceIn(sampler2D buffer_pace) {
+    vec4 pace = texelFetch(buffer_pace, ivec2(0), 0);
+    return isFinite(pace) ? clamp(pace.x, 0.0, 1.0) : 1.0;
+}
+
+float stepNow(sampler2D buffer_pace) {
+    return speed * iTimeDelta * paceIn(buffer_pace);
+}
+
 // Cells squared in so many seconds.
 float viscosityHere(float seconds, float rows) {
     return viscosity * seconds * rows * rows;
 }
+
+// The most that the flow may deform in a step, as a difference of the velocity across a cell times the step in cells.
+const float MOST_DEFORMATION = 2.0;
 
 // What the pressure times the last step, `before`, is multiplied by to be times this one. 0 where there was no step.
 float stepRatio(float before, float now) {
@@ -66,6 +85,12 @@ float stepRatio(float before, float now) {
 // --------------------------------------------------------------------------------------------- forces: jets and a hand
 
 const int JETS = 3;
+
+// What pushes or pours takes the fluid to what it wants by this part of the way in so many seconds, where in a 60th it
+// takes it by `sixtieth`: the same in a second at any frame rate.
+float share(float sixtieth, float seconds) {
+    return 1.0 - pow(1.0 - min(sixtieth, 0.999), 60.0 * seconds);
+}
 
 // (x, y, cos, sin): position in heights from the canvas's middle, direction.
 vec4 jet(int i, float time, float aspect) {

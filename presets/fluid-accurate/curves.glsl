@@ -12,9 +12,8 @@ void mainImage(out vec4 curves, in vec2 fragCoord) {
         here[j] = y.lid + y.sign * texelFetch(iChannel0, ivec2(p.x, y.at), 0)[AXIS];
         after[j] = r.sign * (y.lid + y.sign * texelFetch(iChannel0, ivec2(r.at, y.at), 0)[AXIS]);
     }
-    const vec3 SECOND = vec3(1.0, -2.0, 1.0);
-    vec3 bend = before - 2.0 * here + after;
-    curves = vec4(here.y, bend.y, dot(here, SECOND), dot(bend, SECOND));
+    vec3 bend = (before - here) + (after - here);
+    curves = vec4(here.y, bend.y, (here.x - here.y) + (here.z - here.y), (bend.x - bend.y) + (bend.z - bend.y));
     bool wall = walls != PERIODIC && (AXIS == 0 ? p.x : p.y) == 0;
     if (wall || !isFinite(curves)) curves = vec4(0.0);
 }

@@ -1,5 +1,5 @@
 // Three inks in clear water over dark slate. Each has a colour it lets through and one it scatters; the folds are lit
-// as if thickness were height. Channel 0 is the dye.
+// as if thickness were height. Channel 0 is the dye, channel 1 the pace.
 
 vec3 dyeOf(ivec2 p) {
     return texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1), 0).rgb;
@@ -28,5 +28,9 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown *= 0.40 + 0.75 * max(dot(n, sun), 0.0);
     shown += 0.25 * thick * pow(max(dot(n, normalize(sun + eye)), 0.0), 40.0);
     shown = pow(max(shown, 0.0), vec3(1.0 / 1.7));
+    if (paceIn(iChannel1) < 0.9 && fragCoord.y < 0.03 * iResolution.y
+        && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
+        shown = vec3(0.85, 0.1, 0.1); // slower than the slider says
+    }
     fragColor = vec4(shown, 1.0);
 }

@@ -1,5 +1,5 @@
 // What the pressure of the last step takes from a velocity in this one: its gradient on the faces. PRESSURE is the
-// texture of the velocity, where z is the pressure times the step and w the step.
+// texture of the velocity, where z is the pressure times the step and w the step; PACE that of the pace.
 
 vec2 pressurePush(ivec2 p) {
     ivec2 size = textureSize(PRESSURE, 0);
@@ -10,6 +10,6 @@ vec2 pressurePush(ivec2 p) {
         if (d.y < 0) d.y += size.y;
     }
     vec2 push = here.z - vec2(texelFetch(PRESSURE, max(l, ivec2(0)), 0).z, texelFetch(PRESSURE, max(d, ivec2(0)), 0).z);
-    push *= stepRatio(here.w, speed * iTimeDelta);
+    push *= stepRatio(here.w, stepNow(PACE));
     return isFinite(vec4(push, 0.0, 0.0)) ? push : vec2(0.0);
 }

@@ -19,8 +19,8 @@ void mainImage(out vec4 f, in vec2 fragCoord) {
             ivec2 p = ivec2(x, y);
             vec2 overlap = min(high, vec2(p + 1)) - max(low, vec2(p));
             vec2 here = texelFetch(iChannel0, p, 0).xy;
-            float lap = w.x * (q(p - ivec2(1, 0), fine) + q(p + ivec2(1, 0), fine) - 2.0 * here.x)
-                      + w.y * (q(p - ivec2(0, 1), fine) + q(p + ivec2(0, 1), fine) - 2.0 * here.x);
+            float lap = w.x * ((q(p - ivec2(1, 0), fine) - here.x) + (q(p + ivec2(1, 0), fine) - here.x))
+                      + w.y * ((q(p - ivec2(0, 1), fine) - here.x) + (q(p + ivec2(0, 1), fine) - here.x));
             sum += overlap.x * overlap.y * (here.y - lap);
             area += overlap.x * overlap.y;
         }

@@ -57,6 +57,13 @@ vec2 fromFaces(vec2 at, vec2 size, int axis) {
     return (walls == PERIODIC ? at : clamp(at, vec2(0.0), size)) - faceAt(ivec2(0), axis);
 }
 
+// Between four values, lower left, lower right, upper left and upper right, by lines. By differences, so that where all
+// are the same the result is, too, to the last bit: what weights that make 1 up to rounding lose, they lose each frame.
+float between(vec4 corners, vec2 f) {
+    float lower = corners.x + f.x * (corners.y - corners.x), upper = corners.z + f.x * (corners.w - corners.z);
+    return lower + f.y * (upper - lower);
+}
+
 // One component in between its faces, by lines.
 float linearAt(sampler2D field, vec2 at, int axis) {
     ivec2 size = textureSize(field, 0);
@@ -65,12 +72,10 @@ float linearAt(sampler2D field, vec2 at, int axis) {
     vec2 f = g - vec2(i);
     Image l = imageX(i.x, size.x, axis), r = imageX(i.x + 1, size.x, axis);
     Image d = imageY(i.y, size.y, axis), u = imageY(i.y + 1, size.y, axis);
-    float left = l.sign * (1.0 - f.x), right = r.sign * f.x, down = 1.0 - f.y, up = f.y;
-    vec2 lower = vec2(texelFetch(field, ivec2(l.at, d.at), 0)[axis], texelFetch(field, ivec2(r.at, d.at), 0)[axis]);
-    vec2 upper = vec2(texelFetch(field, ivec2(l.at, u.at), 0)[axis], texelFetch(field, ivec2(r.at, u.at), 0)[axis]);
-    vec2 sides = vec2(left, right);
-    return (left + right) * (down * d.lid + up * u.lid) + down * d.sign * dot(sides, lower)
-        + up * u.sign * dot(sides, upper);
+    return between(vec4(l.sign * (d.lid + d.sign * texelFetch(field, ivec2(l.at, d.at), 0)[axis]),
+                        r.sign * (d.lid + d.sign * texelFetch(field, ivec2(r.at, d.at), 0)[axis]),
+                        l.sign * (u.lid + u.sign * texelFetch(field, ivec2(l.at, u.at), 0)[axis]),
+                        r.sign * (u.lid + u.sign * texelFetch(field, ivec2(r.at, u.at), 0)[axis])), f);
 }
 
 // By cubics: J. D. Everett's form of Lagrange's interpolation through four points needs only the two in the middle
@@ -86,11 +91,13 @@ float cubicAt(sampler2D curves, vec2 at, int axis) {
     Image d = imageY(i.y, size.y, axis), u = imageY(i.y + 1, size.y, axis);
     vec2 left = l.sign * vec2(c.x, near.x), right = r.sign * vec2(f.x, far.x);
     vec2 down = d.sign * vec2(c.y, near.y), up = u.sign * vec2(f.y, far.y);
-    float lid = (left.x + right.x) * (c.y * d.lid + f.y * u.lid);
-    return lid + dot(texelFetch(curves, ivec2(l.at, d.at), 0), vec4(left * down.x, left * down.y))
-               + dot(texelFetch(curves, ivec2(r.at, d.at), 0), vec4(right * down.x, right * down.y))
-               + dot(texelFetch(curves, ivec2(l.at, u.at), 0), vec4(left * up.x, left * up.y))
-               + dot(texelFetch(curves, ivec2(r.at, u.at), 0), vec4(right * up.x, right * up.y));
+    vec4 ld = texelFetch(curves, ivec2(l.at, d.at), 0), rd = texelFetch(curves, ivec2(r.at, d.at), 0);
+    vec4 lu = texelFetch(curves, ivec2(l.at, u.at), 0), ru = texelFetch(curves, ivec2(r.at, u.at), 0);
+    vec4 corners = vec4(l.sign * (d.lid + d.sign * ld.x), r.sign * (d.lid + d.sign * rd.x),
+                        l.sign * (u.lid + u.sign * lu.x), r.sign * (u.lid + u.sign * ru.x));
+    float bent = dot(ld.yzw, vec3(left.y * down.x, left * down.y)) + dot(rd.yzw, vec3(right.y * down.x, right * down.y))
+               + dot(lu.yzw, vec3(left.y * up.x, left * up.y)) + dot(ru.yzw, vec3(right.y * up.x, right * up.y));
+    return between(corners, f) + bent;
 }
 
 // Where what is at `at` was `cells` (a time, in cells per height of velocity) ago; negative: where it will be. By the

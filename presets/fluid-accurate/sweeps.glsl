@@ -11,7 +11,7 @@ vec2 cell(ivec2 p) {
 
 float swept(ivec2 p, vec2 here, vec2 left, vec2 right, vec2 down, vec2 up) {
     float d = diagonal(p, size, w);
-    float lap = w.x * (left.x + right.x - 2.0 * here.x) + w.y * (down.x + up.x - 2.0 * here.x);
+    float lap = w.x * ((left.x - here.x) + (right.x - here.x)) + w.y * ((down.x - here.x) + (up.x - here.x));
     return d > 0.0 ? here.x + DAMPING * (lap - here.y) / d : 0.0;
 }
 

@@ -51,7 +51,7 @@ vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, time, resolution);
         float w = blows > 0.0 ? 0.10 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
-        velocity = mix(velocity, subsonic(blows, 0.33) * nozzle.zw, w);
+        velocity = mix(velocity, subsonic(blows, 0.27) * nozzle.zw, w);
     }
     return velocity;
 }

@@ -14,7 +14,7 @@ float heightOf(ivec2 p) {
 
 // A height after surface tension.
 float smoothed(float here, float a, float b, float c, float d) {
-    return here + 0.125 * tension * (a + b + c + d - 4.0 * here);
+    return here + 0.125 * tension * ((a - here) + (b - here) + (c - here) + (d - here));
 }
 
 // 0 at the walls, where the fluid is held and what shears there is no eddy.
@@ -43,7 +43,8 @@ void mainImage(out vec4 height, in vec2 fragCoord) {
     float smoothB = smoothed(b, a, d, heightOf(i + ivec2(2, 0)), heightOf(i + ivec2(1, -1)));
     float smoothC = smoothed(c, a, d, heightOf(i + ivec2(-1, 1)), heightOf(i + ivec2(0, 2)));
     float smoothD = smoothed(d, b, c, heightOf(i + ivec2(2, 1)), heightOf(i + ivec2(1, 2)));
-    float carried = mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y);
+    float lower = smoothA + f.x * (smoothB - smoothA), upper = smoothC + f.x * (smoothD - smoothC);
+    float carried = lower + f.y * (upper - lower);
     // Vorticity is in 1 / unit of time, and falls as the canvas grows: an eddy has the same speed and more pixels.
     float dented = dent * fluid.w * iTimeDelta * iResolution.y / 90.0;
     float still = swellAt(fragCoord / iResolution.y, iTime);

@@ -49,7 +49,7 @@ vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < SPOONS; i++) {
         vec4 at = spoon(i, time, resolution);
         float d = length(p - at.xy) / (0.04 * resolution.y + 0.5);
-        velocity = mix(velocity, subsonic(2.2, 0.29) * at.zw, 0.12 * spoons * strength * exp(-d * d));
+        velocity = mix(velocity, subsonic(2.2, 0.24) * at.zw, 0.12 * spoons * strength * exp(-d * d));
     }
     return velocity;
 }

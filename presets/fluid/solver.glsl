@@ -23,6 +23,10 @@
 //    that is stable without any viscosity; in a flow of 0.4 c up to K dt = 0.15, and 0.45 with viscosity (see
 //    soundStep). At the defaults c is 3.3, and a fourth difference takes an alternating density away.
 //
+// A unit of time is a step over dt, three steps a frame, and lengths are in pixels: at twice the frame rate the fluid runs
+// twice as fast against what drives it, which goes by the clock, and on a canvas of twice the height the same flow takes
+// twice as long to cross it. The preset fluid-accurate goes by seconds and canvas heights.
+//
 // A flow is as good as incompressible where it is slower than 0.3 c. The slider `view` shows |u| / c, Mach's number.
 //
 // A cell is (velocity.x, velocity.y, density, vorticity). The fluid fills rows 1 and up; row 0 is the mouse's memory.
@@ -49,6 +53,7 @@ float confinementHere() {
 // Where the sliders ask for more: Image hatches the foot of the picture.
 bool beyondTheMethod() {
     if (form == CLASSIC) return viscosity < stiffness || viscosity * dt > 0.25;
+    if (stiffness <= 0.0) return true; // no pressure, no sound, and a limit of speed at which everything stands
     return viscosityStep() < viscosity * dt || soundStep() < stiffness * dt || confinementHere() < confinement;
 }
 
@@ -157,7 +162,8 @@ vec4 fluidStep(Stencil s, vec2 arriving, ivec2 p, ivec2 size) {
     vec2 gradDensity = vec2(dx.z, dy.z);
     float divergence = dx.x + dy.y;
     float vorticity = dx.y - dy.x;
-    vec2 laplacian = s.left.xy + s.right.xy + s.down.xy + s.up.xy - 4.0 * s.centre.xy;
+    vec2 laplacian = (s.left.xy - s.centre.xy) + (s.right.xy - s.centre.xy)
+                   + (s.down.xy - s.centre.xy) + (s.up.xy - s.centre.xy);
 
     // Towards stronger rotation, turned by a right angle: along the rim of the eddy.
     vec2 inward = 0.5 * vec2(abs(s.right.w) - abs(s.left.w), abs(s.up.w) - abs(s.down.w));

@@ -13,13 +13,13 @@ vec2 cell(ivec2 p) {
 vec2 blurred(ivec2 p, float h) {
     vec2 weight[TAPS + 1];
     gaussian(h, weight);
-    vec2 sum = weight[0] * texelFetch(iChannel2, p, 0).xy;
+    vec2 here = texelFetch(iChannel2, p, 0).xy, sum = here;
     for (int i = 1; i <= TAPS; i++) {
         int low = p.y - i, high = p.y + i;
         low = max(low, -1 - low);
         high = min(high, 2 * last.y + 1 - high);
-        sum += weight[i] * (texelFetch(iChannel2, ivec2(p.x, clamp(low, 0, last.y)), 0).xy
-                          + texelFetch(iChannel2, ivec2(p.x, clamp(high, 0, last.y)), 0).xy);
+        sum += weight[i] * ((texelFetch(iChannel2, ivec2(p.x, clamp(low, 0, last.y)), 0).xy - here)
+                          + (texelFetch(iChannel2, ivec2(p.x, clamp(high, 0, last.y)), 0).xy - here));
     }
     return sum;
 }
@@ -41,21 +41,24 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
         int parts = int(ceil(h / LONGEST_STEP));
         for (int i = 0; i < parts; i++) q += h / float(parts) * reaction(q, rates, 1e6);
     } else {
-        vec2 edges = cell(p - ivec2(1, 0)) + cell(p + ivec2(1, 0)) + cell(p - ivec2(0, 1)) + cell(p + ivec2(0, 1));
+        // Sums of differences from the cell in the middle: what is even stays so to the last bit.
+        vec2 edges = (cell(p - ivec2(1, 0)) - q) + (cell(p + ivec2(1, 0)) - q)
+                   + (cell(p - ivec2(0, 1)) - q) + (cell(p + ivec2(0, 1)) - q);
         vec2 spread; // what diffusion changes in this step
         float left = 0.0; // what it leaves of the wave of two cells, as a part of it
         if (diffusion == 0) {
-            spread = h * RATE * (edges - 4.0 * q);
+            spread = h * RATE * edges;
             left = 1.0 - 8.0 * h * RATE.x;
         } else {
-            vec2 corners = cell(p - 1) + cell(p + 1) + cell(p + ivec2(1, -1)) + cell(p + ivec2(-1, 1));
+            vec2 corners = (cell(p - 1) - q) + (cell(p + 1) - q)
+                         + (cell(p + ivec2(1, -1)) - q) + (cell(p + ivec2(-1, 1)) - q);
             if (diffusion == 1) {
-                spread = h * RATE * (4.0 * edges + corners - 20.0 * q) / 6.0;
+                spread = h * RATE * (4.0 * edges + corners) / 6.0;
                 left = 1.0 - 16.0 / 3.0 * h * RATE.x;
             } else {
                 // (a, 1 - 2a, a) along each axis has the variance 2a = 2 D h of a diffusion over h.
-                vec2 a = min(h * RATE, 0.5), b = 1.0 - 2.0 * a;
-                spread = b * b * q + a * b * edges + a * a * corners - q;
+                vec2 a = min(h * RATE, 0.5);
+                spread = a * (1.0 - 2.0 * a) * edges + a * a * corners;
             }
         }
         // Where V is so dense that diffusion and reaction together turn that wave round and make it larger, less is

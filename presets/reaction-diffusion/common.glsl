@@ -29,7 +29,8 @@
 // Time of a step. For diffusion alone explicit Euler is stable to dt = 1 / (4 Du) = 1.19 with five points and 3 / (8 Du)
 // = 1.79 with nine; the reaction needs room beside it. Beyond 1 with five points, and 1.19 with nine or with the blur
 // in one pass, the step stays there and Image hatches the foot of the picture. With 3 the limit is 5, where the
-// kernel's tails reach the end of its 15 taps.
+// kernel's tails reach the end of its 15 taps. Eight steps are made a frame: patterns grow by frames, and by pixels, while
+// the sower wanders by the second.
 #iUniform float dt = 1.0 in { 0.0, 10.0 }
 
 #iUniform float brush_size = 0.035 in { 0.005, 0.2 }

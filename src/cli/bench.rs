@@ -37,6 +37,8 @@ struct Costs {
     moved_bytes: u64,
     /// Passes of the project that no wanted picture needs.
     passes_skipped: Vec<String>,
+    /// Passes that are not drawn because their conditions are false.
+    passes_off: Vec<PassOff>,
     /// Bytes of the targets, and how many more they were if nothing were left out.
     target_bytes: u64,
     target_bytes_saved: u64,
@@ -44,6 +46,17 @@ struct Costs {
     /// means over the measured frames.
     passes_rested: f64,
     bytes_rested: f64,
+}
+
+/// A pass that is not drawn, and its condition.
+#[derive(Debug, Serialize)]
+struct PassOff {
+    pass: String,
+    #[serde(skip)]
+    title: String,
+    when: String,
+    /// The draws that a frame would do for it.
+    steps: u32,
 }
 
 #[derive(Debug, Serialize)]
@@ -129,7 +142,15 @@ fn measure(
     let (width, height) = engine.size();
     let (device, plan) = (engine.gpu().describe(), engine.program().map(|p| p.plan().clone()).unwrap_or_default());
     let drawable = drawable(&project);
-    let passes = engine.pass_costs(&project).into_iter().filter(|c| matches!(c.role, PassRole::Drawn { .. }));
+    let costs = engine.pass_costs(&project);
+    let passes_off = costs.iter().filter(|c| c.role == PassRole::Off).map(|cost| PassOff {
+        pass: cost.pass.key(),
+        title: cost.pass.title(),
+        when: cost.when.clone().unwrap_or_default(),
+        steps: cost.steps,
+    });
+    let passes_off = passes_off.collect();
+    let passes = costs.into_iter().filter(|c| matches!(c.role, PassRole::Drawn { .. }));
     let passes = passes.map(|cost| {
         let ms = millis_of.get(&cost.pass).copied();
         PassCost {
@@ -160,6 +181,7 @@ fn measure(
         },
         moved_bytes: passes.iter().map(|p| p.moved_bytes).sum(),
         passes,
+        passes_off,
         passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key()).collect(),
         target_bytes,
         target_bytes_saved: everything.target_bytes((width, height)).saturating_sub(target_bytes),
@@ -238,6 +260,10 @@ fn words(report: &Report, costs: &Costs) -> String {
             costs.passes_skipped.len() + costs.passes.len(),
             mib(costs.target_bytes_saved as f64)
         );
+    }
+    for off in &costs.passes_off {
+        let times = if off.steps > 1 { format!(", {} steps", off.steps) } else { String::new() };
+        let _ = writeln!(out, "  {:12} {}{times}: {} is false", "not drawn", off.title, off.when);
     }
     if costs.passes_rested > 0.0 {
         let _ = writeln!(

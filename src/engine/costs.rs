@@ -1,8 +1,8 @@
 //! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
-use eddy_graph::{Draw, FramePlan, PassFacts, Read, TexelSource, When};
-use eddy_project::{PassId, Project};
+use eddy_graph::{Draw, FramePlan, PassFacts, Read, TexelSource, Traffic, When};
+use eddy_project::{Condition, PassId, Project};
 use eddy_texture::TexelFormat;
 
 /// Bytes a texel of a depth buffer.
@@ -25,6 +25,8 @@ pub enum PassRole {
     Drawn { is_cached: bool },
     /// Its region lies outside of its texels: there is nothing to draw.
     Outside,
+    /// Its condition is false: it is left out, and holds what it holds before frame 0.
+    Off,
     /// Nobody reads it: it is left out.
     Unread,
 }
@@ -46,6 +48,8 @@ pub struct PassRead {
 pub struct PassCost {
     pub pass: PassId,
     pub role: PassRole,
+    /// The condition by which it is drawn, if it has one.
+    pub when: Option<String>,
     /// Texels of its targets.
     pub size: (u32, u32),
     /// The format of each of its targets.
@@ -76,12 +80,15 @@ impl Engine {
         for (index, (compiled, draw)) in running.program.planned_draws().enumerate() {
             let targets = &plan.targets[draw.targets.clone()];
             let size = targets[0].size.of(canvas);
-            let step = plan.traffic_of(index, canvas);
+            let is_off = running.is_off(index);
+            let step = if is_off { Traffic::default() } else { plan.traffic_of(index, canvas) };
             let steps = plan.steps_of(index);
             let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
+                when: draw.when.as_ref().map(Condition::to_string),
                 role: match draw.region {
+                    _ if is_off => PassRole::Off,
                     Some(region) if region.within(size).is_none() => PassRole::Outside,
                     _ => PassRole::Drawn { is_cached: running.steps_drawn.get(index) == Some(&0) },
                 },
@@ -102,6 +109,7 @@ impl Engine {
             costs.push(PassCost {
                 pass: pass.id.clone(),
                 role: PassRole::Unread,
+                when: pass.settings.when.as_ref().map(Condition::to_string),
                 size: pass.id.size(&pass.settings).of(canvas),
                 formats: pass.id.formats(&pass.settings),
                 steps: 0,

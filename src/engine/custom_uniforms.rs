@@ -9,7 +9,8 @@ use eddy_project::{
 /// Slots in the 64 KiB that a uniform buffer has on every device.
 const MAX_CUSTOM_UNIFORMS: usize = (64 << 10) / CUSTOM_UNIFORM_BYTES as usize;
 
-/// Returns the uniforms that the texts of a project declare, with errors for names that the language has taken.
+/// Returns the uniforms that the texts of a project declare, with errors for names that the language has taken and for
+/// conditions that name others.
 pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
     let mut custom_uniforms = project.custom_uniforms();
     for custom_uniform in &custom_uniforms.list {
@@ -35,6 +36,8 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
             ),
         );
     }
+    let conditions = project.check_conditions(&custom_uniforms);
+    custom_uniforms.diagnostics.extend(conditions);
     custom_uniforms
 }
 

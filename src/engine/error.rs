@@ -16,6 +16,8 @@ pub enum EngineError {
     NoSuchTarget { pass: String, index: usize },
     #[error("{reader} reads {read}, which has been drawn several times since; its earlier contents are gone")]
     Overwritten { reader: String, read: String },
+    #[error("{pass} is not drawn in this frame: its condition, {when}, is false")]
+    Off { pass: String, when: String },
     #[error("{pass} cannot be drawn in tiles: {why}")]
     Undivided { pass: String, why: Undivided },
     #[error(

@@ -18,7 +18,7 @@ use eddy_graph::Draw;
 use eddy_project::{Boundary, PassId, Region};
 
 /// The value of a probe that never was there.
-const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
+pub(super) const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
 
 /// The way in which a frame is handed to the device.
 pub(super) enum DrawMode<'a, 'b> {
@@ -50,6 +50,7 @@ impl Running {
         mut mode: DrawMode<'_, '_>,
     ) -> Result<FrameStats, EngineError> {
         self.drop_remaining();
+        let off = self.turn_off(shared);
         let gpu = &shared.gpu;
         self.program.externals.iter_mut().for_each(|external| external.update(gpu, inputs));
         self.set_uniforms(gpu, inputs);
@@ -74,7 +75,7 @@ impl Running {
         let mut stats = FrameStats::default();
         for run in 0..self.program.plan.runs.len() {
             for _ in 0..self.program.plan.runs[run].steps {
-                for index in self.program.plan.runs[run].draws.clone() {
+                for index in self.program.plan.runs[run].draws.clone().filter(|index| !off[*index]) {
                     if let DrawMode::Inspected(capture) = &mut mode
                         && capture.wants(&self.program.draws[index])
                     {

@@ -11,6 +11,7 @@ mod cache;
 mod channels;
 mod compile;
 mod compiled;
+mod conditions;
 mod costs;
 mod custom_uniforms;
 mod display;

@@ -13,6 +13,7 @@ use super::{
     viewer::Viewer,
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
+use eddy_graph::Traffic;
 use eddy_project::{CustomUniformValues, PassId};
 use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
@@ -220,6 +221,7 @@ impl Engine {
         let mut capture = Capture::new(pass, converter);
         let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Inspected(&mut capture))?;
         self.shared.gpu.take_trouble("a frame")?;
+        running.check_is_on(pass)?;
         Ok((stats, capture.taken.ok_or_else(none)?))
     }
 
@@ -255,6 +257,7 @@ impl Engine {
     pub fn inspect(&mut self, pass: &PassId) -> Result<PassInputs, EngineError> {
         let none = || EngineError::NoSuchPass(pass.title());
         let running = self.running.as_ref().ok_or_else(none)?;
+        running.check_is_on(pass)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
         let mut capture = Capture::of_the_past(pass, converter);
@@ -322,6 +325,12 @@ impl Engine {
 
     pub fn size(&self) -> (u32, u32) {
         self.canvas
+    }
+
+    /// Returns the least that a frame moves now in which every pass is drawn whose condition holds; see
+    /// [`FramePlan::traffic`](eddy_graph::FramePlan::traffic).
+    pub fn traffic(&self) -> Traffic {
+        self.running.as_ref().map_or_else(Traffic::default, Running::traffic)
     }
 
     pub fn gpu(&self) -> &Gpu {

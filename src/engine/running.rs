@@ -24,6 +24,8 @@ pub(super) struct Running {
     pub bindings: Bindings,
     pub uniforms: Uniforms,
     pub changes: Changes,
+    /// Says of each draw that its targets hold what they hold before frame 0, as its condition is false.
+    pub is_blank: Vec<bool>,
     /// Measures the passes, where that is asked for and the device can.
     pub timer: Option<PassTimer>,
     /// The number of times that each draw was done in the newest frame.
@@ -85,6 +87,7 @@ impl Running {
             bindings: Bindings::default(),
             uniforms: Uniforms::new(&shared.gpu, &program),
             changes: Changes::new(&program.plan),
+            is_blank: Vec::new(),
             timer: None,
             steps_drawn: Vec::new(),
             rest: None,
@@ -112,6 +115,7 @@ impl Running {
     /// Takes up new textures. They hold what the present ones held, and else what they hold before frame 0.
     fn take(&mut self, shared: &Shared, new: NewTextures) {
         self.depths = new.depths;
+        self.is_blank.clear();
         let (old, is_new) = new.targets.replace(&self.program.plan, &mut self.targets);
         self.bindings = Bindings::new(&shared.gpu, &self.program, &self.uniforms);
         self.fill_initial(shared, |target| is_new[target]);
@@ -126,7 +130,12 @@ impl Running {
 
     /// Sets values of the author's own uniforms. Says whether anything is different now.
     pub fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
-        self.uniforms.set_custom_uniforms(&shared.gpu, custom_uniforms::block(&self.program.custom_uniforms, values))
+        let slots = custom_uniforms::block(&self.program.custom_uniforms, values);
+        let is_changed = self.uniforms.set_custom_uniforms(&shared.gpu, slots);
+        if is_changed {
+            self.forget_blank_fills();
+        }
+        is_changed
     }
 
     /// Leaves a draw undone that was begun. The next frame does it.
@@ -150,7 +159,7 @@ impl Running {
     }
 
     /// Draws what targets hold before frame 0, of those that are named by their place in the plan.
-    fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
+    pub fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
         let Self { program, canvas, targets, bindings, uniforms, .. } = self;
         if !program.draws.iter().any(|draw| draw.initial.is_some()) {
             return;

@@ -136,6 +136,7 @@ impl Running {
         }
         gpu.queue.submit([encoder.finish()]);
         self.changes.invalidate();
+        self.is_blank.clear();
         true
     }
 }

@@ -118,6 +118,7 @@ impl Running {
             gpu.queue.submit([encoder.finish()]);
         }
         self.changes.invalidate();
+        self.is_blank.clear();
         gpu.take_trouble("a state").map_err(Into::into)
     }
 }

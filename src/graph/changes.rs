@@ -48,4 +48,13 @@ impl Changes {
         }
         true
     }
+
+    /// Notes that the targets of draw `index` hold what they hold before frame 0: what reads them is to be done, and the
+    /// draw itself when its turn comes.
+    pub fn blanked(&mut self, index: usize, draw: &Draw) {
+        self.read[index] = None;
+        for target in draw.targets.clone() {
+            self.drawn[target] += 1;
+        }
+    }
 }

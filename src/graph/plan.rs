@@ -1,7 +1,7 @@
 //! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
 use super::tiles::TiledDraw;
-use eddy_project::{Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
+use eddy_project::{Condition, Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
@@ -92,6 +92,8 @@ pub struct Draw {
     pub has_initial: bool,
     /// So many of the outermost texels are overwritten after it is drawn.
     pub boundary: Option<u32>,
+    /// While it is false the draw is left out, and its targets hold what they hold before frame 0.
+    pub when: Option<Condition>,
     /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on
     /// its own picture of before it does not depend.
     pub is_cacheable: bool,
@@ -202,6 +204,7 @@ impl FramePlan {
                 region,
                 has_initial: project.passes[pass].settings.initial.is_some(),
                 boundary: project.passes[pass].settings.boundary.as_ref().map(|b| b.width),
+                when: project.passes[pass].settings.when.clone(),
                 is_cacheable: false,
             });
         }

@@ -28,6 +28,7 @@ pub enum Undivided {
     Region,
     Boundary,
     Initial,
+    Condition,
     Steps,
 }
 
@@ -53,6 +54,7 @@ impl fmt::Display for Undivided {
             Undivided::Region => "only a region of it is drawn; remove the region in eddy.toml",
             Undivided::Boundary => "it has a boundary; remove the boundary in eddy.toml",
             Undivided::Initial => "it has initial texels; remove them in eddy.toml",
+            Undivided::Condition => "it is drawn under a condition; remove `when` in eddy.toml",
             Undivided::Steps => "it is drawn in several steps a frame; choose a smaller resolution",
         })
     }
@@ -97,6 +99,9 @@ impl FramePlan {
         }
         if draw.has_initial {
             return Err(Undivided::Initial);
+        }
+        if draw.when.is_some() {
+            return Err(Undivided::Condition);
         }
         if self.steps_of(index) != 1 {
             return Err(Undivided::Steps);

@@ -127,6 +127,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ui
     let (why, is_drawn) = match cost.role {
         PassRole::Drawn { is_cached: false } => (None, true),
         PassRole::Drawn { is_cached: true } => (Some("unchanged"), true),
+        PassRole::Off => (Some("off"), false),
         PassRole::Unread | PassRole::Outside => (Some("not drawn"), false),
     };
     let millis = match (why, pass.millis) {
@@ -160,6 +161,10 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ui
                 drop(ui.label("Unchanged: none of its inputs has changed since it was drawn."));
             }
             PassRole::Outside => drop(ui.label("Not drawn: its region is outside its texture.")),
+            PassRole::Off => {
+                let when = cost.when.as_deref().unwrap_or_default();
+                drop(ui.label(format!("Not drawn: its condition is false ({when}).")));
+            }
             PassRole::Unread => drop(ui.label("Not drawn: the shown pass does not need it.")),
         }
         ui.label(format!("{} × {} texels, {joined}, {} per frame", cost.size.0, cost.size.1, count(cost.texels)));

@@ -23,6 +23,9 @@ const FLOOR_STEPS: u32 = 16;
 /// Bytes a texel that the copying pass moves: it reads and writes rgba32f.
 const COPY_BYTES: f64 = 32.0;
 
+/// A copying pass that takes fewer times what a pass of one texel takes is busy with being a pass, and not with texels.
+const COPY_OVER_EMPTY: f64 = 4.0;
+
 /// Says how a time was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -91,9 +94,11 @@ impl Cost {
         self.canvas_texels * self.texels_per_texel / self.frame.median / 1e3
     }
 
-    /// Bytes a second over those of the copying pass.
-    pub fn roofline(&self) -> f64 {
-        (self.bytes_per_texel / self.frame.median) / (COPY_BYTES / self.copy.median)
+    /// Returns the bytes a second over those of the copying pass. `None` on a grid so small that the copying pass takes
+    /// hardly longer than one of a single texel: how fast it copies is no limit then.
+    pub fn roofline(&self) -> Option<f64> {
+        let is_of_texels = self.copy.median >= COPY_OVER_EMPTY * self.empty.median;
+        is_of_texels.then(|| (self.bytes_per_texel / self.frame.median) / (COPY_BYTES / self.copy.median))
     }
 }
 
@@ -140,8 +145,7 @@ fn so_far(turns: &mut [Turn], floor: usize, size: (u32, u32), clock: Clock) -> V
     let times: Vec<Times> = turns.iter().map(|t| Times::of(t.samples.clone())).collect();
     let canvas_texels = f64::from(size.0) * f64::from(size.1);
     let cost = |(turn, frame): (&mut Turn, &Times)| {
-        let plan = turn.running.engine().program().map(|p| p.plan().clone()).unwrap_or_default();
-        let traffic = plan.traffic(turn.canvas);
+        let traffic = turn.running.engine().traffic();
         Cost {
             frame: *frame,
             copy: times[0].by(1.0 / f64::from(FLOOR_STEPS)),
@@ -166,7 +170,6 @@ pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabEr
 
 struct Turn {
     running: Running,
-    canvas: (u32, u32),
     batch: u32,
     samples: Vec<f64>,
 }
@@ -179,7 +182,7 @@ impl Turn {
             running.engine().set_timing(true);
         }
         let batch = warm_up(&mut running, turn_millis)?;
-        Ok(Turn { running, canvas: setup.size(), batch, samples: Vec::new() })
+        Ok(Turn { running, batch, samples: Vec::new() })
     }
 
     /// Milliseconds a frame.
@@ -243,7 +246,7 @@ mod tests {
         let cost = Cost {
             frame: times,
             copy: times,
-            empty: times,
+            empty: times.by(0.1),
             bytes_per_texel: COPY_BYTES,
             texels_per_texel: 1.0,
             canvas_texels: 1e6,
@@ -251,8 +254,8 @@ mod tests {
             batch: 1,
             clock: Clock::Wall,
         };
-        assert_eq!((cost.roofline(), cost.megatexels_per_second()), (1.0, 500.0));
+        assert_eq!((cost.roofline(), cost.megatexels_per_second()), (Some(1.0), 500.0));
         let slow = Cost { frame: Times { median: 4.0, ..times }, ..cost };
-        assert_eq!(slow.roofline(), 0.5);
+        assert_eq!(slow.roofline(), Some(0.5));
     }
 }

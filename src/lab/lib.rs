@@ -14,6 +14,7 @@ pub mod flip;
 pub mod metrics;
 mod number;
 pub mod open;
+mod page_style;
 pub mod picture;
 pub mod precision;
 pub mod reference;

@@ -138,6 +138,9 @@ pub struct Study {
     /// finer answer: where it turns from one setting to the next, two errors cancel between them, and the report takes
     /// for the best error what finer settings keep.
     pub signed: Option<&'static str>,
+    /// The methods do the same thing, so that one of them can be the best. If not, no winner, frontier or method that
+    /// another beats is named.
+    pub is_contest: bool,
     /// The report compares these by the time to an error of 1 %.
     pub race: Option<Race>,
     /// The project that draws the point, as it is at time 0.
@@ -162,6 +165,7 @@ impl Study {
             main_grid: None,
             has_order: true,
             signed: None,
+            is_contest: true,
             race: None,
             setup,
             measure,

@@ -46,6 +46,10 @@ impl Project {
     /// text reaches it.
     pub fn fill_that_names(&self, uniform: &str) -> Option<String> {
         self.custom_uniforms().get(uniform)?;
+        let tested = self.conditions().find(|(_, condition)| condition.names(uniform));
+        if let Some((index, _)) = tested {
+            return Some(format!("the condition of {}", self.passes[index].id.title()));
+        }
         let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         self.fills().find_map(|(index, kind, fill)| {
             let FillValue::Expression(text) = &fill.value else { return None };

@@ -70,15 +70,22 @@ impl Fill {
             FillValue::Expression(text) => text.clone(),
             FillValue::File(path) | FillValue::InMemory { name: path, .. } => path.to_string_lossy().into(),
         };
-        let Some(Written { manifest, range }) = &self.written else { return (value.clone(), 0..value.len()) };
+        Written::located(&value, self.written.as_ref())
+    }
+}
+
+impl Written {
+    /// Returns the text that diagnostics about a value point into, and where in it the value stands.
+    pub(super) fn located(value: &Arc<str>, written: Option<&Written>) -> (Arc<str>, Range<usize>) {
+        let Some(Written { manifest, range }) = written else { return (value.clone(), 0..value.len()) };
         let written = manifest.get(range.clone()).unwrap_or_default();
-        if let Some(at) = written.find(&*value).map(|at| range.start + at) {
+        if let Some(at) = written.find(&**value).map(|at| range.start + at) {
             return (manifest.clone(), at..at + value.len());
         }
         // Escapes: what is compiled is not what is written.
         let before = &manifest[..range.start.min(manifest.len())];
         let lines = before.matches('\n').count();
-        let text = "\n".repeat(lines) + &value;
+        let text = "\n".repeat(lines) + value;
         (text.into(), lines..lines + value.len())
     }
 }

@@ -9,7 +9,9 @@ impl Fingerprint {
     /// Returns that of a project's texts, groups, slider values, channels and settings.
     pub fn of(project: &Project) -> Fingerprint {
         let mut print = Fingerprint(0xcbf2_9ce4_8422_2325);
-        for (_, source) in project.sources().iter() {
+        // Of conditions the settings below say what counts, and not the rest of the file that they stand in.
+        let counted = project.sources().iter().count() - project.conditions().count();
+        for (_, source) in project.sources().iter().take(counted) {
             print.eat(source.text.as_bytes());
         }
         print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
@@ -44,4 +46,23 @@ fn channel_text(channel: &Channel) -> String {
         Input::Device(kind) => format!("{kind:?}"),
     };
     format!("Some(Channel {{ input: {input}, sampler: {:?} }})", channel.sampler)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Condition, Origin, Pass, PassSettings, Source};
+
+    #[test]
+    fn a_setting_that_came_later_changes_no_number_of_projects_without_it() {
+        let text =
+            "PassSettings { size: Canvas, format: Rgba32f, region: None, initial: None, boundary: None, body: Screen }";
+        assert_eq!(format!("{:?}", PassSettings::default()), text);
+        let source = Source { name: "Image".into(), path: None, text: "".into() };
+        let mut project = Project::new("p", vec![Pass::new(PassId::Image, source)], Origin::Unsaved);
+        let print = |project: &Project| Fingerprint::of(project).text();
+        let before = print(&project);
+        project.passes[0].settings.when = Some(Condition::parse("width > 3").unwrap());
+        assert_ne!(print(&project), before);
+    }
 }

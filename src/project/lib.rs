@@ -5,6 +5,7 @@
 
 mod advice;
 mod atomic;
+mod condition;
 pub mod confine;
 mod controls;
 mod custom_uniform_values;
@@ -46,6 +47,7 @@ mod writes;
 
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, write_with};
+pub use condition::{Condition, ConditionError, Operator, Term};
 pub use confine::FileError;
 pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{

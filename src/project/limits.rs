@@ -124,6 +124,10 @@ pub const FOLDERS_UP: usize = 16;
 pub const LSP_MESSAGE: Limit = Limit { bytes: 64 << 20, of: "a message to the language server" };
 /// Passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
 pub const DRAWS: u64 = 20_000;
+/// Letters of the condition of a pass (`when`).
+pub const CONDITION: usize = 1_000;
+/// Parentheses and signs in one another in such a condition.
+pub const CONDITION_DEPTH: usize = 32;
 /// Values in `[uniforms]`.
 pub const UNIFORMS: usize = 1_000;
 /// Entries in `[controls]`.

@@ -314,14 +314,17 @@ impl Project {
         all
     }
 
-    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written
-    /// in.
+    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]) and for each condition
+    /// (see [`Project::conditions`]), the text it is written in.
     pub fn sources(&self) -> eddy_diag::SourceMap {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {
             if let Some(text) = self.fill_text(pass, kind) {
                 map.add(super::files::MANIFEST, text.text);
             }
+        }
+        for text in self.condition_texts() {
+            map.add(super::files::MANIFEST, text.text);
         }
         map
     }

@@ -49,6 +49,7 @@ const NO_MESHES: (&[&str], &str) =
 const NO_PICTURE: &[(&[&str], &str)] = &[
     (&["size", "format", "region"], "only buffers have it"),
     (&["initial", "boundary"], "a sound has no texels"),
+    (&["when"], "a sound is made once; test the uniform in mainSound"),
     NO_MESHES,
 ];
 
@@ -123,6 +124,7 @@ const IMAGE: PassRow = PassRow {
             "Image has the picture's resolution and 32-bit floats; give a buffer this key and show it in Image",
         ),
         (&["initial"], "no pass can read the last frame of Image; give a buffer this key, and show it in Image"),
+        (&["when"], "Image is drawn in every frame; give a buffer this key"),
         NO_MESHES,
     ],
     note: "Image has the picture's resolution and 32-bit floats.",

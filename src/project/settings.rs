@@ -1,10 +1,11 @@
 //! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
 //! often a frame.
 
-use super::{Boundary, Fill, Geometry, Pass, PassId, TexelFormat};
+use super::{Boundary, Condition, Fill, Geometry, Pass, PassId, TexelFormat};
+use std::fmt;
 
 /// Says how a pass is drawn. The default is what the site does.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Default, PartialEq)]
 pub struct PassSettings {
     pub size: PassSize,
     pub format: TexelFormat,
@@ -14,7 +15,24 @@ pub struct PassSettings {
     pub initial: Option<Fill>,
     /// Texels at the edge that are overwritten after each draw.
     pub boundary: Option<Boundary>,
+    /// While it is false the pass is not drawn, and holds what it holds before frame 0. `None`: it is always drawn.
+    pub when: Option<Condition>,
     pub body: PassBody,
+}
+
+/// Results on disk are known by a number of this text ([`super::Fingerprint`]): a setting that came later is not in it
+/// where it has its default.
+impl fmt::Debug for PassSettings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PassSettings { size, format, region, initial, boundary, when, body } = self;
+        let mut text = f.debug_struct("PassSettings");
+        text.field("size", size).field("format", format).field("region", region);
+        text.field("initial", initial).field("boundary", boundary).field("body", body);
+        if let Some(when) = when {
+            text.field("when", &when.text());
+        }
+        text.finish()
+    }
 }
 
 /// Says what a pass draws.

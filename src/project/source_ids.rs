@@ -1,6 +1,6 @@
 //! A [`SourceId`] names a text of a project: Common (an empty text where there is none), then the passes in order, then
-//! the stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing else
-//! counts them. A [`TextLocation`] is a place in one of them, as people are told it.
+//! the stages of passes that draw meshes in order, then the files they include, then the texts of fills, then those of conditions. Nothing
+//! else counts them. A [`TextLocation`] is a place in one of them, as people are told it.
 
 use super::{Included, PassId, Project, Stage, Tab};
 use eddy_diag::{SourceId, SourceMap, Span};
@@ -29,6 +29,11 @@ impl Project {
     /// Returns the id of the text that the `n`-th of [`Project::fills`] is written in.
     pub(super) fn fill_id(&self, n: usize) -> SourceId {
         id(self.first_included() + self.includes.len() + n)
+    }
+
+    /// Returns the id of the text that the `n`-th of [`Project::conditions`] is written in.
+    pub(super) fn condition_id(&self, n: usize) -> SourceId {
+        self.fill_id(self.fills().count() + n)
     }
 
     /// Returns the file of a text that others include.

@@ -73,12 +73,13 @@ fn is_same_pass(a: &Pass, b: &Pass) -> bool {
 }
 
 fn is_same_setting(a: &PassSettings, b: &PassSettings) -> bool {
-    let PassSettings { size, format, region, initial, boundary, body } = a;
+    let PassSettings { size, format, region, initial, boundary, when, body } = a;
     *size == b.size
         && *format == b.format
         && *region == b.region
         && *initial == b.initial
         && *boundary == b.boundary
+        && *when == b.when
         && is_same_body(body, &b.body)
 }
 

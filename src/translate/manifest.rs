@@ -94,6 +94,10 @@ pub struct PassInfo {
     pub targets: Vec<usize>,
     /// The target keeps what it held where nothing is drawn; else it may be cleared.
     pub keeps_content: bool,
+    /// The condition by which it is drawn: an expression over the custom uniforms, `width` and `height`. While it is
+    /// false, the targets hold what they hold before frame 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub when: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<RegionInfo>,
     /// The camera that meshes are drawn with.

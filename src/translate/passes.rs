@@ -196,6 +196,7 @@ impl<'a> Writer<'a> {
             title: pass.id.title(),
             targets: draw.targets.clone().map(|target| first_target + target).collect(),
             keeps_content: draw.keeps_content,
+            when: draw.when.as_ref().map(ToString::to_string),
             region: draw.region.map(|r| RegionInfo { x: r.x, y: r.y, width: r.width, height: r.height }),
             camera,
             channels,

@@ -70,6 +70,9 @@ pub(crate) struct PassData {
     pub cached: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<[u32; 4]>,
+    /// The condition by which it is drawn: a number, a name, or an operator with its terms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub when: Option<serde_json::Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub initial: Option<FillData>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -11,8 +11,9 @@ use eddy_glsl::{ChannelKind, taken};
 use eddy_graph::{FramePlan, PassFacts, effective_sampler};
 use eddy_project::{
     CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, PassBody, PassId, PassSize, Project,
-    Sampler, Stage, Wrap,
+    Sampler, Stage, Term, Wrap,
 };
+use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// Describes a project whose passes compile.
@@ -119,6 +120,7 @@ impl Description<'_> {
             doubled: targets.iter().any(|target| target.doubled),
             cached: is_target && is_screen && draw.is_some_and(|draw| draw.is_cacheable),
             region: pass.settings.region.map(|r| [r.x, r.y, r.width, r.height]),
+            when: pass.settings.when.as_ref().map(|when| term(when.root())),
             initial: self.fill(index, FillKind::Initial, texts, inlined),
             boundary: self.fill(index, FillKind::Boundary, texts, inlined),
             code: (is_screen && !skip).then(|| texts.code(Project::pass_id(index))),
@@ -196,6 +198,16 @@ impl Description<'_> {
         };
         let all = self.sources.custom_uniforms().list.iter().enumerate();
         all.filter(|(_, uniform)| is_there(uniform)).map(|(at, _)| at).collect()
+    }
+}
+
+fn term(term: &Term) -> Value {
+    match term {
+        Term::Number(number) => Value::from(*number),
+        Term::Name(name) => Value::from(name.as_str()),
+        Term::Not(of) => Value::from(vec!["!".into(), self::term(of)]),
+        Term::Negative(of) => Value::from(vec!["-".into(), self::term(of)]),
+        Term::Pair(operator, a, b) => Value::from(vec![operator.symbol().into(), self::term(a), self::term(b)]),
     }
 }
 

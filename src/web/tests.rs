@@ -1,7 +1,7 @@
 //! Tests of whole pages: their size, their bytes, and texts that look like markup.
 
 use crate::{PLAYER_BYTES, Page, export, page};
-use eddy_project::{Channel, Input, Media, Origin, Pass, PassId, Project, Source, load, presets};
+use eddy_project::{Channel, Condition, Input, Media, Origin, Pass, PassId, Project, Source, load, presets};
 
 fn source(name: &str, text: &str) -> Source {
     Source { name: name.into(), path: None, text: text.into() }
@@ -50,6 +50,19 @@ fn every_preset_is_exported_with_all_its_passes() {
         assert_eq!(data["passes"].as_array().unwrap().len(), project.passes.len(), "{name}");
         assert!(!data["codes"].as_array().unwrap().iter().any(|code| code.as_str().unwrap().contains("#iUniform")));
     }
+}
+
+#[test]
+fn a_condition_is_a_tree_that_the_player_walks() {
+    let mut project = plain();
+    let mut buffer =
+        Pass::new(PassId::Buffer("A".into()), source("A", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }"));
+    buffer.settings.when = Some(Condition::parse("!(width < 640.5) && -1 != 0 || false").unwrap());
+    project.passes.insert(0, buffer);
+    let data = description(&exported(&project).html);
+    let tree = serde_json::json!(["||", ["&&", ["!", ["<", "width", 640.5]], ["!=", ["-", 1.0], 0.0]], 0.0]);
+    assert_eq!(data["passes"][0]["when"], tree);
+    assert!(data["passes"][1].get("when").is_none());
 }
 
 /// The text of a shader, names and descriptions never end their element.

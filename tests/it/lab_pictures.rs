@@ -136,10 +136,13 @@ fn occlusion_is_that_of_rays() {
     // A root mean square of .05, and less than .01 on what is open.
     for (method, samples) in [("horizons", 24.0), ("rays", 64.0)] {
         let found = ao::occlusion(&rig, method, samples, (320, 320)).unwrap();
-        let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
-        let open = ao::open_most(&found);
-        println!("{method}: {off:?}, open at most {open:.4}");
+        let by_edge = ao::ByEdge::of(&found);
+        let (off, open) = (by_edge.all, ao::open_most(&found));
+        println!("{method}: {by_edge:?}, open at most {open:.4}");
         assert!(off.count > 400 && off.rms <= 0.05 && open < 0.01, "{method}: {off:?}, open {open}");
+        // Points at edges are counted, although they are the worst.
+        assert!((0.01..0.3).contains(&by_edge.edge_share()), "{method}: {by_edge:?}");
+        assert!(by_edge.edges.rms > by_edge.inside.rms, "{method}: {by_edge:?}");
     }
     let found = ao::occlusion(&rig, "sphere", 64.0, (320, 320)).unwrap();
     let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));

@@ -19,6 +19,7 @@ mod cli;
 mod cli_measure;
 mod cli_render;
 mod compile_budget;
+mod conditions;
 mod cubemaps;
 mod directives;
 mod engine;

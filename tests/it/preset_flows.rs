@@ -2,7 +2,7 @@
 
 use crate::support::{presets::*, *};
 use eddy::{
-    engine::{BuildOptions, Engine, Pixels},
+    engine::{BuildOptions, Engine, FrameInputs, Pixels},
     media::MediaSet,
     project::{PassId, Project},
 };
@@ -99,7 +99,7 @@ fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
          if (iFrame == 0) o = vec4(u.x, v.y, 0.0, 0.0);"
     );
     overwrite(&mut project, "velocity", &code);
-    project.passes.retain(|p| p.id != buffer("dye"));
+    project.passes.retain(|p| !["dye", "sums_64", "sums_8", "ledger"].map(buffer).contains(&p.id));
     let image = project.pass_mut(&PassId::Image).unwrap();
     image.source.text = "void mainImage(out vec4 o, in vec2 c) { o = texelFetch(iChannel0, ivec2(c) / 2, 0); }".into();
     image.channels[0] = nearest("velocity");
@@ -192,6 +192,122 @@ fn carried_eddies(wind: f64, time: f64, kept: f64) -> impl Fn(f64, f64) -> [f64;
     move |x, y| {
         let (x, y) = (2.0 * PI * (x - wind * time), 2.0 * PI * y);
         [wind + kept * x.sin() * y.cos(), -kept * x.cos() * y.sin()]
+    }
+}
+
+/// The largest speed in the velocity.
+fn fastest(engine: &mut Engine) -> f32 {
+    velocity(engine).texels.iter().map(|t| t[0].hypot(t[1])).fold(0.0, f32::max)
+}
+
+#[test]
+fn a_uniform_wind_neither_gains_nor_loses() {
+    let Some(gpu) = gpu() else { return };
+    // A thousand frames with viscosity: what each of them rounds to one side adds up.
+    let wind = [0.5f32, 0.3];
+    let project = accurate(&["walls=2", "viscosity=0.0015"], "vec2(0.5, 0.3)");
+    let mut engine = square(&gpu, &project, 32);
+    draw(&mut engine, 0..1001, untouched);
+    let off = |t: &[f32; 4]| (0..2).map(|c| (t[c] / wind[c] - 1.0).abs()).fold(0.0, f32::max);
+    let most = velocity(&mut engine).texels.iter().map(off).fold(0.0, f32::max);
+    println!("a uniform wind is off by {most:e} of itself after 1,000 frames");
+    assert!(most < 1e-6, "{most:e}");
+}
+
+#[test]
+fn a_quick_lid_makes_nothing_faster_than_itself() {
+    let Some(gpu) = gpu() else { return };
+    // Without viscosity, at steps that the sliders ask to be of 30 cells.
+    let project = preset_with("fluid-accurate", &["walls=1", "lid_speed=2", "speed=10"]);
+    let mut engine = whole(&gpu, &project, true, (320, 180));
+    let mut most = 0.0f32;
+    for part in 0..10 {
+        draw(&mut engine, 30 * part..30 * part + 30, untouched);
+        most = most.max(fastest(&mut engine));
+    }
+    let pace = texel(&engine.read(&buffer("pace")).unwrap(), 0, 0)[0];
+    println!("a lid of 2 makes {most} at most, at a pace of {pace}");
+    assert!(most > 1.0 && most < 2.2, "{most}");
+    assert!(pace < 0.5, "{pace}: time was to go slower");
+    // At the preset's defaults no step is shortened.
+    let mut engine = whole(&gpu, &preset_with("fluid-accurate", &[]), true, (320, 180));
+    for part in 0..4 {
+        draw(&mut engine, 30 * part..30 * part + 30, untouched);
+        assert_eq!(texel(&engine.read(&buffer("pace")).unwrap(), 0, 0)[0], 1.0);
+    }
+}
+
+/// The sum of a dye in canvas pixels.
+fn dye_of(engine: &mut Engine) -> f64 {
+    engine.read(&buffer("dye")).unwrap().texels.iter().map(|t| f64::from(t[0])).sum()
+}
+
+/// The preset with nothing that drives it or pours, from a velocity in terms of `at` in cells, and a round blob of dye of
+/// a radius of 12 pixels in the middle.
+fn with_blob(custom_uniforms: &[&str], initial: &str) -> Project {
+    let mut project = preset_with("fluid-accurate", &[&["jets=0", "fade_seconds=120"], custom_uniforms].concat());
+    let code = format!(
+        "vec2 at = c - vec2(0.5, 0.0); vec2 u = {initial}; at = c - vec2(0.0, 0.5); vec2 v = {initial};
+         if (iFrame == 0) o = vec4(u.x, v.y, 0.0, 0.0);"
+    );
+    overwrite(&mut project, "velocity", &code);
+    overwrite(
+        &mut project,
+        "dye",
+        "vec2 off = (c - 0.5 * iResolution.xy) / 12.0; if (iFrame == 0) o = vec4(exp(-dot(off, off)), 0.0, 0.0, 0.0);",
+    );
+    project
+}
+
+#[test]
+fn dye_goes_round_where_the_picture_repeats() {
+    let Some(gpu) = gpu() else { return };
+    // Once round a canvas of 128 pixels, 4 pixels a frame, in a wind along both axes.
+    let mut engine = whole(&gpu, &with_blob(&["walls=2"], "vec2(1.875, 1.875)"), true, (128, 128));
+    draw(&mut engine, 0..1, untouched);
+    let (begin, first) = (dye_of(&mut engine), engine.read(&buffer("dye")).unwrap());
+    draw(&mut engine, 1..33, untouched);
+    let faded = (-32.0f64 / 60.0 / 120.0).exp();
+    let (kept, last) = (dye_of(&mut engine) / (begin * faded), engine.read(&buffer("dye")).unwrap());
+    let off = first.texels.iter().zip(&last.texels).map(|(a, b)| (f64::from(b[0]) / faded - f64::from(a[0])).powi(2));
+    let rms = (off.sum::<f64>() / first.texels.iter().map(|t| f64::from(t[0]).powi(2)).sum::<f64>()).sqrt();
+    println!("once round, {kept:.4} of the dye is left, {rms:.4} of it elsewhere");
+    assert!((kept - 1.0).abs() < 1e-3 && rms < 0.05, "{kept}, {rms}");
+}
+
+#[test]
+fn a_closed_box_keeps_its_dye() {
+    let Some(gpu) = gpu() else { return };
+    // Eddies that wind the blob up for five seconds.
+    let k = 2.0 * PI / 64.0;
+    let initial = format!("0.5 * vec2(sin({k} * at.x) * cos({k} * at.y), -cos({k} * at.x) * sin({k} * at.y))");
+    for walls in ["walls=0", "walls=2"] {
+        let mut engine = whole(&gpu, &with_blob(&[walls], &initial), true, (256, 256));
+        draw(&mut engine, 0..1, untouched);
+        let begin = dye_of(&mut engine);
+        draw(&mut engine, 1..301, untouched);
+        let kept = dye_of(&mut engine) / (begin * (-300.0f64 / 60.0 / 120.0).exp());
+        println!("{walls}: {kept:.4} of the dye after five seconds");
+        assert!((kept - 1.0).abs() < 5e-3, "{walls}: {kept}");
+    }
+}
+
+#[test]
+fn jets_push_by_the_second_and_not_by_the_frame() {
+    let Some(gpu) = gpu() else { return };
+    // After two seconds at three frame rates: the energy of the flow, and the dye.
+    let found = [30, 60, 120].map(|rate| {
+        let mut engine = whole(&gpu, &preset_with("fluid-accurate", &[]), true, (320, 180));
+        for frame in 0..2 * rate {
+            engine.draw(&FrameInputs::at_fixed_step(frame, f64::from(rate))).unwrap();
+        }
+        let field = velocity(&mut engine);
+        ((energy(&field) / f64::from(field.width * field.height)).sqrt(), dye_of(&mut engine))
+    });
+    println!("rms speed and dye at 30, 60 and 120 frames a second: {found:.4?}");
+    for (speed, dye) in found {
+        assert!((speed / found[1].0 - 1.0).abs() < 0.05, "{found:?}");
+        assert!((dye / found[1].1 - 1.0).abs() < 0.05, "{found:?}");
     }
 }
 

@@ -162,6 +162,7 @@ fn forward_and_backward_no_slider_makes_energy() {
         (&["viscosity=0", "dt=2", "stiffness=10"], true),
         (&["viscosity=1.25", "dt=0.5", "stiffness=10"], true),
         (&["viscosity=1.25", "stiffness=0"], true),
+        (&["viscosity=0.3", "stiffness=0"], true),
     ] {
         let mut project = preset_with("fluid", &[&["nozzles=0"], custom_uniforms].concat());
         overwrite(&mut project, "A", NOISE);
@@ -210,6 +211,21 @@ fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
             most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
             "{name}: {density:?}, {mass}"
         );
+    }
+}
+
+#[test]
+fn left_alone_the_fluid_stays_below_its_limit_of_speed() {
+    let Some(gpu) = gpu() else { return };
+    // At the size of a window, where streams have room to meet.
+    let options = BuildOptions { wanted: vec![buffer("C")], ..Default::default() };
+    let mut engine = engine_with(&gpu, &preset("fluid"), &MediaSet::new(), &options, (640, 360));
+    for part in 1..4 {
+        draw(&mut engine, 133 * (part - 1)..133 * part, untouched);
+        let (most, fast, density, _) = compressibility(&mut engine, "C");
+        println!("Mach {most:.3}, {:.3} % above 0.3, density {density:.3?}", 100.0 * fast);
+        assert!(most < 0.39 && fast < 0.01, "Mach {most}, {fast} of the cells above 0.3");
+        assert!(density[0] > 0.8 && density[1] < 1.2, "{density:?}");
     }
 }
 

@@ -255,7 +255,9 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
     let Some(gpu) = gpu() else { return };
     let mut seen = 0;
     for name in presets::names() {
-        let project = project::load(&format!("presets/{name}")).unwrap().project;
+        let mut project = project::load(&format!("presets/{name}")).unwrap().project;
+        // Nothing runs for the texels of a pass that is off.
+        project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
         let (media, _) = media::gather(&project, None);
         for pass in project.passes.iter().filter(|pass| pass.id.is_picture()) {
             let options = BuildOptions { wanted: vec![pass.id.clone()], ..BuildOptions::default() };

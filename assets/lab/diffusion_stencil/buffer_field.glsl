@@ -6,12 +6,13 @@ float at(ivec2 p) {
 void mainImage(out vec4 field, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     float u = at(p);
-    float beside = at(p + ivec2(1, 0)) + at(p - ivec2(1, 0)) + at(p + ivec2(0, 1)) + at(p - ivec2(0, 1));
+    // Differences from the middle, each exact or nearly so: u is not rounded with what is four times as large.
+    float beside = (at(p + ivec2(1, 0)) - u) + (at(p - ivec2(1, 0)) - u) + (at(p + ivec2(0, 1)) - u) + (at(p - ivec2(0, 1)) - u);
 #if STENCIL == 9
-    float corners = at(p + ivec2(1, 1)) + at(p + ivec2(1, -1)) + at(p + ivec2(-1, 1)) + at(p + ivec2(-1, -1));
-    float laplacian = (4.0 * beside + corners - 20.0 * u) / 6.0;
+    float corners = (at(p + ivec2(1, 1)) - u) + (at(p + ivec2(1, -1)) - u) + (at(p + ivec2(-1, 1)) - u) + (at(p + ivec2(-1, -1)) - u);
+    float laplacian = (4.0 * beside + corners) / 6.0;
 #else
-    float laplacian = beside - 4.0 * u;
+    float laplacian = beside;
 #endif
     field = vec4(u + rate * laplacian, 0.0, 0.0, 1.0);
 }

@@ -51,9 +51,9 @@ vec4 bilinear(sampler2D state, vec2 p) {
 #endif
     vec2 base = floor(p - 0.5), t = p - 0.5 - base;
     ivec2 i = ivec2(base);
-    vec4 low = mix(at(state, i), at(state, i + ivec2(1, 0)), t.x);
-    vec4 high = mix(at(state, i + ivec2(0, 1)), at(state, i + ivec2(1, 1)), t.x);
-    return mix(low, high, t.y);
+    vec4 a = at(state, i), b = at(state, i + ivec2(1, 0)), c = at(state, i + ivec2(0, 1)), d = at(state, i + ivec2(1, 1));
+    vec4 low = a + t.x * (b - a), high = c + t.x * (d - c);
+    return low + t.y * (high - low);
 }
 
 // Guay, Colin and Egli 2011: a texel is (u, v, rho). Density after its equation of transport.
@@ -68,9 +68,9 @@ float density(sampler2D state, ivec2 p) {
 vec2 moved(sampler2D state, vec2 fragCoord, vec2 gradient) {
     ivec2 p = ivec2(fragCoord);
     vec2 c = at(state, p).xy;
-    vec2 beside = at(state, p + ivec2(1, 0)).xy + at(state, p - ivec2(1, 0)).xy + at(state, p + ivec2(0, 1)).xy
-        + at(state, p - ivec2(0, 1)).xy;
-    return bilinear(state, fragCoord - dt * c).xy + dt * viscosity * (beside - 4.0 * c) - stiffness * gradient;
+    vec2 beside = (at(state, p + ivec2(1, 0)).xy - c) + (at(state, p - ivec2(1, 0)).xy - c)
+        + (at(state, p + ivec2(0, 1)).xy - c) + (at(state, p - ivec2(0, 1)).xy - c);
+    return bilinear(state, fragCoord - dt * c).xy + dt * viscosity * beside - stiffness * gradient;
 }
 
 vec4 stepped(sampler2D state, vec2 fragCoord) {

@@ -39,13 +39,13 @@ vec2 weight(int i, vec2 s) {
 vec2 blurred(sampler2D field, ivec2 p, ivec2 along, bool reacts) {
     ivec2 size = ivec2(iResolution.xy);
     vec2 variance = 2.0 * DIFFUSION * dt, w = texelFetch(field, p, 0).xy;
-    vec2 weights = weight(0, variance), sum = weights * (reacts ? reacted(w) : w);
+    vec2 weights = weight(0, variance), here = reacts ? reacted(w) : w, sum = vec2(0.0);
     int radius = variance.x < 0.9 ? 2 : int(ceil(5.0 * sqrt(variance.x)));
     for (int i = 1; i <= radius; ++i) {
         vec2 a = texelFetch(field, (p + i * along) % size, 0).xy, b = texelFetch(field, (p - i * along + size) % size, 0).xy;
         vec2 each = weight(i, variance);
-        sum += each * (reacts ? reacted(a) + reacted(b) : a + b);
+        sum += each * (reacts ? (reacted(a) - here) + (reacted(b) - here) : (a - here) + (b - here));
         weights += 2.0 * each;
     }
-    return sum / weights;
+    return here + sum / weights;
 }

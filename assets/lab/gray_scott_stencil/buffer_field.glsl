@@ -10,12 +10,12 @@ vec2 at(ivec2 p) {
 void mainImage(out vec4 field, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     vec2 w = at(p);
-    vec2 beside = at(p + ivec2(1, 0)) + at(p - ivec2(1, 0)) + at(p + ivec2(0, 1)) + at(p - ivec2(0, 1));
+    vec2 beside = (at(p + ivec2(1, 0)) - w) + (at(p - ivec2(1, 0)) - w) + (at(p + ivec2(0, 1)) - w) + (at(p - ivec2(0, 1)) - w);
 #if STENCIL == 9
-    vec2 corners = at(p + ivec2(1, 1)) + at(p + ivec2(1, -1)) + at(p + ivec2(-1, 1)) + at(p + ivec2(-1, -1));
-    vec2 laplacian = (4.0 * beside + corners - 20.0 * w) / 6.0;
+    vec2 corners = (at(p + ivec2(1, 1)) - w) + (at(p + ivec2(1, -1)) - w) + (at(p + ivec2(-1, 1)) - w) + (at(p + ivec2(-1, -1)) - w);
+    vec2 laplacian = (4.0 * beside + corners) / 6.0;
 #else
-    vec2 laplacian = beside - 4.0 * w;
+    vec2 laplacian = beside;
 #endif
 #if SPLIT == 1
     field = vec4(reacted(w + dt * DIFFUSION * laplacian), 0.0, 1.0);

@@ -122,6 +122,39 @@ fn what_is_read_before_it_is_written_is_found() {
 }
 
 #[test]
+fn what_is_undefined_is_followed_out_of_functions_and_into_them() {
+    let half = "struct S { float a; float b; };\nS f() { S s; s.a = 1.; return s; }\n";
+    for (functions, body, text) in [
+        // A local that is returned before it is written.
+        ("float f() { float a; return a; }\n", "o = vec4(f() + 1.);", "f() + 1."),
+        ("float f() { float a; return a; }\n", "o = vec4(p, f() * 2., 1.);", "f() * 2."),
+        ("float f() { float a; return a; }\nfloat g() { return f(); }\n", "o = vec4(g() + 1.);", "g() + 1."),
+        // Some of the ways through a function have no return.
+        ("float f(float x) { if (x > 4.) return 1.; }\n", "o = vec4(f(p.x) + 1.);", "f(p.x) + 1."),
+        // A structure that is filled in part.
+        (half, "o = vec4(f().b + 1.);", "f().b + 1."),
+        ("float f(vec2 v) { return v.y - 1.; }\n", "vec2 v;\nv.x = 1.;\no = vec4(f(v));", "v.y - 1."),
+        // A colour that comes from a function has a line.
+        ("vec4 f() { vec4 c; return c; }\n", "o = f();", "f()"),
+        ("vec3 f() { vec3 c; return c; }\n", "o = vec4(f(), 1.);", "vec4(f(), 1.)"),
+    ] {
+        let code = format!("{functions}{}", image(body));
+        let audit = audited(&code);
+        assert_eq!(named(&code, &audit), [("undefined", text)], "{code}");
+    }
+    for (functions, body) in [
+        (half, "o = vec4(f().a + 1.);"),
+        ("float f(vec2 v) { return v.x - 1.; }\n", "vec2 v;\nv.x = 1.;\no = vec4(f(v));"),
+        ("float f() { float a; a = 2.; return a; }\n", "o = vec4(f() + 1.);"),
+        ("float f() { float a; return a; }\nfloat g() { f(); return 1.; }\n", "o = vec4(g() + 1.);"),
+        ("void f() { float a; }\nfloat g() { float a; return a; }\n", "g();\nf();\no = vec4(1.);"),
+    ] {
+        let code = format!("{functions}{}", image(body));
+        assert_eq!(named(&code, &audited(&code)), [], "{code}");
+    }
+}
+
+#[test]
 fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
     for (body, text, numbers) in [
         ("o = vec4(pow(p.x - 9., 2.));", "pow(p.x - 9., 2.)", "pow(-8.5, 2.0)"),

@@ -48,13 +48,19 @@ pub struct Watch<'w> {
     inputs: &'w DrawInputs<'w>,
     births: HashMap<(FuncId, Value), Birth>,
     found: Vec<(Kind, Option<Span>, String)>,
-    /// Cells of memory that nothing was written to.
-    unset: HashSet<usize>,
+    /// Cells of memory that nothing was written to, and those that an undefined value was written to: with the place of
+    /// the expression that it is the value of.
+    unset: HashMap<usize, Option<Span>>,
     /// Cells of variables of the module that something was written to.
     written: HashSet<usize>,
     /// The undefined components of values, for each call under way.
     calls: Vec<HashMap<Value, Vec<bool>>>,
     variables: HashMap<FuncId, Vec<Value>>,
+    parameters: HashMap<FuncId, Vec<(Value, u32)>>,
+    /// The undefined components of the arguments of the call that is about to begin.
+    arguments: Vec<Option<Vec<bool>>>,
+    /// The undefined components of what the last function returned.
+    returned: Option<Vec<bool>>,
 }
 
 impl<'w> Watch<'w> {
@@ -64,10 +70,13 @@ impl<'w> Watch<'w> {
             inputs,
             births: HashMap::new(),
             found: Vec::new(),
-            unset: HashSet::new(),
+            unset: HashMap::new(),
             written: HashSet::new(),
             calls: Vec::new(),
             variables: HashMap::new(),
+            parameters: HashMap::new(),
+            arguments: Vec::new(),
+            returned: None,
         }
     }
 
@@ -124,6 +133,21 @@ impl<'w> Watch<'w> {
         self.find(Kind::Undefined(what), span, String::new());
     }
 
+    /// The place of the expression that an undefined value comes from, as far as it was only carried along since.
+    fn origin(&self, view: &View<'_, '_, Shadowed>, value: Value) -> Option<Span> {
+        match view.op(value) {
+            Op::Load { place } => {
+                let (start, count) = (view.address(*place), view.memory(*place).len());
+                (start..start + count).find_map(|cell| self.unset.get(&cell).copied().flatten())
+            }
+            Op::Part { base, .. } => self.origin(view, *base),
+            Op::Swizzle { vector, .. } => self.origin(view, *vector),
+            Op::Splat { value, .. } => self.origin(view, *value),
+            Op::Compose { parts, .. } => parts.iter().find_map(|&part| self.origin(view, part)),
+            _ => None,
+        }
+    }
+
     /// Notes which components of a value nothing was written to, and whether that counts as a use of them.
     fn follow(&mut self, view: &View<'_, '_, Shadowed>, value: Value, op: &Op) {
         let mut is_used = false;
@@ -131,7 +155,8 @@ impl<'w> Watch<'w> {
             Op::Load { place } => {
                 let (start, count) = (view.address(*place), view.memory(*place).len());
                 let is_global = self.is_unset_global(view, *place);
-                let is_unset = |cell: usize| self.unset.contains(&cell) || (is_global && !self.written.contains(&cell));
+                let is_unset =
+                    |cell: usize| self.unset.contains_key(&cell) || (is_global && !self.written.contains(&cell));
                 let components: Vec<bool> = (start..start + count).map(is_unset).collect();
                 components.contains(&true).then_some(components)
             }
@@ -155,6 +180,14 @@ impl<'w> Watch<'w> {
                     all.extend(self.undefined_components(view, part).unwrap_or_else(|| vec![false; size]));
                 }
                 Some(all)
+            }
+            Op::Call { args, .. } => {
+                // Components of an argument that are undefined are followed into the function; a whole argument is used.
+                is_used = args.iter().filter(|&&arg| !view.is_place(arg)).any(|&arg| {
+                    self.undefined_components(view, arg).is_some_and(|parts| parts.iter().all(|&part| part))
+                });
+                let returned = self.returned.take();
+                returned.filter(|components| components.len() == view.value(value).len())
             }
             _ => {
                 let size = view.value(value).len();
@@ -185,8 +218,31 @@ impl<'w> Watch<'w> {
 }
 
 impl Observer<Shadowed> for Watch<'_> {
+    fn calling(&mut self, view: &View<'_, '_, Shadowed>, arguments: &[Value]) {
+        let components = |&argument: &Value| match view.is_place(argument) {
+            true => None,
+            false => {
+                let components = self.undefined_components(view, argument)?;
+                components.contains(&false).then_some(components)
+            }
+        };
+        self.arguments = arguments.iter().map(components).collect();
+    }
+
     fn enter(&mut self, view: &View<'_, '_, Shadowed>) {
-        self.calls.push(HashMap::new());
+        let arguments = std::mem::take(&mut self.arguments);
+        let parameters = self.parameters.entry(view.function_id()).or_insert_with(|| {
+            let parameter = |(value, op): (Value, &Op)| match *op {
+                Op::Param(index) => Some((value, index)),
+                _ => None,
+            };
+            view.function().values().filter_map(parameter).collect()
+        });
+        let undefined = |&(value, index): &(Value, u32)| {
+            arguments.get(index as usize).cloned().flatten().map(|components| (value, components))
+        };
+        self.calls.push(parameters.iter().filter_map(undefined).collect());
+        self.returned = None;
         let variables = self.variables.entry(view.function_id()).or_insert_with(|| {
             let is_variable = |(value, op): (Value, &Op)| matches!(op, Op::Var(_)).then_some(value);
             view.function().values().filter_map(is_variable).collect()
@@ -198,6 +254,11 @@ impl Observer<Shadowed> for Watch<'_> {
                 self.unset.remove(&cell);
             }
         }
+    }
+
+    fn returned(&mut self, view: &View<'_, '_, Shadowed>, value: Option<Value>) {
+        let components = value.and_then(|value| self.undefined_components(view, value));
+        self.returned = components.filter(|components| components.contains(&true));
     }
 
     fn leave(&mut self, _: &View<'_, '_, Shadowed>) {
@@ -227,17 +288,25 @@ impl Observer<Shadowed> for Watch<'_> {
         // What is shown of a colour has no alpha, and buffers that need few components write few.
         let parts = self.undefined_components(view, value).unwrap_or_default();
         if !parts.is_empty() && parts.iter().take(3).all(|&part| part) {
-            let what = "the colour of the pixel was never written (undefined, 4.3.1)";
-            self.find(Kind::Undefined(what), None, String::new());
+            let span = self.origin(view, value);
+            let what = match span {
+                Some(_) => "the colour of the pixel is of a variable that was never written (undefined, 4.3.1)",
+                None => "the colour of the pixel was never written (undefined, 4.3.1)",
+            };
+            self.find(Kind::Undefined(what), span, String::new());
         }
     }
 
     fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
         let (start, count) = (view.address(place), view.memory(place).len());
         let undefined = self.undefined_components(view, value);
+        let is_declared = self.walkable.undefined(view.function_id()).contains(&value);
+        let is_authors = self.walkable.function_name(view.function_id()).is_some();
+        let carried = self.origin(view, value);
+        let own = (is_authors && !is_declared).then(|| self.span(view.function().loc(value))).flatten();
         for i in 0..count {
             match undefined.as_ref().is_some_and(|parts| parts[i.min(parts.len() - 1)]) {
-                true => self.unset.insert(start + i),
+                true => self.unset.insert(start + i, own.or(carried)),
                 false => self.unset.remove(&(start + i)),
             };
         }

@@ -296,6 +296,9 @@ impl<'a, R: Real> Machine<'a, R> {
                             frame.result[lane * size..][..size].copy_from_slice(&frame.cells[from.cells(lane)]);
                         }
                     }
+                    if is_seen {
+                        observer.returned(&View::new(&self.state, frame, lane), *value);
+                    }
                     active = 0;
                 }
                 Stmt::Discard => {
@@ -429,6 +432,9 @@ impl<'a, R: Real> Machine<'a, R> {
         lane: usize,
         observer: &mut O,
     ) -> Result<(), Stop> {
+        if active & (1 << lane) != 0 {
+            observer.calling(&View::new(&self.state, frame, lane), args);
+        }
         let mut inner = self.frame(callee);
         let slots = &self.state.layout(frame).slots;
         for &(index, param) in &self.state.layouts[callee.index()].params {

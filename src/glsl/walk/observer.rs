@@ -89,8 +89,14 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
 
 /// Sees each step of one pixel.
 pub trait Observer<R> {
+    /// A function is about to be called with these arguments.
+    fn calling(&mut self, _: &View<'_, '_, R>, _arguments: &[Value]) {}
+
     /// A function begins.
     fn enter(&mut self, _: &View<'_, '_, R>) {}
+
+    /// A function returns this value, or nothing.
+    fn returned(&mut self, _: &View<'_, '_, R>, _: Option<Value>) {}
 
     /// A function has ended.
     fn leave(&mut self, _: &View<'_, '_, R>) {}

@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
             RichText::new(format!("settings: {}", shown.table.study.parameter)).size(11.5).color(theme::of(ui).weak),
         );
         ui.add_space(5.0);
-        key(ui);
+        key(ui, shown.table.study.is_contest);
     });
     hovered
 }
@@ -57,14 +57,15 @@ fn method(ui: &mut Ui, shown: &PlotData, n: usize) -> bool {
     is_hovered
 }
 
-fn key(ui: &mut Ui) {
+fn key(ui: &mut Ui, is_contest: bool) {
     let ink = theme::of(ui).text;
-    for (look, words) in [
+    let looks = [
         (Some(Look::Full), "best at its cost (on the frontier)"),
         (Some(Look::Grey), "beaten: another is cheaper and more accurate"),
         (Some(Look::Hollow), "fails a hard case"),
         (None, "the frontier"),
-    ] {
+    ];
+    for (look, words) in looks.into_iter().filter(|(look, _)| is_contest || *look == Some(Look::Hollow)) {
         let row = line(ui, words, 11.5, theme::of(ui).weak).rect;
         let at = pos2(row.left() + 10.0, row.center().y);
         match look {

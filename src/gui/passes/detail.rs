@@ -6,7 +6,10 @@ use crate::{
         accessible, theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    project::{FillKind, Filter, Pass, PassEdit, PassId, PassKind, PassSize, Project, Region, Tab, TexelFormat, Wrap},
+    project::{
+        Condition, FillKind, Filter, Pass, PassEdit, PassId, PassKind, PassSize, Project, Region, Tab, TexelFormat,
+        Wrap,
+    },
     session::{Command, Session},
 };
 use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
@@ -22,6 +25,7 @@ pub struct Naming {
 #[derive(Debug, Default)]
 pub struct Typed {
     naming: Naming,
+    condition: Naming,
     initial: Filling,
     boundary: Filling,
 }
@@ -66,6 +70,11 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
         if has("region") {
             ui.label("Region");
             region(ui, session, pass, out);
+            ui.end_row();
+        }
+        if has("when") {
+            ui.label("Drawn when").on_hover_text("A condition on uniforms; leave it empty to draw in every frame");
+            condition(ui, pass, &mut typed.condition, out);
             ui.end_row();
         }
         if is_buffer {
@@ -143,6 +152,39 @@ fn name(ui: &mut Ui, project: &Project, id: &PassId, naming: &mut Naming, out: &
     if let Some(why) = why {
         response.on_hover_text(why);
     }
+}
+
+/// The condition by which a pass is drawn.
+fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
+    let now = pass.settings.when.as_ref().map_or("", Condition::text);
+    let tab = Tab::Pass(pass.id.clone());
+    if typed.of.as_ref() != Some(&tab) {
+        *typed = Naming { of: Some(tab), text: now.to_owned() };
+    }
+    let wrong = |text: &str| Some(text).filter(|text| !text.trim().is_empty()).and_then(|t| Condition::parse(t).err());
+    let is_wrong = wrong(&typed.text).is_some();
+    let hint = RichText::new("always; or quality > 1").color(theme::of(ui).weak);
+    let field = TextEdit::singleline(&mut typed.text).hint_text(hint).font(egui::TextStyle::Monospace);
+    let width = ui.available_width().clamp(140.0, 420.0);
+    let response = ui.add_sized([width, 24.0], field.text_color_opt(is_wrong.then_some(theme::of(ui).error)));
+    accessible::name(&response, Role::TextInput, "Drawn when");
+    out.place("passes:when", response.rect);
+    let why = wrong(&typed.text);
+    let is_cancelled = ui.input(|i| i.key_pressed(Key::Escape));
+    if response.lost_focus() {
+        let text = typed.text.trim();
+        if !is_cancelled && why.is_none() && text != now {
+            edit(out, PassEdit::When(pass.id.clone(), (!text.is_empty()).then(|| text.to_owned())));
+        }
+    }
+    if !response.has_focus() {
+        // The condition that is there is shown, whoever changed it.
+        typed.of = None;
+    }
+    response.on_hover_text(why.map_or_else(
+        || "While it is false, the pass is not drawn and holds what it holds before frame 0".to_owned(),
+        |why| why.to_string(),
+    ));
 }
 
 /// The pass that a name means, and why it cannot be this one's.

@@ -90,7 +90,8 @@ impl Errors {
             let off = measured - expected;
             (square, sum, most, count) = (square + off * off, sum + off, most.max(off.abs()), count + 1);
         }
-        Errors { rms: (square / count as f64).sqrt(), mean: sum / count as f64, most, count }
+        let n = count.max(1) as f64;
+        Errors { rms: (square / n).sqrt(), mean: sum / n, most, count }
     }
 }
 

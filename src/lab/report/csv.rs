@@ -29,7 +29,7 @@ pub fn text(table: &Table) -> String {
             number(row.millis.map(|m| m.min)),
             number(row.millis.map(|m| m.max)),
             number(cost.map(|c| c.megatexels_per_second())),
-            number(cost.map(|c| c.roofline())),
+            number(cost.and_then(|c| c.roofline())),
             number(cost.map(|c| c.bytes_per_texel)),
             number(norms.map(|n| n.l1)),
             number(norms.map(|n| n.l2)),

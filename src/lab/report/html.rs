@@ -3,19 +3,18 @@
 use super::table::{Reach, Row, Table};
 use crate::{
     Extent, Results,
-    cost::{Clock, MIN_REPEATS},
+    cost::{Clock, Cost, MIN_REPEATS, Times},
+    page_style::PAGE,
 };
 use std::fmt::Write;
 
 const STYLE: &str = "
-body { font: 15px/1.5 system-ui, sans-serif; color: #23262d; background: #fff; max-width: 1280px; margin: 2rem auto; padding: 0 1rem }
-h1 { font-size: 1.7rem } h2 { margin-top: 3rem; border-top: 1px solid #d8dbe0; padding-top: 1.5rem }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100% }
-th, td { padding: .25rem .5rem; text-align: right; border-bottom: 1px solid #e6e8ec; white-space: nowrap }
-th { font-weight: 600; line-height: 1.25; white-space: normal; vertical-align: bottom; background: #f4f5f7; position: sticky; top: 0 }
-th:first-child, td:first-child { text-align: left } tr.study td { font-weight: 600; background: #fafbfc; text-align: left }
-td.bad { color: #a3131f } td.best { background: #fff3c9 } small, .quiet { color: #646a75 } svg { max-width: 100%; height: auto }
-details { margin: 1rem 0; overflow-x: auto } summary { cursor: pointer }
+th, td { padding: .25rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; overflow-wrap: normal }
+th { font-weight: 600; line-height: 1.25; white-space: normal; vertical-align: bottom; background: var(--head) }
+th:first-child, td:first-child { text-align: left } tr.study td { font-weight: 600; background: var(--group); text-align: left }
+td.bad { color: var(--bad) } td.best { background: var(--best) } td small { display: block; line-height: 1.1 }
+tr.study small { display: inline }
+@media (max-width: 800px) { .wide svg { max-width: none; width: 900px } td:first-child { white-space: normal; min-width: 9rem } }
 ";
 
 pub fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
@@ -23,7 +22,7 @@ pub fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
     let _ = write!(
         out,
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Eddy's lab</title>\
-         <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>{PAGE}{STYLE}</style></head><body>\n\
          <h1>Speed against error</h1>\n"
     );
     provenance(&mut out, sections, results);
@@ -60,9 +59,12 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
     };
     let _ = writeln!(
         out,
-        "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The \
+        "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn, and \
+         below it the least and the most of all: this run does not tell two methods apart whose ranges overlap. The \
          roofline is a pass that copies rgba32f in the same turns; bytes per texel are the least that the plan of a \
-         frame moves for a texel of the study's grid.</p>"
+         frame moves for a texel of the study's grid. There is no roofline for grids so small that the copying pass takes \
+         less than four times as long as a pass of one texel; <i>over 100</i> is a method whose textures move faster \
+         than in the copying pass, because they stay in a cache or several are read at once.</p>"
     );
 }
 
@@ -81,7 +83,7 @@ const COLUMNS: [&str; 11] = [
 ];
 
 fn heading(out: &mut String, last: &[&str]) {
-    out.push_str("<table><thead><tr>");
+    out.push_str("<div class=\"wide\"><table><thead><tr>");
     for column in COLUMNS.iter().chain(last) {
         let _ = write!(out, "<th>{column}</th>");
     }
@@ -105,7 +107,8 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
             table.grid,
             table.grid
         );
-        let best = table.methods().iter().filter_map(|m| table.millis_to_target(m)).fold(f64::INFINITY, f64::min);
+        let rivals = table.methods().into_iter().filter(|_| table.study.is_contest);
+        let best = rivals.filter_map(|m| table.millis_to_target(m)).fold(f64::INFINITY, f64::min);
         for method in table.methods() {
             let Some(row) = table.usual(method) else { continue };
             let (class, reach) = match table.reach(method) {
@@ -121,7 +124,7 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
             cells(out, table, row, &format!("<td{class}>{reach}</td>{best}"));
         }
     }
-    out.push_str("</tbody></table>\n");
+    out.push_str("</tbody></table></div>\n");
 }
 
 fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
@@ -130,18 +133,20 @@ fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
     let (passed, all) = row.hard();
     let is_usual = row.point.setting == row.method.usual;
     let order = table.order(row.method).filter(|_| is_usual);
-    let spread = row.millis.map_or(String::new(), |t| format!(" title=\"{} to {}\"", number(t.min), number(t.max)));
+    let is_spread = |t: &Times| t.min < t.max;
+    let spread = row.millis.filter(is_spread).map(|t| format!("<small>{} – {}</small>", number(t.min), number(t.max)));
     let failed: Vec<String> =
         row.measured.iter().flat_map(|m| &m.hard).map(|h| format!("{}: {}", h.name, h.detail)).collect();
     let _ = writeln!(
         out,
-        "<tr><td>{}</td><td>{}</td><td{spread}>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+        "<tr><td>{}</td><td>{}</td><td>{}{}</td><td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
          <td>{}</td><td{} title=\"{}\">{passed}/{all}</td>{last}</tr>",
         escaped(row.trouble.as_deref().map_or(row.method.title, |t| t.lines().next().unwrap_or(t))),
         row.point.setting,
         some(row.millis.map(|m| m.median)),
+        spread.unwrap_or_default(),
         some(row.cost.map(|c| c.megatexels_per_second())),
-        row.cost.map_or("&ndash;".into(), |c| format!("{:.0}", 100.0 * c.roofline())),
+        row.cost.map_or("<td>&ndash;</td>".into(), roofline),
         some(row.cost.map(|c| c.bytes_per_texel)),
         some(norms.map(|n| n.l2)),
         some(norms.map(|n| n.linf)),
@@ -152,10 +157,29 @@ fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
     );
 }
 
+/// The cell of a method's share of the roofline, and why there is none.
+fn roofline(cost: Cost) -> String {
+    match cost.roofline() {
+        None => format!(
+            "<td title=\"too few texels: the copying pass takes {} ms, and a pass of one texel {} ms\">&ndash;</td>",
+            number(cost.copy.median),
+            number(cost.empty.median)
+        ),
+        Some(share) if share > 1.0 => format!(
+            "<td title=\"{:.0} %: its textures move faster than in the copying pass\">over 100</td>",
+            100.0 * share
+        ),
+        Some(share) => format!("<td>{:.0}</td>", 100.0 * share),
+    }
+}
+
 fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     let study = table.study;
     let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", study.name, escaped(study.title), escaped(study.text));
-    out.push_str(svg.unwrap_or("<p>Nothing to plot yet: costs are missing.</p>"));
+    match svg {
+        Some(svg) => drop(writeln!(out, "<div class=\"wide\">{svg}</div>")),
+        None => out.push_str("<p>Nothing to plot yet: costs are missing.</p>\n"),
+    }
     if let Some(verdict) = table.verdict() {
         let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&verdict));
     }
@@ -191,21 +215,24 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     for row in &table.rows {
         cells(out, table, row, "");
     }
-    out.push_str("</tbody></table>\n");
+    out.push_str("</tbody></table></div>\n");
     let values = table.values();
     if !values.is_empty() {
         let head: String = values.iter().map(|v| format!("<th>{}</th>", escaped(v))).collect();
-        let _ = writeln!(out, "<table><thead><tr><th>method</th><th>setting</th>{head}</tr></thead><tbody>");
+        let _ = writeln!(
+            out,
+            "<div class=\"wide\"><table><thead><tr><th>method</th><th>setting</th>{head}</tr></thead><tbody>"
+        );
         for row in &table.rows {
             let of = |name: &String| row.value(name).map_or("&ndash;".to_owned(), number);
             let cells: String = values.iter().map(|v| format!("<td>{}</td>", of(v))).collect();
             let _ =
                 writeln!(out, "<tr><td>{}</td><td>{}</td>{cells}</tr>", escaped(row.method.title), row.point.setting);
         }
-        out.push_str("</tbody></table>\n");
+        out.push_str("</tbody></table></div>\n");
     }
     if !table.convergence.is_empty() {
-        out.push_str("<table><thead><tr><th>L2 at the usual setting</th>");
+        out.push_str("<div class=\"wide\"><table><thead><tr><th>L2 at the usual setting</th>");
         let grids: Vec<u32> = table.convergence[0].errors.iter().map(|(grid, _)| *grid).collect();
         let heads: String = grids.iter().map(|grid| format!("<th>{grid} x {grid}</th>")).collect();
         let _ = writeln!(out, "{heads}<th>order</th></tr></thead><tbody>");
@@ -213,7 +240,7 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
             let cells: String = c.errors.iter().map(|(_, e)| format!("<td>{}</td>", number(*e))).collect();
             let _ = writeln!(out, "<tr><td>{}</td>{cells}<td>{:.2}</td></tr>", escaped(c.method.title), c.order);
         }
-        out.push_str("</tbody></table>\n");
+        out.push_str("</tbody></table></div>\n");
     }
     out.push_str("</details>\n");
 }
@@ -245,5 +272,24 @@ mod tests {
         let said = [0.0, 1.0, 0.0123456, 4e-5, 12.345, 123.9, 2e6, f64::INFINITY].map(number);
         assert_eq!(said, ["0", "1.000", "0.0123", "4.00e-5", "12.3", "124", "2.00e6", "diverged"]);
         assert_eq!(escaped("a<b & \"c\""), "a&lt;b &amp; &quot;c&quot;");
+    }
+
+    #[test]
+    fn a_roofline_of_few_texels_or_above_its_roof_says_so() {
+        let times = |median: f64| Times { median, min: median, max: median };
+        let cost = |copy: f64, frame: f64| Cost {
+            frame: times(frame),
+            copy: times(copy),
+            empty: times(0.1),
+            bytes_per_texel: 32.0,
+            texels_per_texel: 1.0,
+            canvas_texels: 1.0,
+            repeats: 7,
+            batch: 1,
+            clock: Clock::Wall,
+        };
+        assert_eq!(roofline(cost(1.0, 2.0)), "<td>50</td>");
+        assert!(roofline(cost(1.0, 0.25)).contains("400 %") && roofline(cost(1.0, 0.25)).contains(">over 100<"));
+        assert!(roofline(cost(0.3, 2.0)).contains("0.300 ms") && roofline(cost(0.3, 2.0)).contains(">&ndash;<"));
     }
 }

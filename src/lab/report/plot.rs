@@ -237,16 +237,17 @@ fn legend<B: DrawingBackend>(
     }
     area.draw(&Text::new(format!("settings: {}", table.study.parameter), (left, y + 4), text(15, &INK)))?;
     y += 36;
-    for (fill, words) in
-        [(INK, "best at its cost"), (GREY, "another is cheaper and closer"), (WHITE, "fails a hard case")]
-    {
+    let looks = [(INK, "best at its cost"), (GREY, "another is cheaper and closer"), (WHITE, "fails a hard case")];
+    for (fill, words) in looks.into_iter().filter(|(fill, _)| table.study.is_contest || *fill == WHITE) {
         sign(y, 0, INK, fill)?;
         area.draw(&Text::new(words, (left + 32, y), text(15, &INK)))?;
         y += 25;
     }
-    let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
-    area.draw(&PathElement::new(vec![(left, y + 9), (left + 22, y + 9)], gold))?;
-    area.draw(&Text::new("the frontier", (left + 32, y), text(15, &INK)))?;
+    if table.study.is_contest {
+        let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
+        area.draw(&PathElement::new(vec![(left, y + 9), (left + 22, y + 9)], gold))?;
+        area.draw(&Text::new("the frontier", (left + 32, y), text(15, &INK)))?;
+    }
     area.draw(&Text::new("bars: least and most of all turns", (left, y + 27), text(15, &INK)))?;
     if let Some(edge) = cut {
         let words = format!("on the upper edge: an error above {edge}");

@@ -318,7 +318,7 @@ mod tests {
         let subject = Subject::load("fluid-accurate", &[]).unwrap();
         let cases = list(&subject, Extent::Full, base(Extent::Full));
         let lids = cases.iter().filter(|c| c.name.contains("lid_speed") && c.name.contains("walls=1"));
-        assert_eq!(lids.count(), 8);
+        assert_eq!(lids.count(), 10);
         let large: Vec<&Case> = cases.iter().filter(|c| c.kind == Kind::Viscosity).collect();
         assert!(large.len() == 18 && large.iter().all(|c| (c.size, c.frames) == ((1920, 1080), 60)));
         let quick = list(&subject, Extent::Quick, base(Extent::Quick));

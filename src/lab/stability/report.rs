@@ -3,6 +3,7 @@
 use super::{Subject, check::Rule};
 use crate::{
     Extent, LabError, Results,
+    page_style::PAGE,
     stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
 };
 use eddy_project as project;
@@ -159,18 +160,15 @@ fn quoted(text: &str) -> String {
 }
 
 const STYLE: &str = "
-body { font: 15px/1.5 system-ui, sans-serif; color: #23262d; background: #fff; max-width: 1280px; margin: 2rem auto; padding: 0 1rem }
-h1 { font-size: 1.7rem } h2 { margin-top: 3rem; border-top: 1px solid #d8dbe0; padding-top: 1.5rem }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; margin: .7rem 0 }
-th, td { padding: .25rem .55rem; text-align: left; border-bottom: 1px solid #e6e8ec; vertical-align: top }
-th { font-weight: 600; background: #f4f5f7 } td.n, th.n { text-align: right; white-space: nowrap }
-tr.left td { background: #fdecee } tr.excused td { color: #646a75 } .quiet { color: #646a75 } summary { cursor: pointer }
+th, td { padding: .25rem .55rem; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; min-width: 3rem }
+th { font-weight: 600; background: var(--head) } td.n, th.n { text-align: right; white-space: nowrap }
+tr.left td { background: var(--wrong) } tr.excused td { color: var(--quiet) }
 ";
 
 fn page(results: &Results, subjects: &[Subject]) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Stability</title>\
-         <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body>\n<h1>Stability</h1>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>{PAGE}{STYLE}</style></head><body>\n<h1>Stability</h1>\n\
          <p>Each case draws a project and looks at its states every few frames, and at each frame while something is done to it. A \
          bound is the range that physics or the method allows, and not the limit of a clamp. Where theory says that a bound is \
          left, the case may leave it, and must stay finite. Frames to recover are counted from the end of what was done until \
@@ -188,7 +186,7 @@ fn page(results: &Results, subjects: &[Subject]) -> String {
         );
     }
     let groups = grouped(&results.cases);
-    out.push_str("<table><thead><tr><th>project</th><th>cases of</th><th class=\"n\">drawn</th><th class=\"n\">held</th><th class=\"n\">left, as theory says</th><th class=\"n\">left</th><th>slowest recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
+    out.push_str("<div class=\"wide\"><table><thead><tr><th>project</th><th>cases of</th><th class=\"n\">drawn</th><th class=\"n\">held</th><th class=\"n\">left, as theory says</th><th class=\"n\">left</th><th>slowest recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
     for ((project, kind), rows) in &groups {
         let count = |of: &str| rows.iter().filter(|r| outcome(r) == of).count();
         let left = rows.iter().filter(|r| !r.is_right()).count();
@@ -206,7 +204,7 @@ fn page(results: &Results, subjects: &[Subject]) -> String {
             project = escaped(project),
         );
     }
-    out.push_str("</tbody></table>\n");
+    out.push_str("</tbody></table></div>\n");
     let mut projects: Vec<&str> = groups.keys().map(|(project, _)| *project).collect();
     projects.dedup();
     for project in projects {
@@ -229,7 +227,7 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord], subject
     if let Some(subject) = subject {
         bounds(out, subject);
     }
-    out.push_str("<table><thead><tr><th>case</th><th class=\"n\">canvas</th><th class=\"n\">frames</th><th>expected</th><th>measured</th><th class=\"n\">recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
+    out.push_str("<div class=\"wide\"><table><thead><tr><th>case</th><th class=\"n\">canvas</th><th class=\"n\">frames</th><th>expected</th><th>measured</th><th class=\"n\">recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
     for r in records.iter().filter(|r| r.project == project) {
         let class = match outcome(r) {
             "held" => "",
@@ -256,13 +254,13 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord], subject
             r.courant.map_or(String::new(), |c| short(c.0)),
         );
     }
-    out.push_str("</tbody></table>\n");
+    out.push_str("</tbody></table></div>\n");
 }
 
 /// The ranges at the sliders' defaults, and their reasons.
 fn bounds(out: &mut String, subject: &Subject) {
     let usual = subject.situation(&Default::default(), (640, 360), 1.0 / 60.0, true);
-    out.push_str("<details><summary>Bounds</summary><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
+    out.push_str("<details><summary>Bounds</summary><div class=\"wide\"><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
     for check in &subject.checks {
         let allowed = check.allowed(&usual);
         let varies = if matches!(check.allowed, Rule::Of(_)) { " (at the defaults, 640x360)" } else { "" };
@@ -275,7 +273,7 @@ fn bounds(out: &mut String, subject: &Subject) {
             escaped(&check.reason)
         );
     }
-    out.push_str("</tbody></table></details>\n");
+    out.push_str("</tbody></table></div></details>\n");
     if let Some(limit) = subject.courant.and_then(|c| c.limit) {
         let _ = writeln!(out, "<p class=\"quiet\">Cells a step: {}.</p>", escaped(limit));
     }

@@ -8,7 +8,7 @@ use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::Norms,
     reference::{
-        rays::{Errors, Meshes, add, hidden, on_all_cores, unit},
+        rays::{Errors, Meshes, add, dot, hidden, on_all_cores, unit},
         still_life::{FAR, View, first, is_table, normal},
     },
     three_of,
@@ -19,6 +19,11 @@ const SIDE: u32 = 32;
 
 /// Points of a picture that are held against rays.
 const POINTS: f64 = 900.0;
+
+/// Off the plane of a point by more, or with a normal of which less is along the point's, a point of the room's meshes is
+/// another surface's.
+const STEP: f64 = 0.05 * ROOM_RADIUS;
+const BENT: f64 = 0.7;
 
 const SAMPLES: &[f64] = &[8.0, 16.0, 32.0, 64.0];
 
@@ -41,6 +46,38 @@ pub struct Occluded {
     pub expected: f64,
     /// It lies on the table, or on the room's floor.
     pub is_plane: bool,
+    /// It lies within two pixels of another surface in the picture.
+    pub is_edge: bool,
+}
+
+/// The errors of points: all, those within two pixels of another surface, and the others.
+#[derive(Clone, Copy, Debug)]
+pub struct ByEdge {
+    pub all: Errors,
+    pub edges: Errors,
+    pub inside: Errors,
+}
+
+impl ByEdge {
+    pub fn of(found: &[Occluded]) -> ByEdge {
+        let errors = |wanted: &dyn Fn(&Occluded) -> bool| {
+            Errors::of(found.iter().filter(|o| wanted(o)).map(|o| (o.measured, o.expected)))
+        };
+        ByEdge { all: errors(&|_| true), edges: errors(&|o| o.is_edge), inside: errors(&|o| !o.is_edge) }
+    }
+
+    /// The part of the points that lies at edges.
+    pub fn edge_share(&self) -> f64 {
+        self.edges.count as f64 / self.all.count.max(1) as f64
+    }
+}
+
+/// The pixel itself and eight around it, two pixels away, inside the canvas.
+fn around((x, y): (u32, u32), (width, height): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
+    (0..9u32).map(move |i| {
+        let [column, row] = [x + i % 3 * 2, y + i / 3 * 2].map(|n| n.saturating_sub(2));
+        (column.min(width - 1), row.min(height - 1))
+    })
 }
 
 /// The most that a method hides where nothing does, on the scene's plane.
@@ -54,27 +91,24 @@ fn spots((width, height): (u32, u32)) -> Vec<(u32, u32)> {
     along(height).flat_map(|y| along(width).map(move |x| (x, y))).collect()
 }
 
-/// The still life. Points are found by rays from the camera; only edges are asked of the G-buffer, where a point may be
-/// either side's.
+/// The still life. Points are found by rays from the camera; only where edges are is read from the G-buffer, whose pixel
+/// may there be the other side's.
 fn on_the_table(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let size = setup.size();
     let mut running = rig.open(setup)?;
     running.frames(1)?;
     let (surfaces, measured) = (running.read("a")?, running.read("c")?);
     let view = View::new(size.0, size.1);
-    let material = |x: u32, y: u32| texel(&surfaces, x.min(size.0 - 1), y.min(size.1 - 1))[3] as u32;
+    let material = |x: u32, y: u32| texel(&surfaces, x, y)[3] as u32;
     let found = on_all_cores(&spots(size), |&(x, y)| {
-        let near = |i: u32| material((x + i % 3 * 2).saturating_sub(2), (y + i / 3 * 2).saturating_sub(2));
-        if (0..9).any(|i| near(i) != material(x, y)) {
-            return None;
-        }
+        let is_edge = around((x, y), size).any(|(column, row)| material(column, row) != material(x, y));
         let ray = view.ray([f64::from(x) + 0.5, f64::from(y) + 0.5]);
         let at = add(view.eye, ray, first(view.eye, ray, FAR)?);
         let normal = normal(at);
         let falloff = |d: f64| ((TABLE_RADIUS - d) / (0.4 * TABLE_RADIUS)).clamp(0.0, 1.0);
         let hit = |from, ray| first(from, ray, TABLE_RADIUS);
         let expected = hidden(add(at, normal, 1e-4), normal, SIDE, hit, falloff);
-        Some(Occluded { measured: texel(&measured, x, y)[0], expected, is_plane: is_table(at) })
+        Some(Occluded { measured: texel(&measured, x, y)[0], expected, is_plane: is_table(at), is_edge })
     });
     Ok(found.into_iter().flatten().collect())
 }
@@ -102,7 +136,12 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
         let hit = |from, ray| meshes.hit(from, ray, ROOM_RADIUS);
         let expected = hidden(from, unit(normal), SIDE, hit, falloff);
         let is_plane = at[1].abs() < 2e-3 && normal[1] > 0.99;
-        Some(Occluded { measured: 1.0 - texel(&open, x, y)[0], expected, is_plane })
+        let is_edge = around((x, y), setup.size()).any(|(column, row)| {
+            let [other, bent] = [&world, &normals].map(|field| texel(field, column, row));
+            let off = [0, 1, 2].map(|i| other[i] - at[i]);
+            other[3] == 0.0 || dot(off, normal).abs() > STEP || dot([bent[0], bent[1], bent[2]], normal) < BENT
+        });
+        Some(Occluded { measured: 1.0 - texel(&open, x, y)[0], expected, is_plane, is_edge })
     });
     Ok(found.into_iter().flatten().collect())
 }
@@ -118,8 +157,9 @@ pub static STUDY: Study = Study {
     title: "Ambient occlusion",
     text: "Some 900 points of each preset's scene, the still life on its table and the meshes in their room, \
            against 1,024 stratified rays a point, weighted by the cosine, of the preset's radius and falloff, \
-           in f64. The error is the root mean square of the hidden part of the sky, of which 1 is all. The \
-           table gives the mean of the error, the points that are hidden by .1 too much (a halo), and the most \
+           in f64. The error is the root mean square of the hidden part of the sky, of which 1 is all, over all \
+           points. The table also gives it for the points within two pixels of another surface and for the \
+           others, and how many of the points are at such edges; the mean of the error, the points that are hidden by .1 too much (a halo), and the most \
            where nothing hides; and, each in scenes of its own, the largest errors beside a wall and below a \
            sphere. Of the slices, with a radius of 4, these are from (1 - cos t) / 2 and R² h / (r² + \
            h²)^(3/2); of the samples, with the preset's radius, from the mean of a disc's segments over their \
@@ -138,12 +178,16 @@ pub static STUDY: Study = Study {
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let found = occlusion(rig, &point.method, point.setting, (point.grid, point.grid))?;
-    let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
+    let by_edge = ByEdge::of(&found);
+    let off = by_edge.all;
     let size = found.iter().map(|o| (o.measured - o.expected).abs()).sum::<f64>() / found.len() as f64;
     let halo = found.iter().filter(|o| o.measured - o.expected > 0.1).count() as f64 / found.len() as f64;
     let open = open_most(&found);
     let norms = Norms { l1: size, l2: off.rms, linf: off.most };
     let measured = Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+        .value("edge_rms", by_edge.edges.rms)
+        .value("inside_rms", by_edge.inside.rms)
+        .value("edge_share", by_edge.edge_share())
         .value("bias", off.mean)
         .value("halo_share", halo)
         .value("open_most", open)

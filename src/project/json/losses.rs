@@ -61,6 +61,7 @@ fn settings(pass: &Pass) -> Option<String> {
         (own.region != usual.region, "region"),
         (own.initial != usual.initial, "initial state"),
         (own.boundary != usual.boundary, "boundary"),
+        (own.when != usual.when, "condition"),
     ];
     let named: Vec<&str> = all.into_iter().filter(|(is_set, _)| *is_set).map(|(_, name)| name).collect();
     (!named.is_empty())

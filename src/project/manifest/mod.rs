@@ -30,6 +30,7 @@
 //! initial = "vec4(0.5 + 0.1 * sin(0.1 * fragCoord.x), 0.0, 0.0, 1.0)"   # what it holds before frame 0; default zeros
 //! boundary = { width = 1, value = "vec4(0.0)" }  # its outermost texels, overwritten after each draw
 //! region = [0, 0, 64, 1]          # only these texels are drawn (x, y, width, height); the others keep what they held
+//! when = "quality > 1"            # drawn only while this is true; else it holds what it holds before frame 0
 //!
 //! [groups.solver]                 # buffers that follow each other, drawn 20 times a frame, in order
 //! passes = ["buffer_b", "buffer_c"]

@@ -1,17 +1,18 @@
-//! The keys of `eddy.toml` that say how passes are drawn: `size`, `format`, `region` of a pass, and `[groups]`.
+//! The keys of `eddy.toml` that say how passes are drawn: `size`, `format`, `region` and `when` of a pass,
+//! and `[groups]`.
 
 use super::{
     edit::{child, key_of, set},
     reader::Reader,
 };
 use crate::{
-    Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, file_names, limits, listed, nearest,
-    settings::draws,
+    Condition, Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, Written, file_names, limits,
+    listed, nearest, settings::draws,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
 /// The keys of a pass's table that this module reads.
-pub(super) const KEYS: [&str; 3] = ["size", "format", "region"];
+pub(super) const KEYS: [&str; 4] = ["size", "format", "region", "when"];
 
 fn whole(value: &Value) -> Option<u32> {
     value.as_integer().and_then(|n| u32::try_from(n).ok())
@@ -49,7 +50,30 @@ impl Reader<'_> {
                 ),
             }
         }
+        settings.when = self.condition(table);
         settings
+    }
+
+    fn condition(&mut self, table: &dyn TableLike) -> Option<Condition> {
+        let item = table.get("when")?;
+        let Some(text) = item.as_str() else {
+            self.wrong_type("when", item, "a condition in quotes, such as \"quality > 1\"");
+            return None;
+        };
+        let written = self.span_text(item).map(|(manifest, range)| Written { manifest, range });
+        match Condition::parse(text) {
+            Ok(condition) => Some(condition.at(written)),
+            Err(error) => {
+                // Where the text stands as it is written, the part of it that is wrong.
+                let verbatim = written.as_ref().and_then(|w| {
+                    let at = w.range.start + w.manifest.get(w.range.clone())?.find(text)?;
+                    Some(at + error.range.start..at + error.range.end)
+                });
+                let at = verbatim.filter(|range| !range.is_empty()).or_else(|| item.span());
+                self.error(at, format!("when: {}", error.message), error.hint);
+                None
+            }
+        }
     }
 
     /// `[groups.NAME]`: passes that are drawn several times a frame.
@@ -205,6 +229,10 @@ pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings)
     if table.get("region").and_then(region) != settings.region {
         let numbers = settings.region.map(|r| [r.x, r.y, r.width, r.height].into_iter().map(i64::from).collect());
         set(table, "region", numbers);
+    }
+    let when = settings.when.as_ref().map(Condition::text);
+    if table.get("when").and_then(Item::as_str) != when {
+        set(table, "when", when.map(Value::from));
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::groups;
 use crate::{
-    Boundary, Fill, FillValue, Filter, Pass, PassId, PassKind, PassSize, Project, Region, Sampler, Source, Tab,
-    TexelFormat, Wrap, confine,
+    Boundary, Condition, Fill, FillValue, Filter, Pass, PassId, PassKind, PassSize, Project, Region, Sampler, Source,
+    Tab, TexelFormat, Wrap, confine,
     file_names::{self, Role},
     limits,
     settings::draws,
@@ -24,6 +24,8 @@ pub enum PassEdit {
     Format(PassId, TexelFormat),
     /// Sets the part of it that is drawn; `None`: all.
     Region(PassId, Option<Region>),
+    /// Sets the condition by which it is drawn, as a person writes it; `None`: in every frame.
+    When(PassId, Option<String>),
     /// Sets what a buffer holds before frame 0; `None`: zeros.
     Initial(PassId, Option<FillValue>),
     /// The outermost texels of a pass, and how many from each edge; `None`: as drawn.
@@ -72,6 +74,8 @@ pub enum PassEditError {
     BadSize,
     #[error("a region needs at least one texel in each direction")]
     BadRegion,
+    #[error("{0}")]
+    BadCondition(String),
     #[error("a boundary is at least one texel wide")]
     BadBoundary,
     #[error("the expression is missing; for example vec4(0.0)")]
@@ -96,6 +100,7 @@ impl PassEdit {
             PassEdit::Size(pass, _) => of("size", pass),
             PassEdit::Format(pass, _) => of("format", pass),
             PassEdit::Region(pass, _) => of("region", pass),
+            PassEdit::When(pass, _) => of("condition", pass),
             PassEdit::Initial(pass, _) => of("beginning", pass),
             PassEdit::Boundary(pass, _) => of("edges", pass),
             PassEdit::Steps(pass, _) => of("steps", pass),
@@ -160,6 +165,17 @@ impl Project {
                     self.buffer(pass, "region")?;
                 }
                 self.found(pass)?.settings.region = *region;
+            }
+            PassEdit::When(pass, text) => {
+                if pass.row().refusal("when").is_some() {
+                    self.buffer(pass, "condition")?;
+                }
+                let when = text.as_deref().map(Condition::parse).transpose();
+                let when = when.map_err(|error| PassEditError::BadCondition(error.to_string()))?;
+                let settings = &mut self.found(pass)?.settings;
+                if settings.when != when {
+                    settings.when = when;
+                }
             }
             PassEdit::Initial(pass, value) => {
                 self.buffer(pass, "initial state")?;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    Boundary, Channel, Fill, Filter, Info, Input, InputKind, Pass, PassSettings, PassSize, Region, Sampler,
+    Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassSettings, PassSize, Region, Sampler,
     TexelFormat, Wrap, load,
 };
 use std::{
@@ -59,6 +59,10 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
     }
     if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
+    }
+    if matches!(id, PassId::Buffer(_) | PassId::Cubemap) && r.below(3) == 0 {
+        let text = r.of(&["on", "kind == 3 && !off", " a<1||b>=.5 ", "-(width) != -64"]);
+        settings.when = Some(Condition::parse(text).unwrap());
     }
     if matches!(id, PassId::Buffer(_)) && r.below(3) == 0 {
         settings.initial = Some(any_fill(r));

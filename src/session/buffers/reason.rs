@@ -12,6 +12,10 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
             return Some("unchanged: none of its inputs has changed since it was drawn".into());
         }
         PassRole::Outside => return Some("not drawn: its region is outside its texture".into()),
+        PassRole::Off => {
+            let when = cost.when.as_deref().unwrap_or_default();
+            return Some(format!("not drawn: its condition is false ({when}); it holds what it holds before frame 0"));
+        }
         PassRole::Unread => {}
     }
     let is_drawn = |cost: &PassCost| cost.role != PassRole::Unread;
@@ -52,6 +56,7 @@ mod tests {
         PassCost {
             pass: id(name),
             role,
+            when: (role == PassRole::Off).then(|| "quality > 1".to_owned()),
             size: (4, 4),
             formats: vec![],
             steps: 1,
@@ -73,6 +78,7 @@ mod tests {
             cost("D", PassRole::Unread, &[]),
             cost("E", PassRole::Unread, &["E"]),
             cost("F", PassRole::Outside, &[]),
+            cost("G", PassRole::Off, &[]),
         ];
         let why = |name: &str| reason(&PassId::Buffer(name.into()), &all).unwrap();
         assert_eq!(reason(&PassId::Image, &all), None);
@@ -82,5 +88,6 @@ mod tests {
         assert_eq!(why("D"), "not drawn: read only by Buffer C, which is not drawn either");
         assert_eq!(why("E"), "not drawn: no other pass reads it");
         assert!(why("F").contains("region"));
+        assert!(why("G").contains("condition is false (quality > 1)"));
     }
 }

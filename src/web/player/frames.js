@@ -40,6 +40,7 @@ function allocate(p) {
   });
   p.front ||= 0;
   p.key = null;
+  p.off = false;
   start(p);
   if (!old) return;
   old.forEach((o, i) => {
@@ -103,9 +104,25 @@ function source(c, time) {
 }
 
 const custom = {};
+// The value of a condition: a number, a name, or an operator with its terms.
+function valueOf(t) {
+  if (typeof t == 'number') return t;
+  if (typeof t == 'string') return custom[t] ? Math.fround(+custom[t][0]) : {width: W, height: H}[t];
+  const [a, b] = t.slice(1).map(valueOf), d = a - b;
+  return +{'!': !a, '-': -a, '||': !!(a || b), '&&': !!(a && b), '==': !d, '!=': !!d, '<': d < 0, '<=': d <= 0, '>': d > 0, '>=': d >= 0}[t[0]];
+}
+// While its condition is false, a pass holds what it holds before frame 0.
+function isOff(p) {
+  if (!p.when || valueOf(p.when)) return p.off = false;
+  if (p.off) return true;
+  start(p);
+  p.key = null;
+  for (const set of p.sets) for (const t of set.tex) t.version = ++versions;
+  return p.off = true;
+}
 // Draws a pass once: of a cube all faces.
 function draw(p, frame) {
-  if (p.region && !regionOf(p)) return;
+  if (isOff(p) || p.region && !regionOf(p)) return;
   const image = !p.sets, n = image ? 1 : p.sets.length, back = image ? 0 : (p.front + 1) % n, set = image ? {w: W, h: H, frames: [null], tex: []} : p.sets[back];
   const from = p.channels.map(c => source(c, frame.time));
   const values = {...frame.values, ...custom, iResolution: [set.w, set.h, 1], iChannelTime: from.map(s => s.time), iChannelResolution: from.flatMap(s => s.size)};
@@ -237,7 +254,7 @@ function resize(w, h) {
   return true;
 }
 function reset() {
-  for (const p of drawn) { p.key = null; if (p.sets) { p.front = 0; start(p); } }
+  for (const p of drawn) { p.key = null; if (p.sets) { p.front = 0; p.off = false; start(p); } }
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.clear(gl.COLOR_BUFFER_BIT);
   P.media.forEach(m => { m.at = null; if (m.analyser) m.analyser.reset(); if (m.video) m.video.currentTime = 0; });

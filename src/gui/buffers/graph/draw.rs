@@ -170,7 +170,7 @@ impl Words {
         let time = match cost.role {
             PassRole::Drawn { is_cached: false } => pass.millis.map_or_else(|| "– ms".to_owned(), millis_text),
             PassRole::Drawn { is_cached: true } => "unchanged".to_owned(),
-            PassRole::Outside | PassRole::Unread => "not drawn".to_owned(),
+            PassRole::Outside | PassRole::Off | PassRole::Unread => "not drawn".to_owned(),
         };
         Self {
             name: format!("{}{steps}", cost.pass.title()),

@@ -170,7 +170,7 @@ impl Table {
         }
         let places: Vec<(usize, (f64, f64), bool)> =
             rows.iter().enumerate().filter_map(|(i, r)| Some((i, r.place()?, r.passes()))).collect();
-        for &(i, (x, y), passes) in &places {
+        for &(i, (x, y), passes) in places.iter().filter(|_| study.is_contest) {
             let beaten = places.iter().any(|&(j, (u, v), ok)| j != i && ok && u <= x && v <= y && (u < x || v < y));
             (rows[i].is_dominated, rows[i].is_frontier) = (beaten, passes && !beaten);
         }

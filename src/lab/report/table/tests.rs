@@ -112,3 +112,35 @@ fn a_race_is_told_and_so_is_who_never_arrives() {
     let never = table(vec![row(own, 1.0, 2.0, 0.1, true)], &["far"]).verdict().unwrap();
     assert!(never.contains("does not reach"), "{never}");
 }
+
+#[test]
+fn methods_that_do_different_things_have_no_winner() {
+    for is_contest in [true, false] {
+        let study = Box::leak(Box::new(Study {
+            name: "s",
+            methods: &METHODS,
+            is_contest,
+            has_order: false,
+            grids: [[1; 3]; 2],
+            ..Study::of(|_| unreachable!(), |_, _| unreachable!())
+        }));
+        let mut results = Results::default();
+        results.runs.push(crate::Provenance {
+            device: String::new(),
+            driver: String::new(),
+            version: String::new(),
+            extent: Extent::Full,
+            repeats: 7,
+            seed: 0,
+            beside_window: false,
+        });
+        for (method, error) in METHODS[..2].iter().zip([0.1, 0.2]) {
+            let Row { point, measured, .. } = row(method, 1.0, 1.0, error, true);
+            results.errors.push(crate::ErrorRecord { point, setup: None, measured, trouble: None });
+        }
+        let table = Table::with_estimates(study, &results, |_| Some(1.0)).unwrap();
+        let looks: Vec<Look> = table.rows.iter().map(Row::look).collect();
+        assert_eq!(looks, if is_contest { [Look::Full, Look::Grey] } else { [Look::Full, Look::Full] });
+        assert_eq!(table.frontier().len(), usize::from(is_contest));
+    }
+}
