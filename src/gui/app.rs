@@ -13,7 +13,7 @@ use super::{
     settings::{Remembered, SettingsFile, UsualSizes, WindowFile, WindowPlace},
     shell::Shell,
     surface::{Presented, Surface},
-    system_theme, theme,
+    system_theme, theme, window_identity,
 };
 use crate::{
     audio::host::AudioHost,
@@ -557,7 +557,7 @@ fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
 
 /// Returns where and how large the window opens: as the command line says, else as it was, else as suits the screen.
 fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &WindowPlace) -> WindowAttributes {
-    let attributes = Window::default_attributes()
+    let attributes = window_identity::identified(Window::default_attributes())
         .with_title("Eddy")
         .with_visible(false)
         .with_min_inner_size(LogicalSize::new(360.0, 240.0));

@@ -70,6 +70,7 @@ mod ui_output;
 mod uniform_row;
 mod uses;
 mod viewport;
+mod window_identity;
 
 pub use app::run;
 

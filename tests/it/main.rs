@@ -63,6 +63,7 @@ mod lsp;
 mod lsp_projects;
 mod music;
 mod next_project;
+mod packages;
 mod pass_edits;
 mod passes;
 mod paused;
