@@ -52,6 +52,7 @@ mod lab_fluid;
 mod lab_hard;
 mod lab_open;
 mod lab_pictures;
+mod lab_poisson;
 mod lab_run;
 mod lab_samples;
 mod lab_shapes;

@@ -30,7 +30,12 @@ fn what_projects_share_is_the_same_in_each() {
             &["buffer_mouse.glsl"],
         ),
         (LAB, &["poisson_cycle", "poisson_jacobi"], &["common.glsl", "image.glsl"]),
-        (LAB, &["poisson_mips", "poisson_sor", "poisson_jacobi"], &["image.glsl"]),
+        (
+            LAB,
+            &["poisson_mips", "poisson_sor", "poisson_jacobi", "poisson_chebyshev", "poisson_cg", "poisson_fft"],
+            &["image.glsl"],
+        ),
+        (LAB, &["poisson_mips", "poisson_fft"], &["buffer_source.glsl"]),
         (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
         (LAB, &["fluid_guay", "fluid_projection"], &["image.glsl"]),
         (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
@@ -50,7 +55,7 @@ fn what_projects_share_is_the_same_in_each() {
             &["gray_scott_blur", "gray_scott_stencil"],
             &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
         ),
-        (&["poisson_cycle", "poisson_jacobi", "poisson_sor"], &["vec2 at(", "float solved("]),
+        (&["poisson_cycle", "poisson_jacobi", "poisson_sor", "poisson_chebyshev"], &["vec2 at(", "float solved("]),
     ] {
         for begin in begins {
             let all = texts(LAB, projects, "common.glsl");

@@ -1,7 +1,7 @@
 //! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from
 //! any velocity, and read back in the same units.
 
-use super::cycle::{self, Component};
+use super::cycle::{Component, Cycle};
 use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
 use eddy_project::{PassId, Project, TexelFormat};
 use std::f64::consts::TAU;
@@ -83,7 +83,7 @@ impl Solver {
                         pressure.settings.format = TexelFormat::Rg32f;
                     }
                     let divergence = Component { pass: "divergence", component: 'x' };
-                    cycle::add(project, n, "pressure", divergence, "pressure");
+                    Cycle::Jacobi.add(project, n, Some("pressure"), divergence, "pressure");
                 };
                 let setup = Setup::new("fluid_projection", size).define("METHOD", "MACCORMACK").built(add);
                 plain(setup, 1, Kind::Centred { is_compressible: false })
