@@ -51,6 +51,7 @@ mod lab;
 mod lab_fluid;
 mod lab_hard;
 mod lab_open;
+mod lab_peers;
 mod lab_pictures;
 mod lab_poisson;
 mod lab_run;

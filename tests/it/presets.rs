@@ -37,7 +37,19 @@ fn what_projects_share_is_the_same_in_each() {
         ),
         (LAB, &["poisson_mips", "poisson_fft"], &["buffer_source.glsl"]),
         (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
-        (LAB, &["fluid_guay", "fluid_projection"], &["image.glsl"]),
+        (LAB, &["fluid_guay", "fluid_projection", "fluid_strang", "fluid_reflection"], &["image.glsl"]),
+        (
+            LAB,
+            &["fluid_strang", "fluid_reflection"],
+            &[
+                "common.glsl",
+                "buffer_drift.glsl",
+                "buffer_field.glsl",
+                "divergence.glsl",
+                "pressure.glsl",
+                "spread_x.glsl",
+            ],
+        ),
         (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
         (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
     ] {
@@ -50,6 +62,7 @@ fn what_projects_share_is_the_same_in_each() {
     // The scene and the equation of peers that solve them in different ways.
     for (projects, begins) in [
         (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
+        (&["fluid_projection", "fluid_strang"], &["vec2 vortex(", "float pressureAt(", "vec2 bilinear("]),
         (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
         (
             &["gray_scott_blur", "gray_scott_stencil"],
