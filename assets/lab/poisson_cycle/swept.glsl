@@ -22,7 +22,10 @@ float source(ivec2 p) {
 }
 
 float once(ivec2 p) {
+#ifdef CAVITY
+    // At a wall the image of a texel is that texel.
     p = wrapped(p);
+#endif
     float sum = guess(p + ivec2(1, 0)) + guess(p - ivec2(1, 0)) + guess(p + ivec2(0, 1)) + guess(p - ivec2(0, 1));
     return mix(guess(p), 0.25 * (sum - source(p)), 0.8);
 }
