@@ -30,9 +30,26 @@ fn what_projects_share_is_the_same_in_each() {
             &["buffer_mouse.glsl"],
         ),
         (LAB, &["poisson_cycle", "poisson_jacobi"], &["common.glsl", "image.glsl"]),
-        (LAB, &["poisson_mips", "poisson_sor", "poisson_jacobi"], &["image.glsl"]),
+        (
+            LAB,
+            &["poisson_mips", "poisson_sor", "poisson_jacobi", "poisson_chebyshev", "poisson_cg", "poisson_fft"],
+            &["image.glsl"],
+        ),
+        (LAB, &["poisson_mips", "poisson_fft"], &["buffer_source.glsl"]),
         (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
-        (LAB, &["fluid_guay", "fluid_projection"], &["image.glsl"]),
+        (LAB, &["fluid_guay", "fluid_projection", "fluid_strang", "fluid_reflection"], &["image.glsl"]),
+        (
+            LAB,
+            &["fluid_strang", "fluid_reflection"],
+            &[
+                "common.glsl",
+                "buffer_drift.glsl",
+                "buffer_field.glsl",
+                "divergence.glsl",
+                "pressure.glsl",
+                "spread_x.glsl",
+            ],
+        ),
         (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
         (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
     ] {
@@ -45,12 +62,13 @@ fn what_projects_share_is_the_same_in_each() {
     // The scene and the equation of peers that solve them in different ways.
     for (projects, begins) in [
         (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
+        (&["fluid_projection", "fluid_strang"], &["vec2 vortex(", "float pressureAt(", "vec2 bilinear("]),
         (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
         (
             &["gray_scott_blur", "gray_scott_stencil"],
             &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
         ),
-        (&["poisson_cycle", "poisson_jacobi", "poisson_sor"], &["vec2 at(", "float solved("]),
+        (&["poisson_cycle", "poisson_jacobi", "poisson_sor", "poisson_chebyshev"], &["vec2 at(", "float solved("]),
     ] {
         for begin in begins {
             let all = texts(LAB, projects, "common.glsl");

@@ -5,7 +5,7 @@ void mainImage(out vec4 axes, in vec2 fragCoord) {
         bool wall = isWall(from);
         int which = wall ? (i + 2) % 4 : i;
         Cell f = cell(iChannel0, iChannel1, iChannel2, wall ? here : from);
-        axes[i] = mix(f.axes[which], equilibrium(moments(f), 1.0 / 9.0, AXES_X, AXES_Y)[which], relaxed());
+        axes[i] = axesAfter(f)[which];
         if (wall) axes[i] += dragged(from, 1.0 / 9.0, AXES_X[i]);
     }
 }

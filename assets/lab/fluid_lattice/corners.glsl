@@ -5,7 +5,7 @@ void mainImage(out vec4 corners, in vec2 fragCoord) {
         bool wall = isWall(from);
         int which = wall ? (i + 2) % 4 : i;
         Cell f = cell(iChannel0, iChannel1, iChannel2, wall ? here : from);
-        corners[i] = mix(f.corners[which], equilibrium(moments(f), 1.0 / 36.0, CORNERS_X, CORNERS_Y)[which], relaxed());
+        corners[i] = cornersAfter(f)[which];
         if (wall) corners[i] += dragged(from, 1.0 / 36.0, CORNERS_X[i]);
     }
 }

@@ -1,7 +1,11 @@
 // (p, f) of iChannel0 with the coarser grid's p of iChannel1 added, bilinear between texel centres.
 float coarse(ivec2 p) {
     ivec2 size = textureSize(iChannel1, 0);
+#ifdef CAVITY
+    return texelFetch(iChannel1, clamp(p, ivec2(0), size - 1), 0).x;
+#else
     return texelFetch(iChannel1, (p + size) % size, 0).x;
+#endif
 }
 
 void mainImage(out vec4 added, in vec2 fragCoord) {

@@ -1,7 +1,11 @@
 // What is left of the equation on the finer grid (p, f), for a grid of twice the spacing, which counts as 1 there too.
 float p_at(ivec2 p) {
     ivec2 size = textureSize(iChannel0, 0);
+#ifdef CAVITY
+    return texelFetch(iChannel0, clamp(p, ivec2(0), size - 1), 0).x;
+#else
     return texelFetch(iChannel0, (p + size) % size, 0).x;
+#endif
 }
 
 float left(ivec2 p) {

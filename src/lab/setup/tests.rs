@@ -23,7 +23,12 @@ fn what_methods_have_in_common_is_the_same() {
     for family in [
         &["diffusion_stencil/common.glsl", "diffusion_blur/common.glsl"][..],
         &["gray_scott_stencil/common.glsl", "gray_scott_blur/common.glsl"],
-        &["poisson_jacobi/common.glsl", "poisson_sor/common.glsl", "poisson_cycle/common.glsl"],
+        &[
+            "poisson_jacobi/common.glsl",
+            "poisson_sor/common.glsl",
+            "poisson_cycle/common.glsl",
+            "poisson_chebyshev/common.glsl",
+        ],
         &["blur_taps/buffer_source.glsl", "blur_pyramid/buffer_source.glsl"],
     ] {
         let text = |name: &str| METHODS.get_file(name).and_then(|f| f.contents_utf8()).unwrap();

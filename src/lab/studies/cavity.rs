@@ -10,7 +10,15 @@ use crate::{
 const METHODS: &[Method] = &[
     Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: &[1.0, 2.0, 4.0], usual: 2.0 },
     Method { name: "maccormack-jacobi-4", title: "MacCormack, Jacobi 4", settings: &[0.1, 0.15], usual: 0.15 },
+    Method {
+        name: "maccormack-strang",
+        title: "MacCormack in Strang's splitting",
+        settings: &[0.5, 1.0, 2.0],
+        usual: 1.0,
+    },
+    Method { name: "reflection", title: "advection-reflection", settings: &[0.5, 1.0, 2.0], usual: 1.0 },
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: &[0.1, 0.2], usual: 0.2 },
+    Method { name: "lattice-cumulant", title: "lattice Boltzmann, cumulants", settings: &[0.1, 0.2], usual: 0.2 },
     Method { name: "guay", title: "Guay, one pass", settings: &[0.1, 0.15], usual: 0.15 },
 ];
 

@@ -1,11 +1,23 @@
-//! Multigrid V-cycles on a torus as passes of a project: one for every thing that is done on a grid.
+//! Multigrid cycles on a torus as passes of a project: one for every thing that is done on a grid. The names of cycles
+//! and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
 
 use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
 
-const SWEPT: &str = include_str!("../../../assets/lab/poisson_cycle/swept.glsl");
-const FIRST: &str = include_str!("../../../assets/lab/poisson_cycle/first.glsl");
-const REST: &str = include_str!("../../../assets/lab/poisson_cycle/rest.glsl");
-const ADDED: &str = include_str!("../../../assets/lab/poisson_cycle/added.glsl");
+macro_rules! part {
+    ($file:literal) => {
+        include_str!(concat!("../../../assets/lab/poisson_cycle/", $file))
+    };
+}
+
+const SWEPT: &str = part!("swept.glsl");
+const FIRST: &str = part!("first.glsl");
+const COLOURED: &str = part!("coloured.glsl");
+const FIRST_COLOURED: &str = part!("first_coloured.glsl");
+const REST: &str = part!("rest.glsl");
+const REST_TRANSPOSED: &str = part!("rest_transposed.glsl");
+const ADDED: &str = part!("added.glsl");
+const GATHERED: &str = part!("gathered.glsl");
+const INTERPOLATED: &str = part!("interpolated.glsl");
 
 /// A texel of what a cycle begins with: where its pass is called, and the component that counts.
 #[derive(Clone, Copy, Debug)]
@@ -14,39 +26,143 @@ pub struct Component {
     pub component: char,
 }
 
-/// Adds a V(2,2) cycle that ends in the pass `result` of the project: (p, f). It begins with p of `guess` and f of
-/// `source`, which `result` may be, drawn in the frame before. The passes stand right before `result`. `n` texels a
-/// side, a power of two.
-///
-/// # Panics
-/// If the project has no such pass.
-pub fn add(project: &mut Project, n: u32, guess: &'static str, source: Component, result: &str) {
-    let levels = n.ilog2().max(2) - 1;
-    let size = |level: u32| PassSize::Fixed(n >> level, n >> level);
-    let name = |what: &str, level: u32| format!("{what}{level}");
-    let mut passes = Vec::new();
-    let text = format!("#define F {}\n{SWEPT}", source.component);
-    passes.push(pass(&name("pre", 0), &text, size(0), &[guess, source.pass]));
-    for level in 1..=levels {
-        passes.push(pass(&name("rhs", level), REST, size(level), &[&name("pre", level - 1)]));
-        passes.push(pass(&name("pre", level), FIRST, size(level), &[&name("rhs", level)]));
-    }
-    let mut below = name("pre", levels);
-    for level in (0..levels).rev() {
-        passes.push(pass(&name("add", level), ADDED, size(level), &[&name("pre", level), &below]));
-        if level > 0 {
-            below = name("post", level);
-            passes.push(pass(&below, SWEPT, size(level), &[&name("add", level), &name("add", level)]));
-        }
-    }
-    let id = super::super::setup::pass(result);
-    let place = project.passes.iter().position(|p| p.id == id).expect("the project has the pass a cycle ends in");
-    let end = &mut project.passes[place];
-    (end.channels, end.source.text) = (channels(&["add0", "add0"]), SWEPT.into());
-    project.passes.splice(place..place, passes);
+/// A V-cycle by its smoother.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cycle {
+    /// V(2,2): two sweeps of Jacobi's iteration damped by .8 before the correction and two after it.
+    Jacobi,
+    /// V(1,1): one red-black sweep of Gauss and Seidel before the correction and one after it.
+    RedBlack,
+    /// As [`Cycle::RedBlack`], with black first after the correction, and a restriction that is the transpose of the
+    /// interpolation. The cycle is a symmetric operator, as a preconditioner of conjugate gradients must be (Tatebe,
+    /// The multigrid preconditioned conjugate gradient method, 1993).
+    Symmetric,
 }
 
-fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
+impl Cycle {
+    fn before(self) -> &'static str {
+        if self == Cycle::Jacobi { SWEPT } else { COLOURED }
+    }
+
+    fn after(self) -> String {
+        match self {
+            Cycle::Symmetric => format!("#define TURN 1\n{COLOURED}"),
+            _ => self.before().into(),
+        }
+    }
+
+    fn from_zero(self) -> &'static str {
+        if self == Cycle::Jacobi { FIRST } else { FIRST_COLOURED }
+    }
+
+    fn rest(self) -> &'static str {
+        if self == Cycle::Symmetric { REST_TRANSPOSED } else { REST }
+    }
+
+    /// The passes of a cycle on a grid of `n` texels a side, but for the last. It begins with p of the pass `guess`, or
+    /// with 0, and the component of `source`. Names begin with `prefix`.
+    fn passes(self, prefix: &str, n: u32, guess: Option<&str>, (source, component): (&str, char)) -> Vec<Pass> {
+        let levels = levels(n);
+        let size = |level: u32| PassSize::Fixed(n >> level, n >> level);
+        let name = |what: &str, level: u32| format!("{prefix}{what}{level}");
+        let of_source = |text: &str| format!("#define F {component}\n{text}");
+        let mut passes = Vec::new();
+        passes.push(match guess {
+            Some(guess) => pass(&name("pre", 0), &of_source(self.before()), size(0), &[guess, source]),
+            None => pass(&name("pre", 0), &of_source(self.from_zero()), size(0), &[source]),
+        });
+        for level in 1..=levels {
+            passes.push(pass(&name("rhs", level), self.rest(), size(level), &[&name("pre", level - 1)]));
+            passes.push(pass(&name("pre", level), self.from_zero(), size(level), &[&name("rhs", level)]));
+        }
+        let mut below = name("pre", levels);
+        for level in (0..levels).rev() {
+            passes.push(pass(&name("add", level), ADDED, size(level), &[&name("pre", level), &below]));
+            if level > 0 {
+                below = name("post", level);
+                let added = name("add", level);
+                passes.push(pass(&below, &self.after(), size(level), &[&added, &added]));
+            }
+        }
+        passes
+    }
+
+    /// Makes a pass the last of a cycle whose others [`Cycle::passes`] gave.
+    fn end(self, prefix: &str, end: &mut Pass) {
+        let added = format!("{prefix}add0");
+        (end.channels, end.source.text) = (channels(&[&added, &added]), self.after().into());
+    }
+
+    /// Adds a cycle that ends in the pass `result` of the project: (p, f). It begins with p of `guess`, or with 0, and
+    /// f of `source`, which `result` may be, drawn in the frame before. The passes stand right before `result`, by whose
+    /// name theirs begin. `n` texels a side, a power of two.
+    ///
+    /// # Panics
+    /// If the project has no such pass.
+    pub fn add(self, project: &mut Project, n: u32, guess: Option<&str>, source: Component, result: &str) {
+        let passes = self.passes(result, n, guess, (source.pass, source.component));
+        self.end(result, insert(project, passes, result));
+    }
+
+    /// Adds full multigrid that ends in the pass `field` of the project, whose f it solves for: nested iteration, which
+    /// begins each grid with the solution of the coarser one, interpolated by cubics, and draws so many cycles on it
+    /// (Trottenberg, Oosterlee and Schüller, section 2.6).
+    ///
+    /// # Panics
+    /// If the project has no pass `field`.
+    pub fn add_full(self, project: &mut Project, n: u32, cycles: u32) {
+        let coarsest = levels(n);
+        let size = |grid: u32| PassSize::Fixed(n >> grid, n >> grid);
+        let f = |grid: u32| if grid == 0 { ("field".to_owned(), 'y') } else { (format!("f{grid}"), 'x') };
+        let solved = |grid: u32| format!("solved{grid}");
+        let mut passes = Vec::new();
+        for grid in 1..=coarsest {
+            let (finer, component) = f(grid - 1);
+            let text = format!("#define F {component}\n{GATHERED}");
+            let mut gathered = pass(&f(grid).0, &text, size(grid), &[&finer]);
+            gathered.settings.format = TexelFormat::R32f;
+            passes.push(gathered);
+        }
+        let (right, _) = f(coarsest);
+        passes.push(pass(&solved(coarsest), self.from_zero(), size(coarsest), &[&right]));
+        let mut last = String::new();
+        for grid in (0..coarsest).rev() {
+            let (right, component) = f(grid);
+            let begun = format!("begun{grid}");
+            let text = format!("#define F {component}\n{INTERPOLATED}");
+            passes.push(pass(&begun, &text, size(grid), &[&solved(grid + 1), &right]));
+            let mut guess = begun;
+            for cycle in 1..=cycles {
+                last = format!("grid{grid}cycle{cycle}");
+                passes.extend(self.passes(&last, n >> grid, Some(&guess), (&guess, 'y')));
+                if grid > 0 || cycle < cycles {
+                    guess = if cycle < cycles { format!("{last}end") } else { solved(grid) };
+                    let mut end = pass(&guess, "", size(grid), &[]);
+                    self.end(&last, &mut end);
+                    passes.push(end);
+                }
+            }
+        }
+        self.end(&last, insert(project, passes, "field"));
+    }
+}
+
+/// Grids below one of `n` texels a side, down to one of two.
+fn levels(n: u32) -> u32 {
+    n.ilog2().max(2) - 1
+}
+
+/// Puts passes right before another, which is given back.
+pub fn insert<'p>(project: &'p mut Project, passes: Vec<Pass>, before: &str) -> &'p mut Pass {
+    let id = super::super::setup::pass(before);
+    let place = project.passes.iter().position(|p| p.id == id).expect("the project has the pass a cycle ends in");
+    let end = place + passes.len();
+    project.passes.splice(place..place, passes);
+    &mut project.passes[end]
+}
+
+/// A buffer of a grid, of (p, f) unless its name says that it holds a right-hand side alone.
+pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
     let mut pass = Pass {
         id: PassId::Buffer(name.to_owned()),
         source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
@@ -54,11 +170,12 @@ fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
         settings: Default::default(),
     };
     pass.settings.size = size;
-    pass.settings.format = if name.starts_with("rhs") { TexelFormat::R32f } else { TexelFormat::Rg32f };
+    pass.settings.format = if name.contains("rhs") { TexelFormat::R32f } else { TexelFormat::Rg32f };
     pass
 }
 
-fn channels(reads: &[&str]) -> [Option<Channel>; 4] {
+/// Channels that read buffers texel by texel.
+pub fn channels(reads: &[&str]) -> [Option<Channel>; 4] {
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Repeat, vflip: true };
     std::array::from_fn(|n| reads.get(n).map(|name| Channel { input: Input::buffer(*name), sampler }))
 }

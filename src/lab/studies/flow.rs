@@ -1,7 +1,7 @@
 //! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from
 //! any velocity, and read back in the same units.
 
-use super::cycle::{self, Component};
+use super::cycle::{Component, Cycle};
 use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
 use eddy_project::{PassId, Project, TexelFormat};
 use std::f64::consts::TAU;
@@ -29,6 +29,17 @@ pub struct Solver {
     scale: f64,
     /// The stiffness of the pressure, where density is what pushes.
     stiffness: f64,
+    /// Passes that begin with the velocity and with the pressure too.
+    begun: Begun,
+}
+
+/// Names passes beside `field` that a projected fluid begins with.
+#[derive(Clone, Copy, Debug, Default)]
+struct Begun {
+    /// Holds the velocity of two frames.
+    drift: Option<&'static str>,
+    /// Holds the pressure times half of the step, which a step begins with.
+    held: Option<&'static str>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +54,8 @@ enum Kind {
     Lattice,
 }
 
+const CENTRED: Kind = Kind::Centred { is_compressible: false };
+
 /// The viscosity that the slider of fluid-accurate ends with, in canvas heights squared a second.
 const MOST_VISCOSITY: f64 = 0.01;
 
@@ -55,7 +68,7 @@ impl Solver {
         let Flow { n, dt, viscosity } = flow;
         let plain = |setup: Setup, steps, kind| {
             let setup = setup.uniform("dt", dt).uniform("viscosity", viscosity);
-            Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS }
+            Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS, begun: Begun::default() }
         };
         let size = (n, n);
         let guay = |which, steps| {
@@ -64,7 +77,7 @@ impl Solver {
         };
         let projection = |which, sweeps| {
             let setup = Setup::new("fluid_projection", size).define("METHOD", which).steps("solver", sweeps);
-            plain(setup, 1, Kind::Centred { is_compressible: false })
+            plain(setup, 1, CENTRED)
         };
         let solver = match without_format(name) {
             "fluid-accurate" => accurate(flow),
@@ -77,18 +90,24 @@ impl Solver {
             "maccormack-jacobi-4" => projection("MACCORMACK", 4),
             "maccormack-jacobi-20" => projection("MACCORMACK", 20),
             "maccormack-cycle" => {
-                let add = move |project: &mut Project| {
-                    project.groups.clear();
-                    if let Some(pressure) = project.pass_mut(&PassId::Buffer("pressure".into())) {
-                        pressure.settings.format = TexelFormat::Rg32f;
-                    }
-                    let divergence = Component { pass: "divergence", component: 'x' };
-                    cycle::add(project, n, "pressure", divergence, "pressure");
-                };
-                let setup = Setup::new("fluid_projection", size).define("METHOD", "MACCORMACK").built(add);
-                plain(setup, 1, Kind::Centred { is_compressible: false })
+                let setup = Setup::new("fluid_projection", size).define("METHOD", "MACCORMACK");
+                plain(solved_by_cycles(setup, n, &[("divergence", "pressure")]), 1, CENTRED)
             }
-            _ => plain(Setup::new("fluid_lattice", size).wants(&["axes", "corners", "rest"]), 2, Kind::Lattice),
+            "maccormack-strang" => {
+                let setup = solved_by_cycles(Setup::new("fluid_strang", size), n, &[("divergence", "pressure")]);
+                let begun = Begun { drift: Some("drift"), held: Some("held") };
+                Solver { begun, ..plain(setup, 1, CENTRED) }
+            }
+            "reflection" => {
+                let halves = &[("halfdivergence", "halfpressure"), ("divergence", "pressure")];
+                let setup = solved_by_cycles(Setup::new("fluid_reflection", size), n, halves);
+                Solver { begun: Begun { drift: Some("drift"), held: None }, ..plain(setup, 1, CENTRED) }
+            }
+            _ => {
+                let method = if name == "lattice-cumulant" { "CUMULANT" } else { "BGK" };
+                let setup = Setup::new("fluid_lattice", size).wants(&["axes", "corners", "rest"]);
+                plain(setup.define("METHOD", method), 2, Kind::Lattice)
+            }
         };
         let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
         Solver { setup: solver.setup.storage(storage), ..solver }
@@ -179,8 +198,10 @@ impl Solver {
             Kind::Centred { is_compressible: true } => self.stiffness / dt,
             Kind::Lattice => 1.0 / (3.0 * dt * dt),
             Kind::Centred { .. } => {
-                let setup = self.setup.clone().state("pressure", &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
-                return Solver { setup, ..self }.begin(|_, _| [0.0; 2], |_, _| 0.0);
+                let pass = self.begun.held.unwrap_or("pressure");
+                let mut solver = self.begin(|_, _| [0.0; 2], |_, _| 0.0);
+                solver.setup = solver.setup.state(pass, &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
+                return solver;
             }
             Kind::Staggered => {
                 // The pressure times the step, and the step in seconds.
@@ -199,7 +220,7 @@ impl Solver {
             Kind::Centred { is_compressible: true } => {
                 running.read("field")?.component(2).iter().map(|rho| rho - 1.0).collect()
             }
-            Kind::Centred { .. } => running.read("pressure")?.component(0),
+            Kind::Centred { .. } => running.read(self.begun.held.unwrap_or("pressure"))?.component(0),
             Kind::Staggered => running.read("velocity")?.component(2),
             Kind::Mips => return Ok(None),
             Kind::Lattice => density(running)?.into_iter().map(|rho| rho - 1.0).collect(),
@@ -217,6 +238,12 @@ impl Solver {
         let texels =
             |f: &dyn Fn(usize) -> [f64; 4]| -> Vec<[f32; 4]> { (0..u.len()).map(|i| f(i).map(|x| x as f32)).collect() };
         let (scale, stiffness) = (self.scale, self.stiffness);
+        if let Some(drift) = self.begun.drift {
+            self.setup = self.setup.state(drift, &texels(&|i| [u[i], v[i], u[i], v[i]]));
+        }
+        if let Some(held) = self.begun.held {
+            self.setup = self.setup.state(held, &texels(&|i| [0.5 * dt * pressure[i], 0.0, 0.0, 1.0]));
+        }
         self.setup = match self.kind {
             Kind::Centred { is_compressible } => {
                 let density = |i: usize| if is_compressible { 1.0 + dt / stiffness * pressure[i] } else { 0.0 };
@@ -329,6 +356,20 @@ pub fn without_format(name: &str) -> &str {
     name.trim_end_matches("-16f").trim_end_matches("-rgba16f")
 }
 
+/// Puts a multigrid cycle a frame in place of Jacobi's iteration: for each pass of a pressure, and that of the divergence.
+fn solved_by_cycles(setup: Setup, n: u32, pressures: &'static [(&'static str, &'static str)]) -> Setup {
+    setup.built(move |project: &mut Project| {
+        project.groups.clear();
+        for &(divergence, pressure) in pressures {
+            if let Some(pass) = project.pass_mut(&PassId::Buffer(pressure.into())) {
+                pass.settings.format = TexelFormat::Rg32f;
+            }
+            let divergence = Component { pass: divergence, component: 'x' };
+            Cycle::Jacobi.add(project, n, Some(pressure), divergence, pressure);
+        }
+    })
+}
+
 /// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each
 /// way. The seconds of a unit of time are as few as the slider of the viscosity allows.
 fn accurate(flow: Flow) -> Solver {
@@ -341,7 +382,15 @@ fn accurate(flow: Flow) -> Solver {
         .uniform("walls", 2.0)
         .uniform("viscosity", viscosity / (side * side * seconds))
         .uniform("speed", 60.0 * seconds * dt);
-    Solver { setup, steps: 1, flow, kind: Kind::Staggered, scale: side * seconds, stiffness: STIFFNESS }
+    Solver {
+        setup,
+        steps: 1,
+        flow,
+        kind: Kind::Staggered,
+        scale: side * seconds,
+        stiffness: STIFFNESS,
+        begun: Begun::default(),
+    }
 }
 
 /// The preset with nothing that drives it. It has no viscosity; of one wave in the box its drag does the same.
@@ -357,7 +406,15 @@ fn mips(flow: Flow) -> Solver {
         .uniform("confinement", 0.0)
         .uniform("drag_seconds", (seconds / decay).min(60.0))
         .uniform("speed", 60.0 * seconds * dt);
-    Solver { setup, steps: 1, flow, kind: Kind::Mips, scale: side * seconds, stiffness: STIFFNESS }
+    Solver {
+        setup,
+        steps: 1,
+        flow,
+        kind: Kind::Mips,
+        scale: side * seconds,
+        stiffness: STIFFNESS,
+        begun: Begun::default(),
+    }
 }
 
 /// D2Q9 in the order rest, axes, corners, less their weights, of a density less 1 and a velocity in texels a step

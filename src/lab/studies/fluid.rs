@@ -34,7 +34,10 @@ const METHODS: &[Method] = &[
     Method { name: "maccormack-cycle", title: "MacCormack, V-cycle", settings: STEPS, usual: 0.15 },
     half("maccormack-cycle-16f", "MacCormack, V-cycle, 16 bits"),
     half("bilinear-jacobi-20-16f", "bilinear, Jacobi 20, 16 bits"),
+    Method { name: "maccormack-strang", title: "MacCormack in Strang's splitting", settings: LONG_STEPS, usual: 0.6 },
+    Method { name: "reflection", title: "advection-reflection", settings: LONG_STEPS, usual: 0.6 },
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: STEPS, usual: 0.15 },
+    Method { name: "lattice-cumulant", title: "lattice Boltzmann, cumulants", settings: STEPS, usual: 0.15 },
     Method { name: "lattice-16f", title: "lattice Boltzmann D2Q9, 16 bits", settings: STEPS, usual: 0.15 },
     Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: LONG_STEPS, usual: 0.6 },
     Method { name: "fluid-accurate-16f", title: "fluid-accurate, 16 bits", settings: &[0.6], usual: 0.6 },
@@ -156,7 +159,11 @@ pub static STUDY: Study = Study {
            time, until the exact velocity has halved. The observed order is at that speed in texels, so that a \
            finer grid is a larger Reynolds number. Guay's density begins even, as its programs do: the sound \
            that this makes is about half of its error. In balance it begins with the vortex's own pressure; K \
-           is the stiffness, and .55 the stiffest that is stable at rest. The presets run as they ship, \
+           is the stiffness, and .55 the stiffest that is stable at rest. Strang's splitting and \
+           advection-reflection (Zehnder, Narain and Thomaszewski 2018) put second-order steps around the same \
+           bilinear MacCormack advection: they carry by the velocity in the middle of the step (Narain, \
+           Zehnder and Thomaszewski 2019), and viscosity is exact on the grid. The lattice by cumulants (Geier, \
+           Schönherr, Pasquali and Krafczyk 2015) relaxes all but the shear stress at once. The presets run as they ship, \
            without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
            one wave. Mach is the greatest speed that was met over that of sound; growth/theory compares the growth of sound in the \
            one-pass fluid without viscosity with linear theory; shear_wave-1 is what the exact decay of a \
