@@ -21,6 +21,7 @@ mod cli_render;
 mod compile_budget;
 mod cubemaps;
 mod directives;
+mod elsewhere;
 mod engine;
 mod exports;
 mod farms;
