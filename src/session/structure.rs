@@ -10,6 +10,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     let Project {
         name,
         info,
+        dialect,
         common,
         passes,
         sampler_rules,
@@ -21,6 +22,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     } = a;
     *name == b.name
         && *info == b.info
+        && *dialect == b.dialect
         && common.is_some() == b.common.is_some()
         && is_each(passes, &b.passes, is_same_pass)
         && *sampler_rules == b.sampler_rules
