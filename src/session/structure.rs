@@ -41,6 +41,7 @@ pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
     };
     say(now.name != saved.name, "the project's name");
     say(now.info != saved.info, "the project's description");
+    say(now.dialect != saved.dialect, "the dialect");
     let ids = |p: &Project| p.passes.iter().map(|pass| pass.id.clone()).collect::<Vec<_>>();
     let is_common_same = now.common.is_some() == saved.common.is_some();
     say(ids(now) != ids(saved) || !is_common_same, "the list of passes");
