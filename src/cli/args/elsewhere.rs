@@ -44,8 +44,8 @@ impl Cli {
             None => (self.window.guest, self.window.project.iter_mut().collect()),
             Some(Command::Render(args)) => (args.run.guest, args.project.iter_mut().collect()),
             Some(Command::Bench(args)) => (args.run.guest, args.project.iter_mut().collect()),
-            Some(Command::Probe(args)) => (args.run.guest, args.project.iter_mut().collect()),
-            Some(Command::Trace(args)) => (args.run.guest, vec![&mut args.project]),
+            Some(Command::Probe(args)) => (args.run.guest, vec![&mut args.project]),
+            Some(Command::Trace(args)) => (args.run.guest, args.project.iter_mut().collect()),
             Some(Command::Compare(args)) => (args.run.guest, vec![&mut args.project]),
             Some(_) => (None, Vec::new()),
         };
