@@ -23,8 +23,20 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, set, follow, paused, frame_timeout, compile_timeout, webcam, osc, json, lose_device } =
-        window;
+    let Window {
+        project,
+        guest: _,
+        size,
+        set,
+        follow,
+        paused,
+        frame_timeout,
+        compile_timeout,
+        webcam,
+        osc,
+        json,
+        lose_device,
+    } = window;
     Ok(eddy::gui::run(eddy::gui::Options {
         project,
         size,

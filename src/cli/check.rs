@@ -2,7 +2,7 @@
 //! differently.
 
 use super::{
-    args::CheckArgs,
+    args::{CheckArgs, Consumer},
     machine::{Machine, Trouble, millis_since},
     report::{Printer, Report},
 };
@@ -11,7 +11,7 @@ use crate::{
     engine::{self, CompiledPass},
     glsl::Driver,
     media,
-    project::{self, Project},
+    project::{self, Dialect, Project, ghostty, xscreensaver},
 };
 use std::{
     io::{self, Write},
@@ -42,7 +42,8 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
 }
 
 fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String) -> Result<(), Trouble> {
-    let loaded = project::load(spec)?;
+    let consumed = args.consumer.map(|consumer| consumer.spec(spec));
+    let loaded = project::load(consumed.as_deref().unwrap_or(spec))?;
     let project = &loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(project));
     let began = Instant::now();
@@ -53,6 +54,12 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     found.extend(compiled.iter().filter_map(|pass| pass.validate().err()));
     if let Some(pass) = &args.dump_ir {
         *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
+    }
+    if project.dialect == Dialect::Ghostty {
+        found.extend(ghostty::advice(project));
+    }
+    if args.consumer == Some(Consumer::Xscreensaver) {
+        found.extend(xscreensaver::advice(project));
     }
     found.extend(media::diagnose(project));
     // The reader has said some of it already, with its place in `eddy.toml`.

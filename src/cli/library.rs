@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     project::{self, Origin, Overwrite, Project, ProjectError},
-    session, web,
+    session, translate, web,
 };
 use std::{
     io::{self, Write},
@@ -44,6 +44,8 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
     match args.to {
         Some(ExportFormat::Html) => export_html(args),
         None if ends_in("html") || ends_in("htm") => export_html(args),
+        Some(ExportFormat::Isf) => export_isf(args),
+        None if ends_in("fs") => export_isf(args),
         Some(ExportFormat::Json) | None => export_json(args),
     }
 }
@@ -52,7 +54,7 @@ fn export_json(args: &ExportArgs) -> io::Result<u8> {
     let to = args.out.display();
     one(&args.project, |report| {
         if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("json")) || args.out.is_dir() {
-            let endings = if args.to.is_some() { ".json" } else { ".json or .html" };
+            let endings = if args.to.is_some() { ".json" } else { ".json, .html or .fs" };
             return Err(anyhow::anyhow!("--out {to}: give a file name that ends in {endings}").into());
         }
         let project = read(report, &args.project)?;
@@ -89,6 +91,24 @@ fn export_html(args: &ExportArgs) -> io::Result<u8> {
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
         project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(Trouble::from).map_err(mend)?;
         Ok(format!("{}: exported to {to} ({size} kB{media})", args.project))
+    })
+}
+
+fn export_isf(args: &ExportArgs) -> io::Result<u8> {
+    let to = args.out.display();
+    one(&args.project, |report| {
+        if !args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("fs")) || args.out.is_dir() {
+            return Err(anyhow::anyhow!("--out {to}: give a file name that ends in .fs").into());
+        }
+        let project = read(report, &args.project)?;
+        let file = match translate::isf(&project) {
+            Ok(file) => file,
+            Err(errors) => return Err(Trouble::Diagnostics(errors, project.sources())),
+        };
+        report.diagnose(&file.diagnostics, &project.sources(), Some(&project));
+        let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
+        project::write_named(&args.out, file.text.into_bytes(), overwrite).map_err(Trouble::from).map_err(mend)?;
+        Ok(format!("{}: exported to {to}", args.project))
     })
 }
 

@@ -62,7 +62,7 @@ pub enum Next {
 
 /// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
-    let Cli { window, command } = Cli::parse();
+    let Cli { window, command } = Cli::parse().with_guests();
     let Some(command) = command else { return Next::Window(window) };
     if matches!(
         command,

@@ -210,6 +210,7 @@ impl Builder {
             externals,
             custom_uniforms: texts.custom_uniforms().list.clone(),
             custom_uniform_values: project.custom_uniform_values.clone(),
+            dialect: project.dialect,
         };
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
     }

@@ -81,7 +81,7 @@ fn untyped(value: &CustomUniformValue) -> UntypedValue {
     }
 }
 
-fn kind(ty: CustomUniformType) -> CustomUniformKind {
+pub(super) fn kind(ty: CustomUniformType) -> CustomUniformKind {
     match ty {
         CustomUniformType::Bool => CustomUniformKind::Bool,
         CustomUniformType::Int => CustomUniformKind::Int,

@@ -5,6 +5,7 @@ use super::{
     EngineError, FrameInputs, FrameStats, PassTime, Program,
     bind::draw_fill,
     display::Display,
+    host,
     inspect::Capture,
     pipelines::StagePipeline,
     program::DrawBody,
@@ -195,9 +196,12 @@ impl Running {
 
     /// Writes the uniforms of every draw.
     fn set_uniforms(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
+        let dialect = self.program.dialect;
+        self.uniforms.set_host_uniforms(gpu, &host::values(dialect, inputs, self.canvas));
         for (index, (compiled, _)) in self.program.planned_draws().enumerate() {
             let own = self.picture_size(index);
             let mut block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
+            host::adapt(dialect, &mut block);
             if compiled.id == PassId::Sound {
                 sound::set_offsets(&mut block, inputs);
             }

@@ -20,6 +20,7 @@ mod error;
 mod external;
 mod fill_text;
 mod frame;
+mod host;
 mod inputs;
 mod inspect;
 mod kept_analyses;

@@ -3,6 +3,7 @@
 use super::Sources;
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{Include, Preamble, UniformValue};
+use eddy_project::Dialect;
 use std::sync::Arc;
 
 /// Keeps what [`Sources`] have read of Common, for later ones with the same.
@@ -59,6 +60,9 @@ impl Sources<'_> {
     /// Common, read when it is first needed. `None`: there is none, or it has to be read with each pass.
     pub(super) fn preamble(&self) -> Option<&Preamble> {
         let read = || {
+            if self.project.dialect != Dialect::Shadertoy {
+                return None;
+            }
             let common = self.common()?;
             Preamble::new(common, &self.includes([common.id]), &self.values).map(Arc::new)
         };

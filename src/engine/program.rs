@@ -8,7 +8,7 @@ use super::{
 use eddy_glsl::{CustomUniformSet, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
-use eddy_project::{Camera, CustomUniform, CustomUniformValues, PassId, PassSize};
+use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassId, PassSize};
 use eddy_texture::Dimension;
 use std::sync::Arc;
 
@@ -24,6 +24,8 @@ pub struct Program {
     pub(super) custom_uniforms: Vec<CustomUniform>,
     /// The values that the program starts with.
     pub(super) custom_uniform_values: CustomUniformValues,
+    /// The program that the texts are written for.
+    pub(super) dialect: Dialect,
 }
 
 /// The pipelines of one draw and what its channels are bound to.

@@ -1,10 +1,10 @@
 //! A project's texts as the compiler and the editor take them.
 
-use super::{custom_uniforms, fill_text::FillSource};
+use super::{custom_uniforms, fill_text::FillSource, host};
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
-    self as glsl, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression, Text,
-    UniformValue, Varying,
+    self as glsl, ChannelKind, Dialect, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression,
+    Text, UniformValue, Varying,
     services::Analysis,
     walkable::{Detail, Walkable},
 };
@@ -28,6 +28,7 @@ pub struct Sources<'p> {
     custom_uniforms: CustomUniforms,
     /// The values of uniforms that are no custom uniforms.
     pub(super) values: Vec<UniformValue>,
+    dialect: Dialect,
     /// See [`Sources::preamble`].
     pub(super) preamble: OnceLock<Option<Arc<Preamble>>>,
     /// The texts of fills, each with its pass.
@@ -52,7 +53,8 @@ impl<'p> Sources<'p> {
             lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
         diagnostics.extend(ignored_channel_lines(project));
         let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
-        Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
+        let dialect = host::dialect(project.dialect);
+        Self { project, dialect, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 
     pub fn custom_uniforms(&self) -> &CustomUniforms {
@@ -89,9 +91,10 @@ impl<'p> Sources<'p> {
         let mut includes = self.includes(common.map(|c| c.id));
         includes.extend(value);
         work(&PassSource {
+            dialect: self.dialect,
             common,
             includes: &includes,
-            custom_uniforms: &custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, None),
+            custom_uniforms: &self.uniforms_in_scope(None),
             values: &self.values,
             ..PassSource::new(PassKind::Buffer, code)
         })
@@ -107,13 +110,22 @@ impl<'p> Sources<'p> {
     ) -> T {
         let common = self.common();
         work(&PassSource {
+            dialect: self.dialect,
             common,
             includes: &self.includes(common.map(|c| c.id).into_iter().chain([id])),
             channels: channel_kinds(&self.project.passes[index]),
-            custom_uniforms: &custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, Some(id)),
+            custom_uniforms: &self.uniforms_in_scope(Some(id)),
             values: &self.values,
             ..PassSource::new(kind, self.text(id))
         })
+    }
+
+    /// Returns the uniforms that a pass may name beside Shadertoy's: the author's own, and behind them those of the program
+    /// that the texts are written for. `None`: Common alone.
+    fn uniforms_in_scope(&self, pass: Option<SourceId>) -> Vec<glsl::CustomUniform<'_>> {
+        let mut all = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, pass);
+        all.extend(host::in_scope(self.project.dialect, self.custom_uniforms.list.len()));
+        all
     }
 
     pub(super) fn stage_id(&self, index: usize, stage: Stage) -> SourceId {
@@ -287,6 +299,9 @@ impl<'p> Sources<'p> {
 
     /// Returns what the site would refuse in Common; see [`glsl::check_common`].
     pub fn check_common(&self) -> Vec<Diagnostic> {
+        if self.dialect != Dialect::Shadertoy {
+            return Vec::new();
+        }
         let custom_uniforms = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, None);
         match (self.preamble(), self.common()) {
             (Some(preamble), _) => preamble.check_common(&custom_uniforms),

@@ -3,8 +3,8 @@
 use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass};
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 use eddy_glsl::{
-    self as glsl, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, PlainOptions, Preamble,
-    Probe, Text, UntypedValue, Varying,
+    self as glsl, ChannelKind, Compiled, CustomUniformKind, Dialect, Driver, Link, PassKind, PassSource, PlainOptions,
+    Preamble, Probe, Text, UntypedValue, Varying,
 };
 use std::{
     cell::OnceCell,
@@ -110,6 +110,7 @@ impl Kept {
 #[derive(PartialEq, Eq)]
 struct StageKey {
     kind: PassKind,
+    dialect: Dialect,
     common: Option<(usize, Arc<str>)>,
     code: (usize, Arc<str>),
     includes: Vec<IncludeKey>,
@@ -148,6 +149,7 @@ impl StageKey {
         // Every setting that the compiler knows stands here: a new one does not compile until it does.
         let PassSource {
             kind,
+            dialect,
             common,
             code,
             includes,
@@ -164,6 +166,7 @@ impl StageKey {
         let text = |text: Text<'_>| (place(ids, text.id), shared(text));
         Self {
             kind,
+            dialect,
             common: common.map(text),
             code: text(code),
             includes: includes

@@ -1,7 +1,7 @@
 //! The uniforms of the passes in one frame: the site's, the author's own, and those of meshes.
 
 use super::{
-    FrameInputs,
+    FrameInputs, host,
     program::{BoundChannel, CompiledDraw, Program},
 };
 use eddy_glsl::{
@@ -27,6 +27,8 @@ pub(super) struct Uniforms {
     /// The author's own, one block for all passes, written when one changes.
     custom_uniforms: wgpu::Buffer,
     custom_uniform_slots: Vec<[u32; 4]>,
+    /// The slots of the author's own; those behind them are of the program that the texts are written for.
+    own: usize,
 }
 
 /// Blocks of one size, [`STRIDE`] apart.
@@ -70,7 +72,7 @@ fn uniform_buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
 
 impl Uniforms {
     pub fn new(gpu: &Gpu, program: &Program) -> Self {
-        let custom_uniforms = program.custom_uniforms.len();
+        let custom_uniforms = program.custom_uniforms.len() + host::slots(program.dialect);
         let mut count = 0;
         let first = (0..program.draws.len()).map(|draw| {
             count += program.plan.layers(draw) as usize;
@@ -82,6 +84,7 @@ impl Uniforms {
             first,
             meshes: Blocks::new(gpu, "geometry", program.meshes()),
             custom_uniforms: uniform_buffer(gpu, "own uniforms", custom_uniforms.max(1) as u64 * CUSTOM_UNIFORM_BYTES),
+            own: program.custom_uniforms.len(),
             custom_uniform_slots: vec![[0; 4]; custom_uniforms],
         }
     }
@@ -113,11 +116,21 @@ impl Uniforms {
 
     /// Values of the author's own uniforms. Says whether any is different now.
     pub fn set_custom_uniforms(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
-        if slots == self.custom_uniform_slots {
+        self.set_slots(gpu, 0, &slots)
+    }
+
+    /// Values of the uniforms of the program that the texts are written for.
+    pub fn set_host_uniforms(&mut self, gpu: &Gpu, slots: &[[u32; 4]]) {
+        self.set_slots(gpu, self.own, slots);
+    }
+
+    fn set_slots(&mut self, gpu: &Gpu, first: usize, slots: &[[u32; 4]]) -> bool {
+        let Some(present) = self.custom_uniform_slots.get_mut(first..first + slots.len()) else { return false };
+        if slots == present {
             return false;
         }
-        gpu.queue.write_buffer(&self.custom_uniforms, 0, bytemuck::cast_slice(&slots));
-        self.custom_uniform_slots = slots;
+        present.copy_from_slice(slots);
+        gpu.queue.write_buffer(&self.custom_uniforms, first as u64 * CUSTOM_UNIFORM_BYTES, bytemuck::cast_slice(slots));
         true
     }
 

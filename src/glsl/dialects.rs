@@ -30,7 +30,7 @@ const SLIDER: &str = "for other inputs use a slider: `#iUniform float level = 0.
 /// The more certain first. A word with other signs than letters is looked for as it stands.
 const DIALECTS: &[Dialect] = &[
     Dialect {
-        is: "an ISF shader: its inputs are in the JSON header, which Eddy does not read",
+        is: "an ISF shader, whose inputs are in the JSON header",
         any: &["isf_FragNormCoord", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL", "IMG_THIS_NORM_PIXEL", "IMG_PIXEL", "IMG_SIZE"],
         all: &[],
         mends: ISF,
@@ -199,6 +199,7 @@ const DIALECTS: &[Dialect] = &[
 ];
 
 const ISF: &[&str] = &[
+    "save it with the ending .fs, and open that: Eddy reads ISF",
     ENTRY,
     "isf_FragNormCoord is fragCoord / iResolution.xy, TIME is iTime, RENDERSIZE is iResolution.xy",
     "an input becomes a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`",
@@ -254,8 +255,11 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         let unknown = |name: &&str| found.iter().any(|d| d.is_error() && d.message.contains(&format!("`{name}`")));
         let name = GHOSTTY.iter().copied().filter(unknown).min_by_key(|name| words.place(name))?;
         let place = words.place(name)?;
-        let mends = ["give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
-             `#iUniform float iTimeCursorChange = 0.0` another"];
+        let mends = [
+            "open it with a stand-in terminal: eddy --as ghostty FILE",
+            "or give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
+             `#iUniform float iTimeCursorChange = 0.0` another",
+        ];
         let is = format!("a custom shader of Ghostty: `{name}` is a uniform set by the terminal");
         return Some(named(&is, span(place, name.len()), &mends));
     }

@@ -155,6 +155,7 @@ pub use preamble::Preamble;
 pub use probe::{Probe, ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
-    ChannelKind, CustomUniform, CustomUniformKind, Include, PassKind, PassSource, Text, UniformValue, UntypedValue,
+    ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, PassKind, PassSource, Text, UniformValue,
+    UntypedValue,
 };
 pub use stages::{Attribute, Link, Varying};

@@ -46,6 +46,59 @@ impl PassKind {
     }
 }
 
+/// The program that a text is written for: it says which version of GLSL the text is in, and what is there before its
+/// first line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Dialect {
+    /// GLSL ES 3.00, as WebGL 2 has it.
+    #[default]
+    Shadertoy,
+    /// Custom shaders of the terminal Ghostty: GLSL 4.30 by glslang's rules for Vulkan, with one channel. What the terminal
+    /// adds to the uniforms comes as [`PassSource::custom_uniforms`].
+    Ghostty,
+    /// Interactive Shader Format: desktop GLSL from version 1.20 on.
+    Isf,
+}
+
+impl Dialect {
+    /// `int` becomes `float` where one is wanted (GLSL 1.20 and 4.30, section 4.1.10); so do `uint` to `float` and `int`
+    /// to `uint`.
+    pub(crate) fn converts(self) -> bool {
+        self != Dialect::Shadertoy
+    }
+
+    /// Globals may begin with any value (GLSL 1.20 and 4.30, section 4.3); in GLSL ES it is a constant expression.
+    pub(crate) fn has_dynamic_globals(self) -> bool {
+        self != Dialect::Shadertoy
+    }
+
+    /// Texts of a vertex and of a fragment shader follow each other, in which both declare what goes from the one to the
+    /// other.
+    pub(crate) fn joins_stages(self) -> bool {
+        self == Dialect::Isf
+    }
+
+    /// Lists in braces initialise variables (GLSL 4.30, section 4.1.11).
+    pub(crate) fn has_lists(self) -> bool {
+        self == Dialect::Ghostty
+    }
+
+    /// The number of `iChannelN`.
+    pub(crate) fn channels(self) -> usize {
+        if self == Dialect::Ghostty { 1 } else { 4 }
+    }
+
+    /// A text may declare uniforms outside of blocks. For Vulkan it may not (`GL_KHR_vulkan_glsl`).
+    pub(crate) fn has_loose_uniforms(self) -> bool {
+        self != Dialect::Ghostty
+    }
+
+    /// Shadertoy's names beside its uniforms are there: `iCh0`, `iGlobalTime`, `st_assert`.
+    pub(crate) fn has_extras(self) -> bool {
+        self != Dialect::Ghostty
+    }
+}
+
 /// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ChannelKind {
@@ -113,6 +166,7 @@ pub enum UntypedValue {
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
     pub kind: PassKind,
+    pub dialect: Dialect,
     pub common: Option<Text<'a>>,
     pub code: Text<'a>,
     /// The includes of all texts of the pass, those in includes among them; no text includes itself.
@@ -141,6 +195,7 @@ impl<'a> PassSource<'a> {
     pub fn new(kind: PassKind, code: Text<'a>) -> Self {
         PassSource {
             kind,
+            dialect: Dialect::default(),
             common: None,
             code,
             includes: &[],

@@ -10,6 +10,7 @@ pub mod confine;
 mod controls;
 mod custom_uniform_values;
 mod custom_uniforms;
+mod dialect;
 pub mod directives;
 mod embedded;
 mod error;
@@ -20,10 +21,12 @@ mod fills;
 mod fingerprint;
 mod folder;
 mod geometry;
+pub mod ghostty;
 mod imports;
 mod includes;
 mod input;
 mod inspect_comments;
+mod isf;
 pub mod json;
 pub mod limits;
 mod lines;
@@ -44,6 +47,7 @@ mod snapshot;
 mod source;
 mod source_ids;
 mod writes;
+pub mod xscreensaver;
 
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, write_with};
@@ -53,6 +57,7 @@ pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
+pub use dialect::Dialect;
 pub use directives::ignored_channel_lines;
 pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
@@ -64,6 +69,7 @@ pub use folder::declare_channels;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };
+pub use ghostty::names_word;
 pub use imports::{
     FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,

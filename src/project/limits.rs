@@ -40,6 +40,10 @@ pub const ALL_TEXTS: Limit = Limit { bytes: 64 << 20, of: "all GLSL files of a p
 pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
 /// The part of a Shadertoy JSON file that says more of a shader than its passes.
 pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
+/// The JSON header of an ISF file.
+pub const ISF_HEADER: Limit = Limit { bytes: 1 << 20, of: "the header of an ISF file" };
+/// Parentheses and functions inside one another in the size of a pass of ISF.
+pub const ISF_DEPTH: u32 = 64;
 /// A picture, a model, or a file that a model names.
 pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound or a model" };
 /// A model file together with the buffers that it names.

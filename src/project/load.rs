@@ -5,7 +5,7 @@ use super::{
     atomic::sweep,
     confine, file_names,
     files::{self, EditedTexts, Files, MANIFEST, Read},
-    folder, includes, json,
+    folder, includes, isf, json,
     limits::{self, Limit},
     manifest,
 };
@@ -87,6 +87,22 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
+/// The project of one GLSL file, whatever lines in it say of other files.
+pub(super) fn load_glsl_alone(path: &Path) -> Result<Loaded, ProjectError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let text = read_text(path, &name, limits::GLSL_TEXT)?;
+    let project = of_glsl(path, name, text);
+    Ok(Loaded { sources: project.sources(), project, warnings: Vec::new() })
+}
+
+fn of_glsl(path: &Path, name: String, text: String) -> Project {
+    Project::new(
+        path.file_stem().unwrap_or_default().to_string_lossy(),
+        vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
+        Origin::File(path.to_owned()),
+    )
+}
+
 pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
     let what = path.display().to_string();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -94,13 +110,12 @@ pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, Pro
         Some(text) => text.to_string(),
         None => read_text(path, &name, limits::GLSL_TEXT)?,
     };
-    let mut project = Project::new(
-        path.file_stem().unwrap_or_default().to_string_lossy(),
-        vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
-        Origin::File(path.to_owned()),
-    );
     let folder = path.parent().unwrap_or(Path::new(""));
     let files = Files::edited(folder, edited);
+    if let Some(isf) = isf::load(path, (&name, &text), &files) {
+        return isf;
+    }
+    let mut project = of_glsl(path, name, text);
     let warnings = folder::channels(&mut project, &files);
     includes::read(&mut project, Some(&files));
     finish(&what, Loaded { sources: project.sources(), project, warnings })

@@ -1,6 +1,8 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{ControlBindings, CustomUniformValues, Group, Included, Input, PassId, PassSettings, Source};
+use super::{
+    ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassId, PassSettings, Source, ghostty,
+};
 use eddy_texture::{Dimension, Face, TexelFormat};
 use std::{collections::BTreeSet, path::PathBuf};
 
@@ -10,6 +12,7 @@ pub struct Project {
     /// Shown in the title bar and the gallery; never empty.
     pub name: String,
     pub info: Info,
+    pub dialect: Dialect,
     /// Text put before every pass's own.
     pub common: Option<Source>,
     /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too
@@ -188,15 +191,25 @@ impl Origin {
     }
 }
 
-impl Origin {
-    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset
-    /// and the window say it otherwise.
-    pub fn has_channels_in_texts(&self) -> bool {
-        matches!(self, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
-    }
-}
-
 impl Project {
+    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset,
+    /// another dialect and the window say it otherwise.
+    pub fn has_channels_in_texts(&self) -> bool {
+        let origin = matches!(self.origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. });
+        origin && self.dialect == Dialect::Shadertoy
+    }
+
+    /// Returns what [`super::load`] is given to read the project of a file or folder again.
+    pub fn spec(&self) -> Option<String> {
+        match &self.origin {
+            Origin::Unsaved | Origin::Preset(_) => None,
+            Origin::File(path) if self.dialect == Dialect::Ghostty => {
+                Some(format!("{}{}", ghostty::PREFIX, path.display()))
+            }
+            Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => Some(path.display().to_string()),
+        }
+    }
+
     /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it:
     /// the project's state. A project without any draws the same picture at a time, whatever it drew before.
     pub fn stateful_passes(&self) -> BTreeSet<PassId> {
@@ -217,6 +230,7 @@ impl Project {
         Project {
             name: name.into(),
             info: Info::default(),
+            dialect: Dialect::default(),
             common: None,
             passes,
             sampler_rules: SamplerRules::PerChannel,

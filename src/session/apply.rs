@@ -220,7 +220,7 @@ impl Session {
         }
         // Without `eddy.toml` the text says what its channels read; with one these lines count for nothing.
         let declares = |text: &str| text.contains("#iChannel");
-        let is_asked = self.project().origin.has_channels_in_texts() && (declares(&source.text) || declares(text));
+        let is_asked = self.project().has_channels_in_texts() && (declares(&source.text) || declares(text));
         let before = is_asked.then(|| self.declared_channels(tab));
         let old = source.text.clone();
         // The worker reads them when it compiles: a keystroke waits for no file.

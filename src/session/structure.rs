@@ -10,6 +10,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     let Project {
         name,
         info,
+        dialect,
         common,
         passes,
         sampler_rules,
@@ -21,6 +22,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     } = a;
     *name == b.name
         && *info == b.info
+        && *dialect == b.dialect
         && common.is_some() == b.common.is_some()
         && is_each(passes, &b.passes, is_same_pass)
         && *sampler_rules == b.sampler_rules
@@ -39,6 +41,7 @@ pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
     };
     say(now.name != saved.name, "the project's name");
     say(now.info != saved.info, "the project's description");
+    say(now.dialect != saved.dialect, "the dialect");
     let ids = |p: &Project| p.passes.iter().map(|pass| pass.id.clone()).collect::<Vec<_>>();
     let is_common_same = now.common.is_some() == saved.common.is_some();
     say(ids(now) != ids(saved) || !is_common_same, "the list of passes");

@@ -2,11 +2,12 @@
 //!
 //! Owns the settings of naga's writers ([`Language`]), the numbers that each language gives to buffers, textures and
 //! samplers, and the file that describes them ([`Manifest`]). The modules are those that Eddy draws with, without
-//! work-arounds for drivers. Needs no device, and writes no file itself.
+//! work-arounds for drivers. Of Interactive Shader Format, which is GLSL too, it owns the one file that a project becomes ([`isf`]). Needs no device, and writes no file itself.
 
 mod bindings;
 mod glsl;
 mod hlsl;
+mod isf;
 mod language;
 mod manifest;
 mod names;
@@ -18,6 +19,7 @@ mod wgsl;
 mod write;
 
 pub use bindings::{At, BindingInfo, BindingKind, Member, MslSlot};
+pub use isf::{IsfFile, isf};
 pub use language::{GlslVersion, Language};
 pub use manifest::{
     CameraInfo, ChannelInfo, CustomUniformInfo, EntryPoint, FillInfo, Manifest, MeshInfo, PassInfo, ProgramInfo,
@@ -25,7 +27,7 @@ pub use manifest::{
 };
 
 use eddy_diag::Diagnostic;
-use eddy_project::Project;
+use eddy_project::{Dialect, Project};
 
 /// The name of the file that describes the others.
 pub const MANIFEST: &str = "translation.json";
@@ -50,5 +52,9 @@ pub struct File {
 /// Translates every pass that the picture needs, and the sound pass. Err: the errors of the compiler, or what the language
 /// cannot express, each with its place.
 pub fn translate(project: &Project, language: Language) -> Result<Translation, Vec<Diagnostic>> {
+    if project.dialect == Dialect::Ghostty {
+        let message = "the uniforms that Ghostty sets have no description for other programs";
+        return Err(vec![Diagnostic::error(None, message).hint("translate a project that reads none of them")]);
+    }
     passes::translate(project, language)
 }

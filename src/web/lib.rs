@@ -18,7 +18,7 @@ use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{CompiledPass, Sources};
 use eddy_glsl::Driver;
 use eddy_media::{MediaSet, gather};
-use eddy_project::{FillKind, Project};
+use eddy_project::{Dialect, FillKind, Project};
 use std::path::Path;
 
 /// The most bytes of the page without texts, meshes and media.
@@ -37,6 +37,12 @@ pub struct Page {
 /// Makes the page of a project with the media that it names. `media_dir` holds the user's own copies of Shadertoy's files.
 /// Err: the errors of the compiler and of files, each with its place.
 pub fn export(project: &Project, media_dir: Option<&Path>) -> Result<Page, Vec<Diagnostic>> {
+    if project.dialect == Dialect::Ghostty {
+        let message = "the page has no terminal, and none of the uniforms that Ghostty sets";
+        return Err(vec![
+            Diagnostic::error(None, message).hint("render a film in its place: eddy render --as ghostty"),
+        ]);
+    }
     let texts = Sources::new(project);
     let mut found = texts.diagnostics.clone();
     let mut passes = Vec::new();

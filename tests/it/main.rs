@@ -22,6 +22,7 @@ mod compile_budget;
 mod conditions;
 mod cubemaps;
 mod directives;
+mod elsewhere;
 mod engine;
 mod exports;
 mod farms;

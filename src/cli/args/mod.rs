@@ -1,5 +1,6 @@
 //! This module declares the command line for clap. Scripts rely on it: an option is added here, never changed.
 
+mod elsewhere;
 mod inspect;
 mod lab;
 mod render;
@@ -7,6 +8,7 @@ mod run;
 mod tools;
 mod values;
 
+pub use elsewhere::{Consumer, Guest};
 pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
 pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
 pub use render::RenderArgs;
@@ -40,6 +42,9 @@ pub struct Cli {
 pub struct Window {
     /// Open this project in the window; without it, open the preset gallery
     pub project: Option<String>,
+    /// Open the file as a custom shader of this program, with a stand-in for what it draws: ghostty, a terminal
+    #[arg(long = "as", value_name = "PROGRAM", requires = "project")]
+    pub guest: Option<Guest>,
     /// Size of the window in pixels [default: fits the screen]
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: Option<(u32, u32)>,
@@ -93,7 +98,7 @@ pub enum Command {
     List,
     /// Convert a Shadertoy JSON file to a project folder
     Import(ImportArgs),
-    /// Convert a project to a Shadertoy JSON file, or to an HTML file that plays it
+    /// Convert a project to a Shadertoy JSON file, to an HTML file that plays it, or to an ISF file
     Export(ExportArgs),
     /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
     Translate(TranslateArgs),
@@ -120,6 +125,9 @@ pub fn command_names() -> Vec<String> {
 pub struct CheckArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
+    /// Say what this program would make of it: ghostty, a terminal whose custom shaders are GLSL files, or xscreensaver
+    #[arg(long = "for", value_name = "PROGRAM")]
+    pub consumer: Option<Consumer>,
     /// Print one JSON object per line instead of text
     #[arg(long)]
     pub json: bool,
@@ -185,7 +193,7 @@ pub struct ImportArgs {
 #[command(after_help = PROJECT)]
 pub struct ExportArgs {
     pub project: String,
-    /// File to write, which ends in .json or .html
+    /// File to write, which ends in .json, .html or .fs
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
     /// Format of the file [default: by its ending]
@@ -206,6 +214,8 @@ pub enum ExportFormat {
     Json,
     /// One HTML file that plays the project in a browser by WebGL 2
     Html,
+    /// One file of Interactive Shader Format
+    Isf,
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
+use super::elsewhere::Guest;
 use super::values::{fps, recording, seconds, size, webcam};
 use crate::cli::tiles::Tiles;
 use crate::{
@@ -18,6 +19,9 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 /// Says how frames are drawn, wherever frames are drawn.
 #[derive(Clone, Debug, Args)]
 pub struct RunArgs {
+    /// Draw files as custom shaders of this program, with a stand-in for what it draws: ghostty, a terminal
+    #[arg(long = "as", value_name = "PROGRAM")]
+    pub guest: Option<Guest>,
     /// Resolution of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
     pub size: (u32, u32),

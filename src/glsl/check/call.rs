@@ -4,7 +4,7 @@ use super::{checker::Checker, env, fault, scope::Binding, words::Words};
 use crate::{
     ast::{self, BasicType, List, Loc, Symbol},
     builtins::{Arg, Operation, Overload},
-    hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, Type, TypeId},
+    hir::{self, Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, Type, TypeId},
     parse::foreign_type,
 };
 
@@ -63,6 +63,13 @@ impl Checker<'_> {
         {
             return self.resolved_call(id, args, loc);
         }
+        if let Some(id) = self.converting_overload(first, args) {
+            for (i, &arg) in ast[args].iter().enumerate() {
+                let want = self.module.params(id)[i].ty;
+                self.implicit(arg, want);
+            }
+            return self.resolved_call(id, args, loc);
+        }
         // Overloads of a built-in leave its own in force.
         if let Some(builtin) = Builtin::from_symbol(self.module[first].name.symbol)
             && !builtin.is_of_image
@@ -79,6 +86,26 @@ impl Checker<'_> {
         }
         self.uses(loc.first, DeclRef::Func(first));
         self.error_expr_of(self.module[first].result, loc)
+    }
+
+    /// Returns the overload whose parameters the arguments become by the fewest conversions that the language makes by
+    /// itself (GLSL 4.30, section 6.1); what a function gives back by a parameter is not converted.
+    fn converting_overload(&self, first: FuncId, args: List<ast::ExprId>) -> Option<FuncId> {
+        if !self.settings.dialect.converts() {
+            return None;
+        }
+        let given: Vec<TypeId> = self.ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
+        let conversions = |id: FuncId| {
+            let params = self.module.params(id);
+            let fits = |(param, &ty): (&hir::Local, &TypeId)| match param.kind.copies_out() {
+                true => param.ty == ty,
+                false => self.converts_to(ty, param.ty),
+            };
+            let is_one = params.len() == given.len() && params.iter().zip(&given).all(fits);
+            is_one.then(|| params.iter().zip(&given).filter(|(param, ty)| param.ty != **ty).count())
+        };
+        let all = std::iter::successors(Some(first), |id| self.funcs[id.index()].next);
+        all.filter_map(|id| Some((conversions(id)?, id))).min_by_key(|(count, _)| *count).map(|(_, id)| id)
     }
 
     fn resolved_call(&mut self, func: FuncId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
@@ -238,7 +265,18 @@ impl Checker<'_> {
             self.expr_stack.push(id);
         }
         let given = &types[..args.len().min(MOST_ARGS)];
-        let result = self.builtin_result(builtin, given);
+        let mut result = self.builtin_result(builtin, given);
+        if result.is_none()
+            && self.settings.dialect.converts()
+            && let Some((converted, of)) = self.converting_builtin(builtin, given)
+        {
+            for (i, (&arg, &want)) in ast[args].iter().zip(&converted).enumerate() {
+                self.expr_stack[base + i] = self.implicit(arg, want);
+            }
+            types[..converted.len()].copy_from_slice(&converted);
+            result = Some(of);
+        }
+        let given = &types[..args.len().min(MOST_ARGS)];
         let id = match result {
             Some(result) if args.len() <= MOST_ARGS => {
                 self.plain_texture_call(builtin, &types[..args.len()], loc);
@@ -458,6 +496,23 @@ impl Checker<'_> {
         for (_, line) in lines.into_iter().take(4) {
             self.hint(format!("candidate: `{line}`"));
         }
+    }
+
+    /// Returns the types of the arguments after conversions that the language makes by itself (GLSL 4.30, section 6.1), for
+    /// which a built-in has an overload, with the result: those of as few arguments as suffice, ints to floats.
+    fn converting_builtin(&self, builtin: Builtin, given: &[TypeId]) -> Option<(Vec<TypeId>, TypeId)> {
+        let float = |ty: TypeId| self.vector_shape(ty).map(|(_, n)| TypeId::vector(Scalar::Float, n));
+        let can = |i: usize| float(given[i]).is_some_and(|want| want != given[i] && self.converts_to(given[i], want));
+        // A bit for each argument: which are converted.
+        let mut sets: Vec<u32> = (1..1u32 << given.len()).collect();
+        sets.retain(|set| (0..given.len()).all(|i| set & 1 << i == 0 || can(i)));
+        sets.sort_by_key(|set| set.count_ones());
+        sets.into_iter().find_map(|set| {
+            let ty = |(i, &ty): (usize, &TypeId)| if set & 1 << i == 0 { Some(ty) } else { float(ty) };
+            let types: Vec<TypeId> = given.iter().enumerate().map(ty).collect::<Option<_>>()?;
+            let result = self.builtin_result(builtin, &types)?;
+            Some((types, result))
+        })
     }
 
     /// Result of a built-in for these argument types, if some overload takes them.

@@ -11,7 +11,7 @@ use crate::{
     ast::{self, Ast, Interner, Loc, Origins, Symbol},
     hir::{self, FuncId, Module, TypeId},
     report::MAX_ERRORS,
-    source::{ChannelKind, CustomUniform, UniformValue},
+    source::{ChannelKind, CustomUniform, Dialect, UniformValue},
 };
 use eddy_diag::{Diagnostic, Fix, SourceId, Span};
 use rustc_hash::FxHashMap;
@@ -28,6 +28,7 @@ pub(super) struct Switch {
 /// Settings of the project beside its texts.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Settings<'a> {
+    pub dialect: Dialect,
     pub channels: [ChannelKind; 4],
     pub custom_uniforms: &'a [CustomUniform<'a>],
     pub values: &'a [UniformValue],

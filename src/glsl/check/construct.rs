@@ -203,7 +203,7 @@ impl Checker<'_> {
     }
 
     /// A scalar or vector with components of another kind; the same expression where they are of it already.
-    fn convert_to(&mut self, id: ExprId, scalar: Scalar, loc: Loc) -> ExprId {
+    pub(super) fn convert_to(&mut self, id: ExprId, scalar: Scalar, loc: Loc) -> ExprId {
         let (from, size) = self.vector_shape(self.ty(id)).expect("a scalar or vector");
         if from == scalar {
             return self.as_value(id);
@@ -390,7 +390,8 @@ impl Checker<'_> {
         let mut wrong = Vec::new();
         let mut said = String::new();
         for (i, &arg) in ast[args].iter().enumerate() {
-            let (value, wanted) = (self.done(arg), want(self, i));
+            let wanted = want(self, i);
+            let value = self.implicit(arg, wanted);
             if self.ty(value) == wanted && wanted != TypeId::ERROR {
                 continue;
             }

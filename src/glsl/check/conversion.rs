@@ -1,5 +1,6 @@
 //! Checks values that must have a certain type, and says what is wrong when they have another. GLSL ES converts nothing
-//! by itself, so nearly every such mistake is an int where a float belongs, and the mend can be written out.
+//! by itself, so nearly every such mistake is an int where a float belongs, and the mend can be written out. GLSL 4.30
+//! converts by itself ([`Checker::implicit`], [`Checker::promote`]).
 
 use super::checker::Checker;
 use crate::{
@@ -9,6 +10,47 @@ use crate::{
 use eddy_diag::{Edit, Fix, Span};
 
 impl Checker<'_> {
+    /// Converts the value of an expression of the tree where the language does that by itself (GLSL 4.30, section
+    /// 4.1.10), and returns the value as it is then. Anything else stays as it is.
+    pub(super) fn implicit(&mut self, written: ast::ExprId, want: TypeId) -> ExprId {
+        let value = self.done(written);
+        if self.ty(value) == want || !self.converts_to(self.ty(value), want) {
+            return value;
+        }
+        let Some((scalar, _)) = self.vector_shape(want) else { return value };
+        let converted = self.convert_to(value, scalar, self.loc(value));
+        self.lowered[written.index()] = Some(converted);
+        converted
+    }
+
+    /// Returns whether a value of one type is one of another where that is wanted: it has the type, or the language
+    /// converts it.
+    pub(super) fn converts_to(&self, from: TypeId, to: TypeId) -> bool {
+        if from == to || !self.settings.dialect.converts() {
+            return from == to;
+        }
+        let (Some((a, m)), Some((b, n))) = (self.vector_shape(from), self.vector_shape(to)) else { return false };
+        m == n && matches!((a, b), (Scalar::Int, Scalar::Uint | Scalar::Float) | (Scalar::Uint, Scalar::Float))
+    }
+
+    /// Converts the operands of an operator to the richer one's kind of component, where the language does that by itself.
+    /// With `into_left` only the right one changes, as in `a += b`.
+    pub(super) fn promote(&mut self, left: ast::ExprId, right: ast::ExprId, into_left: bool) {
+        if !self.settings.dialect.converts() {
+            return;
+        }
+        let types = &self.module.types;
+        let (l, r) = (self.ty(self.done(left)), self.ty(self.done(right)));
+        let (Some(a), Some(b)) = (types.scalar(l), types.scalar(r)) else { return };
+        let of = |ty, scalar| self.vector_shape(ty).map(|(_, n)| TypeId::vector(scalar, n));
+        let (on_left, on_right) = (of(l, b), of(r, a));
+        if let Some(want) = on_right.filter(|&want| a != b && self.converts_to(r, want)) {
+            self.implicit(right, want);
+        } else if let Some(want) = on_left.filter(|&want| a != b && !into_left && self.converts_to(l, want)) {
+            self.implicit(left, want);
+        }
+    }
+
     /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
     pub(super) fn expect_type(
         &mut self,

@@ -114,15 +114,17 @@ impl Checker<'_> {
         (ty, init)
     }
 
-    /// Returns whether the initialiser fits.
-    fn check_init(&mut self, name: Ident, ty: TypeId, init: ExprId, written: ast::ExprId) -> bool {
+    /// Returns the initialiser if it fits, converted where the language does that by itself.
+    fn check_init(&mut self, name: Ident, ty: TypeId, init: ExprId, written: ast::ExprId) -> Option<ExprId> {
+        let init = if self.ty(init) == ty { init } else { self.implicit(written, ty) };
         if ty == TypeId::ERROR || self.ty(init) == TypeId::ERROR || self.is_void(init) {
-            return false;
+            return None;
         }
-        self.expect_type(init, written, ty, |checker| {
+        let fits = self.expect_type(init, written, ty, |checker| {
             let (ty, name) = (checker.type_name(ty), checker.name(name.symbol));
             format!("cannot initialise the `{ty}` `{name}` with {{}}")
-        })
+        });
+        fits.then_some(init)
     }
 
     /// The value of a `const` variable, or what is wrong with its initialiser.
@@ -133,9 +135,7 @@ impl Checker<'_> {
             self.hint("initialise it, or remove `const`");
             return None;
         };
-        if !self.check_init(name, ty, init, written) {
-            return None;
-        }
+        let init = self.check_init(name, ty, init, written)?;
         if !self.is_constant(init) {
             if self.is_broken() {
                 return None;
@@ -184,7 +184,7 @@ impl Checker<'_> {
             self.add_local(name, ty, kind, precision, value);
             return;
         }
-        let init = init.and_then(|(init, written)| self.check_init(name, ty, init, written).then_some(init));
+        let init = init.and_then(|(init, written)| self.check_init(name, ty, init, written));
         let local = self.add_local(name, ty, LocalKind::Var, precision, None);
         self.add_stmt(StmtKind::Declare { local, init }, loc);
     }
@@ -219,6 +219,9 @@ impl Checker<'_> {
             return;
         }
         let (ty, init) = self.variable_type(base, spec, declarator);
+        if self.is_of_other_stage(name, ty, init) {
+            return;
+        }
         self.check_interface(quals, ty, self.ast[spec].loc);
         let init = init.zip(declarator.init);
         let mut storage = match quals.storage {
@@ -245,6 +248,12 @@ impl Checker<'_> {
             let at = self.loc(value);
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
+        if storage == GlobalStorage::Uniform && !self.settings.dialect.has_loose_uniforms() {
+            self.error(name, format!("`{text}` cannot be a uniform here: Ghostty sets no uniforms but its own"));
+            self.hint("make it a `const`, or a `#define`");
+            self.declare(name, Binding::Poison);
+            return;
+        }
         let outer = (storage == GlobalStorage::Uniform).then(|| self.uniform_value(name, ty)).flatten();
         let is_set = outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
@@ -268,12 +277,12 @@ impl Checker<'_> {
             }
             GlobalStorage::Private => {
                 if let Some((init, written)) = init.filter(|_| quals.storage.is_none())
-                    && self.check_init(name, ty, init, written)
+                    && let Some(init) = self.check_init(name, ty, init, written)
                 {
                     if self.is_constant(init) {
                         kept = Some(init);
                         value = self.as_const(init);
-                    } else if self.reads_only_constants(init) {
+                    } else if self.settings.dialect.has_dynamic_globals() || self.reads_only_constants(init) {
                         kept = Some(init);
                     } else if !self.is_broken() {
                         self.not_constant_global(name, init);
@@ -292,6 +301,14 @@ impl Checker<'_> {
         let location = self.location(quals);
         let global = &mut self.module[id];
         (global.flat, global.location) = (quals.flat, location);
+    }
+
+    /// Returns whether a variable is there already because the text of the vertex shader, which stands before this one,
+    /// declares what it hands on.
+    fn is_of_other_stage(&self, name: Ident, ty: TypeId, init: Option<ExprId>) -> bool {
+        self.settings.dialect.joins_stages()
+            && init.is_none()
+            && matches!(self.scopes.here(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
     }
 
     /// The number of a `layout(location = n)`.

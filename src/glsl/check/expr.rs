@@ -292,6 +292,7 @@ impl<'a> Checker<'a> {
     // --------------------------------------------------------------------------------------------------- small kinds
 
     fn ternary(&mut self, cond: ast::ExprId, then: ast::ExprId, otherwise: ast::ExprId, loc: Loc) -> ExprId {
+        self.promote(then, otherwise, false);
         let (c, t, o) = (self.done(cond), self.done(then), self.done(otherwise));
         let (tt, ot) = (self.ty(t), self.ty(o));
         if !self.expect_bool(c, cond, "the condition of `?:`") || tt == TypeId::ERROR || ot == TypeId::ERROR {

@@ -37,7 +37,9 @@ impl Checker<'_> {
     /// uniforms.
     pub(super) fn declare_pass(&mut self) {
         // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
-        if self.env == Env::Pass(PassKind::Image) {
+        let dialect = self.settings.dialect;
+        let is_image = self.env == Env::Pass(PassKind::Image) && dialect.has_extras();
+        if is_image {
             for builtin in Builtin::all().filter(|builtin| builtin.is_of_image) {
                 self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
             }
@@ -47,15 +49,15 @@ impl Checker<'_> {
                 self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
             }
         }
-        if self.env.has(Uniform::Time) {
+        if self.env.has(Uniform::Time) && dialect.has_extras() {
             self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
         }
         if !self.env.is_plain() {
-            for (i, name) in CHANNELS.into_iter().enumerate() {
+            for (i, name) in CHANNELS.into_iter().enumerate().take(dialect.channels()) {
                 self.give(name, Binding::Channel(i as u8), scope::FILE);
             }
         }
-        if self.env == Env::Pass(PassKind::Image) {
+        if is_image {
             for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {
                 self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
             }

@@ -75,8 +75,8 @@ pub(crate) fn check(
     source: &PassSource<'_>,
     checkpoint: Option<&Checkpoint>,
 ) -> Checked {
-    let &PassSource { channels, custom_uniforms, values, common, .. } = source;
-    let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
+    let &PassSource { dialect, channels, custom_uniforms, values, common, .. } = source;
+    let settings = Settings { dialect, channels, custom_uniforms, values, common: common.map(|text| text.id) };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
     let bulk = checker.bulk.map(|name| origins.span(name));

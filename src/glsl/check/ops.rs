@@ -94,6 +94,9 @@ impl Checker<'_> {
     }
 
     pub(super) fn binary(&mut self, op: Op, lhs: ast::ExprId, rhs: ast::ExprId, loc: Loc) -> ExprId {
+        if !matches!(op, Op::Shl | Op::Shr) {
+            self.promote(lhs, rhs, false);
+        }
         let (l, r) = (self.done(lhs), self.done(rhs));
         let (lt, rt) = (self.ty(l), self.ty(r));
         if lt == TypeId::ERROR || rt == TypeId::ERROR {
@@ -274,6 +277,14 @@ impl Checker<'_> {
     }
 
     pub(super) fn assign(&mut self, op: Option<Op>, place: ast::ExprId, value: ast::ExprId, loc: Loc) -> ExprId {
+        match op {
+            None => {
+                let want = self.ty(self.done(place));
+                self.implicit(value, want);
+            }
+            Some(Op::Shl | Op::Shr) => {}
+            Some(_) => self.promote(place, value, true),
+        }
         let (p, v) = (self.done(place), self.done(value));
         let (pt, vt) = (self.ty(p), self.ty(v));
         if pt == TypeId::ERROR {

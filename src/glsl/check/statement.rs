@@ -263,6 +263,7 @@ impl Checker<'_> {
                 if self.is_void(value) {
                     return;
                 }
+                let value = self.implicit(written, want);
                 self.expect_type(value, written, want, |checker| {
                     format!("`{name}` returns `{}`, not {{}}", checker.type_name(want))
                 });

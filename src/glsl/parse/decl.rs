@@ -6,8 +6,8 @@ use super::{
 };
 use crate::{
     ast::{
-        DeclId, DeclKind, Declarator, ExprId, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecId,
-        TypeSpecKind,
+        DeclId, DeclKind, Declarator, Dim, ExprId, ExprKind, LayoutItem, List, Precision, Qualifier, QualifierKind,
+        TypeSpec, TypeSpecId, TypeSpecKind,
     },
     lex::Kind,
 };
@@ -147,7 +147,7 @@ impl Parser<'_> {
         }
         // The grammar lets the first declarator be empty: `struct S { .. }, a;`.
         self.eat(Kind::Comma);
-        let declarators = if self.kind() == Kind::Semicolon { List::EMPTY } else { self.declarators()? };
+        let declarators = if self.kind() == Kind::Semicolon { List::EMPTY } else { self.declarators(ty)? };
         if self.semicolon().is_err() {
             // The names are known all the same.
             self.recover();
@@ -301,12 +301,12 @@ impl Parser<'_> {
         Ok(self.ast.list(&items))
     }
 
-    /// Reads `a = .., b[2]`.
-    pub(super) fn declarators(&mut self) -> Parse<List<Declarator>> {
+    /// Reads `a = .., b[2]` of variables of a type.
+    pub(super) fn declarators(&mut self, ty: TypeSpecId) -> Parse<List<Declarator>> {
         let mut found = std::mem::take(&mut self.declarators);
         found.clear();
         let read = loop {
-            match self.declarator() {
+            match self.declarator(ty) {
                 Ok(declarator) => found.push(declarator),
                 Err(failed) => break Err(failed),
             }
@@ -320,7 +320,7 @@ impl Parser<'_> {
         if list.is_empty() { read.map(|()| list) } else { Ok(list) }
     }
 
-    fn declarator(&mut self) -> Parse<Declarator> {
+    fn declarator(&mut self, ty: TypeSpecId) -> Parse<Declarator> {
         let name = self.declared("a name")?;
         let dims = self.dims(Self::full_expression)?;
         let first = self.at;
@@ -328,7 +328,10 @@ impl Parser<'_> {
             Kind::Equal => {
                 self.bump();
                 self.check_unary_slip();
-                let read = self.full_assignment();
+                let read = match self.kind() {
+                    Kind::LBrace if self.dialect.has_lists() => self.list_initializer(ty, dims),
+                    _ => self.full_assignment(),
+                };
                 Some(read.unwrap_or_else(|Failed| self.lost_value(first)))
             }
             Kind::LParen => {
@@ -344,6 +347,42 @@ impl Parser<'_> {
             _ => None,
         };
         Ok(Declarator { name, dims, init })
+    }
+
+    /// Reads `{a, {b, c}}` as the constructor that it stands for (GLSL 4.30, section 4.1.11): of an array where the type or
+    /// the name has dimensions, else of the type. A list in it is a value of the type without dimensions.
+    fn list_initializer(&mut self, ty: TypeSpecId, dims: List<Dim>) -> Parse<ExprId> {
+        let first = self.at;
+        let spec = self.ast[ty];
+        let is_array = !spec.dims.is_empty() || !dims.is_empty();
+        self.bump();
+        let mark = self.expr_stack.len();
+        while self.kind() != Kind::RBrace {
+            let value = match self.kind() {
+                Kind::LBrace if is_array => {
+                    let element = self.ast.type_spec(TypeSpec { dims: List::EMPTY, ..spec });
+                    self.list_initializer(element, List::EMPTY)
+                }
+                _ => self.full_assignment(),
+            };
+            let value = value.inspect_err(|Failed| self.expr_stack.truncate(mark))?;
+            self.expr_stack.push(value);
+            if !self.eat(Kind::Comma) {
+                break;
+            }
+        }
+        let args = self.ast.list(&self.expr_stack[mark..]);
+        self.expr_stack.truncate(mark);
+        self.close(first, Kind::RBrace)?;
+        let loc = self.loc(first);
+        let node = match spec.kind {
+            TypeSpecKind::Named(name) if !is_array => ExprKind::Call { name, args },
+            kind => {
+                let dims = if is_array { self.ast.list(&[Dim { size: None, loc }]) } else { List::EMPTY };
+                ExprKind::Construct { ty: self.ast.type_spec(TypeSpec { kind, dims, loc: spec.loc }), args }
+            }
+        };
+        Ok(self.ast.expr(node, loc))
     }
 
     /// Passes a value that was not understood.

@@ -28,7 +28,7 @@ use super::{
     pieces::{self, Piece},
     preprocess::{MacroTable, Preprocessed, Tok, Unit, preprocess},
     report::Report,
-    source::PassSource,
+    source::{Dialect, PassSource},
     stack::on_deep_stack,
 };
 use parser::Parser;
@@ -101,27 +101,27 @@ impl Parsed {
 pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
     let pieces = pieces::of(&texts, source.includes);
-    read(&pieces, Unit::Pass(source.kind), already.map_or_else(Parsed::nothing, Parsed::clone))
+    read(&pieces, (Unit::Pass(source.kind), source.dialect), already.map_or_else(Parsed::nothing, Parsed::clone))
 }
 
 /// Preprocesses and parses Common alone.
 pub(super) fn parse_common(pieces: &[Piece<'_>]) -> Parsed {
-    read(pieces, Unit::CommonAlone, Parsed::nothing())
+    read(pieces, (Unit::CommonAlone, Dialect::default()), Parsed::nothing())
 }
 
 /// Preprocesses and parses the pieces behind what is `done`.
-fn read(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
+fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect), done: Parsed) -> Parsed {
     on_deep_stack(|| read_here(pieces, unit, done))
 }
 
-fn read_here(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
+fn read_here(pieces: &[Piece<'_>], (unit, dialect): (Unit, Dialect), done: Parsed) -> Parsed {
     let Parsed { ast, origins, mut names, mut report, reader } = done;
     let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
     let begin = tokens.len().saturating_sub(1);
     let done =
         Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers, is_stopped: false };
     let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
-        preprocess(pieces, unit, done, &mut names, &mut report);
+        preprocess(pieces, (unit, dialect), done, &mut names, &mut report);
     brackets::pair(&mut tokens, begin);
     let end = tokens.len() - 1;
     structs.resize(names.len(), false);
@@ -134,6 +134,7 @@ fn read_here(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
         report: &mut report,
         pieces,
         unit,
+        dialect,
         depth: 0,
         levels: 0,
         expr_stack: Vec::new(),

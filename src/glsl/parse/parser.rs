@@ -7,6 +7,7 @@ use crate::{
     pieces::Piece,
     preprocess::{Tok, Unit},
     report::Report,
+    source::Dialect,
 };
 
 /// Something was not understood, and it was reported.
@@ -24,6 +25,7 @@ pub(super) struct Parser<'p> {
     pub report: &'p mut Report,
     pub pieces: &'p [Piece<'p>],
     pub unit: Unit,
+    pub dialect: Dialect,
     /// Statements around the next token.
     pub depth: u32,
     /// Parentheses, operators and calls around it in its expression.

@@ -326,7 +326,7 @@ impl Parser<'_> {
         let mut qualifiers = self.qualifiers()?;
         let ty = self.qualified_type(&mut qualifiers)?;
         self.eat(Kind::Comma);
-        let declarators = self.declarators()?;
+        let declarators = self.declarators(ty)?;
         let loc = self.loc(first);
         Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators }, loc))
     }

@@ -1,6 +1,6 @@
 //! The macros that are defined: what a text leaves to those that follow it.
 
-use crate::{ast::ExpansionId, lex::Token};
+use crate::{ast::ExpansionId, lex::Token, source::Dialect};
 
 /// Every macro so far. Names and places of definition are in `Origins::macros`, by the same number.
 #[derive(Clone, Debug, Default)]
@@ -44,13 +44,22 @@ pub(super) enum MacroOrigin {
 }
 
 impl MacroOrigin {
-    /// The macros that are there before the first line.
-    pub const ALL: [(&str, MacroOrigin); 6] = [
-        ("__LINE__", MacroOrigin::LineNumber),
-        ("__FILE__", MacroOrigin::FileNumber),
-        ("__VERSION__", MacroOrigin::ByLanguage(300)),
-        ("GL_ES", MacroOrigin::ByLanguage(1)),
-        ("GL_FRAGMENT_PRECISION_HIGH", MacroOrigin::ByLanguage(1)),
-        ("HW_PERFORMANCE", MacroOrigin::BySite(1)),
-    ];
+    /// Returns the macros that are there before the first line.
+    pub fn all(dialect: Dialect) -> Vec<(&'static str, MacroOrigin)> {
+        use MacroOrigin::{ByLanguage, BySite, FileNumber, LineNumber};
+        let mut all = vec![("__LINE__", LineNumber), ("__FILE__", FileNumber)];
+        all.extend(match dialect {
+            Dialect::Shadertoy => vec![
+                ("__VERSION__", ByLanguage(300)),
+                ("GL_ES", ByLanguage(1)),
+                ("GL_FRAGMENT_PRECISION_HIGH", ByLanguage(1)),
+                ("HW_PERFORMANCE", BySite(1)),
+            ],
+            Dialect::Ghostty => {
+                vec![("__VERSION__", ByLanguage(430)), ("GL_core_profile", ByLanguage(1)), ("VULKAN", ByLanguage(100))]
+            }
+            Dialect::Isf => vec![("__VERSION__", ByLanguage(120))],
+        });
+        all
+    }
 }

@@ -10,6 +10,7 @@ use crate::{
     lex::{Kind, LINE_START, Lexer, Token, words},
     pieces::Piece,
     report::Report,
+    source::Dialect,
 };
 use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceId, Span};
 
@@ -78,7 +79,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     /// If there is none.
     pub fn new(
         pieces: &'r [Piece<'a>],
-        unit: Unit,
+        (unit, dialect): (Unit, Dialect),
         done: Preprocessed,
         names: &'r mut Interner,
         report: &'r mut Report,
@@ -115,7 +116,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         new.tokens.reserve(bytes / 4 + 16);
         new.origins.tokens.reserve(bytes / 4 + 16);
         if is_new {
-            for (name, origin) in MacroOrigin::ALL {
+            for (name, origin) in MacroOrigin::all(dialect) {
                 let name = new.names.intern(name);
                 let def = MacroDef { name, name_at: None, defined_at: None, function_like: false };
                 new.add_macro(def, (0, 0), (0, 0), origin);

@@ -28,8 +28,13 @@ fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     let includes: Vec<_> = missing.iter().map(|said| Include { line: said.span.unwrap(), text: Err(said) }).collect();
     let mut names = words::interner();
     let mut report = Report::default();
-    let done =
-        preprocess(&pieces::of(&texts, &includes), Unit::CommonAlone, Preprocessed::default(), &mut names, &mut report);
+    let done = preprocess(
+        &pieces::of(&texts, &includes),
+        (Unit::CommonAlone, Dialect::default()),
+        Preprocessed::default(),
+        &mut names,
+        &mut report,
+    );
     assert_eq!(done.tokens.len(), done.origins.tokens.len());
     assert_eq!(done.tokens.last().unwrap().kind, Kind::Eof);
     let shown: Vec<String> = done.tokens[..done.tokens.len() - 1]
@@ -369,8 +374,13 @@ fn origins_lead_back() {
     let text = "#define IN(x) x * k\n#define OUT IN(a)\nOUT + IN(b);";
     let texts = [Text { id: SourceId(0), text }];
     let (mut names, mut report) = (words::interner(), Report::default());
-    let done =
-        preprocess(&pieces::of(&texts, &[]), Unit::CommonAlone, Preprocessed::default(), &mut names, &mut report);
+    let done = preprocess(
+        &pieces::of(&texts, &[]),
+        (Unit::CommonAlone, Dialect::default()),
+        Preprocessed::default(),
+        &mut names,
+        &mut report,
+    );
     let spelled = |i: usize| &text[done.origins.tokens[i].spelled.range()];
     let used = |i: usize| &text[done.origins.token_span(crate::ast::TokenId(i as u32)).range()];
     // a * k + b * k ;

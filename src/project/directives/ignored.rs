@@ -4,15 +4,16 @@ use super::{
     around::{Around, files_of_passes, is_channel},
     read::read,
 };
-use crate::{Channel, Origin, Project, lines::hash_lines};
+use crate::{Channel, Dialect, Origin, Project, lines::hash_lines};
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 
 /// Returns what to say of `#iChannel` lines that are not obeyed: those in texts that are no pass, which have no
 /// channels, and those that say something else than what the project is read from. Spans are of [`Project::sources`].
 pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
-    let counts = project.origin.has_channels_in_texts();
+    let counts = project.has_channels_in_texts();
     let (severity, who) = match &project.origin {
+        _ if project.dialect == Dialect::Ghostty => (Severity::Warning, "Ghostty"),
         Origin::Json(_) => (Severity::Warning, "the JSON file"),
         Origin::Folder { has_manifest: true, .. } | Origin::Preset(_) => (Severity::Warning, "eddy.toml"),
         Origin::Unsaved => (Severity::Warning, "the project"),

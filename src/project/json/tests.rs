@@ -234,6 +234,7 @@ fn an_export_reads_back_as_the_same_project() {
             pass(PassId::Sound, Default::default()),
         ],
         sampler_rules: SamplerRules::Site,
+        dialect: Default::default(),
         custom_uniform_values: Default::default(),
         controls: Default::default(),
         groups: Vec::new(),

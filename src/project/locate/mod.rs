@@ -4,8 +4,8 @@ use super::{
     Loaded, PassId, ProjectError,
     file_names::{self, Role},
     files::{EditedTexts, Files, MANIFEST},
-    json, limits,
-    load::{folder_name, load_edited_folder, load_folder, load_glsl, load_json},
+    ghostty, json, limits,
+    load::{folder_name, load_edited_folder, load_folder, load_glsl, load_glsl_alone, load_json},
     nearest, presets,
 };
 use std::{
@@ -16,14 +16,37 @@ use std::{
 /// Reads a project by what a person calls it: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
 /// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except
 /// that a bare preset's name is not taken for a folder of that name that holds no project. Of a JSON file that holds
-/// several shaders, `FILE.json#ID` is one, by its id, its number from 1 or its name.
+/// several shaders, `FILE.json#ID` is one, by its id, its number from 1 or its name. `ghostty:FILE.glsl` is a custom shader of
+/// the terminal Ghostty.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
+    if let Some(path) = of_ghostty(spec) {
+        return load_ghostty(path);
+    }
     match locate(spec)? {
         Location::Preset(name) => presets::load(name),
         Location::Folder(path) => load_folder(&path),
         Location::Glsl(path) => load_glsl(&path, &EditedTexts::new()),
         Location::Json(path, wanted) => load_json(&path, wanted.as_deref()),
     }
+}
+
+/// Returns the path of a file that is to be read as a custom shader of Ghostty.
+fn of_ghostty(spec: &str) -> Option<&Path> {
+    spec.strip_prefix(ghostty::PREFIX).filter(|_| !Path::new(spec).exists()).map(Path::new)
+}
+
+/// Reads a custom shader of Ghostty, and puts around it what the terminal does.
+fn load_ghostty(path: &Path) -> Result<Loaded, ProjectError> {
+    if !path.exists() {
+        let (spec, presets) = (path.display().to_string(), Vec::new());
+        return Err(ProjectError::NotFound { spec, near: None, presets });
+    }
+    if path.is_dir() || !file_names::is_glsl_extension(path.extension().unwrap_or_default()) {
+        return Err(ProjectError::UnknownKind { path: path.to_owned() });
+    }
+    let Loaded { mut project, .. } = load_glsl_alone(path)?;
+    ghostty::dress(&mut project);
+    Ok(Loaded { sources: project.sources(), project, warnings: Vec::new() })
 }
 
 /// Reads the project of a folder, or of one GLSL file, as [`load`] does, with texts of an editor in place of what is on
@@ -49,6 +72,7 @@ pub fn is_manifest(file: &Path) -> bool {
 /// Returns what an output of `spec` is named after: the preset's, the folder's or the file's name without its
 /// extension.
 pub fn stem(spec: &str) -> String {
+    let spec = of_ghostty(spec).and_then(Path::to_str).unwrap_or(spec);
     let path = match locate(spec) {
         Ok(Location::Preset(name)) => return name.to_owned(),
         Ok(Location::Folder(path)) => return folder_name(&path),

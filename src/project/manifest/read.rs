@@ -6,8 +6,8 @@ use super::{
     settings,
 };
 use crate::{
-    Channel, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId,
-    PassKind, Project, ProjectError, SamplerRules, Source, Wrap,
+    Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody,
+    PassId, PassKind, Project, ProjectError, SamplerRules, Source, Wrap,
     file_names::{self, Role},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
@@ -16,13 +16,14 @@ use eddy_diag::{Diagnostic, SourceId, SourceMap};
 use std::path::PathBuf;
 use toml_edit::{Document, Item, TableLike};
 
-const TOP: [&str; 13] = [
+const TOP: [&str; 14] = [
     "eddy",
     "name",
     "description",
     "author",
     "tags",
     "id",
+    "dialect",
     "sampler_rules",
     "uniforms",
     "controls",
@@ -107,6 +108,7 @@ impl Reader<'_> {
             Some("site") => SamplerRules::Site,
             _ => SamplerRules::PerChannel,
         };
+        let dialect = self.one_of(root, "dialect", &Dialect::ALL.map(Dialect::name)).and_then(Dialect::of);
         let common = self.common(root);
         let passes = self.passes(root);
         let groups = self.groups(root, &passes);
@@ -115,6 +117,7 @@ impl Reader<'_> {
         let mut project = Project {
             name,
             info,
+            dialect: dialect.unwrap_or_default(),
             common,
             passes,
             sampler_rules,

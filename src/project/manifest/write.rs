@@ -6,8 +6,8 @@ use super::{
     fills, geometry, read, settings, uniforms,
 };
 use crate::{
-    Channel, CustomUniformValue, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules, Wrap,
-    file_names::pass_of_stem,
+    Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules,
+    Wrap, file_names::pass_of_stem,
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -30,6 +30,7 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
     let tags = &project.info.tags;
     set(root, "tags", (!tags.is_empty()).then(|| tags.iter().collect()));
     set(root, "id", text(&project.info.id));
+    set(root, "dialect", (project.dialect != Dialect::Shadertoy).then(|| project.dialect.name().into()));
     set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
     uniforms(root, project);
     controls::write_controls(root, project);

@@ -3,11 +3,11 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    FillValue, Media, MeshSource, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+    Dialect, FillValue, Media, MeshSource, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
     confine, file_names,
     files::{Files, MANIFEST},
-    files_beside, folder, json, limits,
+    files_beside, folder, isf, json, limits,
     load::folder_name,
     manifest, picked,
     writes::{self, Overwrite, Writes},
@@ -24,6 +24,9 @@ use std::{
 /// half written, and on failure every old one is still there; files whose content stays the same are not touched.
 pub fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let extension = target.extension().unwrap_or_default();
+    if project.dialect == Dialect::Isf && matches!(&project.origin, Origin::File(path) if is_same(path, target)) {
+        return isf::save(project, target, overwrite);
+    }
     if target.is_dir() {
         save_folder(project, target, overwrite)
     } else if target.file_name().is_some_and(|n| n == MANIFEST) {
@@ -58,6 +61,10 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
         let what = format!("{}, which draws meshes: Shadertoy has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
+    if project.dialect == Dialect::Ghostty {
+        let what = "the uniforms of the terminal Ghostty: Shadertoy has none of them".into();
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
     if let Some(path) = picked::paths(project).next() {
         let what = format!("the image {}, which is in another folder", path.display());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
@@ -80,6 +87,9 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
     let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
     let base = target.parent().unwrap_or(Path::new(""));
+    if project.dialect == Dialect::Ghostty {
+        return save_ghostty(project, target, own, overwrite);
+    }
     // Buffers that its lines name have files of their own, which stay where they are.
     let is_beside = |p: &&Pass| own && p.source.path.as_deref() == Some(&*base.join(&p.source.name));
     let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id == PassId::Image);
@@ -132,6 +142,27 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     saved.origin = Origin::File(target.to_owned());
     if let Some(image) = saved.pass_mut(&PassId::Image) {
         image.source.name = name;
+        image.source.path = Some(target.to_owned());
+    }
+    Ok(saved)
+}
+
+/// Writes a custom shader of Ghostty: what stands around it is not the author's.
+fn save_ghostty(
+    project: &Project,
+    target: &Path,
+    own: bool,
+    overwrite: Overwrite<'_>,
+) -> Result<Project, ProjectError> {
+    let Some(image) = project.pass(&PassId::Image) else {
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what: "anything but Image".into() });
+    };
+    write_one(target, image.source.text.as_bytes().to_vec(), own, overwrite)?;
+    let mut saved = project.clone();
+    saved.name = name_at(target);
+    saved.origin = Origin::File(target.to_owned());
+    if let Some(image) = saved.pass_mut(&PassId::Image) {
+        image.source.name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
         image.source.path = Some(target.to_owned());
     }
     Ok(saved)

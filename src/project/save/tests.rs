@@ -118,6 +118,7 @@ fn any_project(seed: u64) -> Project {
         common: (r.below(2) == 0).then(|| source(r, "Common".into())),
         passes,
         sampler_rules: if r.below(2) == 0 { SamplerRules::Site } else { SamplerRules::PerChannel },
+        dialect: Default::default(),
         custom_uniform_values: Default::default(),
         controls: Default::default(),
         groups: Vec::new(),

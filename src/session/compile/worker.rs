@@ -112,7 +112,7 @@ pub fn work(
         let mut options = BuildOptions { wanted: wanted(&job), skip: true, trial, ..BuildOptions::default() };
         let asked = job.probe.as_ref().map(|order| probe::options(&job.project, &job.shown, order));
         let probe = asked.map(|asked| asked.map(|(probing, value)| (options = probing, value).1));
-        if job.project.origin.has_channels_in_texts() {
+        if job.project.has_channels_in_texts() {
             diag::append(&mut found, project::declare_channels(&mut job.project.clone()));
         }
         let start = Instant::now();

@@ -138,11 +138,7 @@ impl DiskSync {
 
     /// `None` for a project that lies in no file. On the last try files that are gone or empty are taken as meant.
     fn read(documents: &Documents, is_last_try: bool) -> Option<OnDisk> {
-        let path = match &documents.saved().origin {
-            Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path,
-            Origin::Unsaved | Origin::Preset(_) => return None,
-        };
-        let mut read = match project::load(&path.to_string_lossy()) {
+        let mut read = match project::load(&documents.saved().spec()?) {
             Ok(read) => read,
             Err(e) => return Some(OnDisk::Unusable(e.to_string())),
         };

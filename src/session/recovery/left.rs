@@ -65,7 +65,7 @@ fn saved(project: &Project) -> (Project, Option<String>) {
     let spec = match &project.origin {
         Origin::Unsaved => return (template::project(), None),
         Origin::Preset(name) => name.clone(),
-        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.to_string_lossy().into_owned(),
+        Origin::Folder { .. } | Origin::File(_) | Origin::Json(_) => project.spec().unwrap_or_default(),
     };
     let loaded = match &project.origin {
         Origin::Preset(name) => project::presets::load(name),

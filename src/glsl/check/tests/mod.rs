@@ -1,6 +1,7 @@
 //! The checker against tables of small programs, by section of the specification, and against folders of real ones.
 
 mod corpus;
+mod dialects;
 mod given;
 mod names;
 mod nesting;

@@ -1,0 +1,79 @@
+//! Programs whose shaders Eddy draws or checks as they are.
+
+use super::{Cli, Command};
+use clap::ValueEnum;
+
+/// A program that a file is drawn as a shader of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Guest {
+    /// The terminal Ghostty, with a stand-in terminal
+    Ghostty,
+}
+
+/// A program that takes Shadertoy's GLSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Consumer {
+    /// The terminal Ghostty (`custom-shader`)
+    Ghostty,
+    /// The module xshadertoy of XScreenSaver
+    Xscreensaver,
+}
+
+impl Guest {
+    /// Returns what a file is called that is to be read so.
+    fn spec(self, file: &str) -> String {
+        let Guest::Ghostty = self;
+        if file.starts_with("ghostty:") { file.to_owned() } else { format!("ghostty:{file}") }
+    }
+}
+
+impl Consumer {
+    /// Returns what a file is called that is to be read as this program reads it.
+    pub fn spec(self, file: &str) -> String {
+        match self {
+            Consumer::Ghostty => Guest::Ghostty.spec(file),
+            Consumer::Xscreensaver => file.to_owned(),
+        }
+    }
+}
+
+impl Cli {
+    /// Names every project as `--as` asks for.
+    pub fn with_guests(mut self) -> Self {
+        let (guest, projects): (_, Vec<&mut String>) = match &mut self.command {
+            None => (self.window.guest, self.window.project.iter_mut().collect()),
+            Some(Command::Render(args)) => (args.run.guest, args.project.iter_mut().collect()),
+            Some(Command::Bench(args)) => (args.run.guest, args.project.iter_mut().collect()),
+            Some(Command::Probe(args)) => (args.run.guest, vec![&mut args.project]),
+            Some(Command::Trace(args)) => (args.run.guest, args.project.iter_mut().collect()),
+            Some(Command::Compare(args)) => (args.run.guest, vec![&mut args.project]),
+            Some(_) => (None, Vec::new()),
+        };
+        if let Some(guest) = guest {
+            projects.into_iter().for_each(|project| *project = guest.spec(project));
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    fn parse(line: &str) -> Cli {
+        Cli::try_parse_from(line.split(' ')).expect(line).with_guests()
+    }
+
+    #[test]
+    fn files_are_named_for_the_program_that_they_are_of() {
+        assert_eq!(parse("eddy --as ghostty glow.glsl").window.project.as_deref(), Some("ghostty:glow.glsl"));
+        let Some(Command::Render(args)) = parse("eddy render --as ghostty a.glsl b.glsl --out o").command else {
+            panic!()
+        };
+        assert_eq!(args.project, ["ghostty:a.glsl", "ghostty:b.glsl"]);
+        let Some(Command::Bench(args)) = parse("eddy bench a.glsl").command else { panic!() };
+        assert_eq!(args.project, ["a.glsl"]);
+        assert!(Cli::try_parse_from(["eddy", "--as", "kitty", "a.glsl"]).is_err());
+    }
+}

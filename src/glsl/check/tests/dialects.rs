@@ -1,0 +1,135 @@
+//! Texts for other programs: what they may say beyond GLSL ES 3.00, and what they may not name.
+
+use crate::{Dialect, PassKind, PassSource, Text, compile, diagnose};
+use eddy_diag::SourceId;
+
+fn source(dialect: Dialect, text: &str) -> PassSource<'_> {
+    PassSource { dialect, ..PassSource::new(PassKind::Image, Text { id: SourceId(0), text }) }
+}
+
+fn errors(dialect: Dialect, text: &str) -> Vec<String> {
+    let said = diagnose(&source(dialect, text));
+    said.into_iter().filter(|d| d.is_error()).map(|d| d.message).collect()
+}
+
+fn body(statements: &str) -> String {
+    format!("float half_of(float x) {{ return x / 2; }}\nvoid mainImage(out vec4 c, in vec2 p) {{ {statements} }}\n")
+}
+
+/// Statements that GLSL 4.30 takes (sections 4.1.10, 5.4 and 6.1) and GLSL ES 3.00 does not.
+const CONVERTED: [&str; 13] = [
+    "float x = 1; c = vec4(x);",
+    "c = vec4(2 * p, p + 1);",
+    "c = vec4(0); c *= 2; c.x += 1;",
+    "float x = p.x > 1 ? 1 : 0.5; c = vec4(x);",
+    "c = vec4(half_of(3));",
+    "c = vec4(max(p.x, 0), mod(p.y, 2), mix(0, 1.0, p.x), pow(2, p.x));",
+    "c = clamp(vec4(p, p), 0, 1);",
+    "uint n = 3; n += 2; c = vec4(n);",
+    "uint n = 3u; float x = n; c = vec4(x) * n;",
+    "ivec2 i = ivec2(p); vec2 v = i; c = vec4(v, i * 0.5);",
+    "bool is = p.x == 1; c = vec4(is);",
+    "float a[2] = float[2](1, 2); c = vec4(a[0], a[1], 0, 1);",
+    "c = vec4(p, 0, 1); for (float i = 0; i < 3; i++) c.z += i;",
+];
+
+#[test]
+fn numbers_convert_where_the_language_says_so() {
+    for statements in CONVERTED {
+        let text = body(statements);
+        assert!(!errors(Dialect::Shadertoy, &text).is_empty(), "{statements}");
+        for dialect in [Dialect::Ghostty, Dialect::Isf] {
+            assert_eq!(errors(dialect, &text), [""; 0], "{statements}");
+            compile(&source(dialect, &text)).unwrap_or_else(|found| panic!("{statements}: {found:?}"));
+        }
+    }
+}
+
+#[test]
+fn nothing_converts_to_less() {
+    for statements in [
+        "int i = 1.0; c = vec4(i);",
+        "int i = 2u; c = vec4(i);",
+        "bool b = 1; c = vec4(b);",
+        "vec2 v = 1; c = vec4(v, v);",
+        "int i = 1; i *= 0.5; c = vec4(i);",
+        "float x = true; c = vec4(x);",
+    ] {
+        assert!(!errors(Dialect::Ghostty, &body(statements)).is_empty(), "{statements}");
+    }
+    // What a function gives back must fit as it is.
+    let text = "void f(inout float x) { x = 1; }\nvoid mainImage(out vec4 c, in vec2 p) { int i; f(i); c = vec4(i); }";
+    assert!(!errors(Dialect::Ghostty, text).is_empty());
+}
+
+#[test]
+fn the_overload_with_the_fewest_conversions_is_called() {
+    let text = "int f(int a, int b) { return 1; }\nfloat f(float a, float b) { return 2; }\n\
+                void mainImage(out vec4 c, in vec2 p) { int exact = f(1, 2); float other = f(1, 2.0); c = vec4(exact, other, 0, 1); }";
+    assert_eq!(errors(Dialect::Ghostty, text), [""; 0]);
+    let wrong = text.replace("int exact = f(1, 2)", "int exact = f(1, 2.0)");
+    assert_eq!(errors(Dialect::Ghostty, &wrong).len(), 1);
+}
+
+#[test]
+fn lists_in_braces_are_constructors() {
+    for statements in [
+        "float a[3] = {1, 2, 3.5}; c = vec4(a[0], a[1], a[2], 1);",
+        "const vec2 a[] = { {1, 2}, vec2(3.0), {4, 5}, }; c = vec4(a[0], a[2]);",
+        "vec4 v = {p.x, p.y, 0, 1}; c = v;",
+    ] {
+        let text = body(statements);
+        assert_eq!(errors(Dialect::Ghostty, &text), [""; 0], "{statements}");
+        assert!(errors(Dialect::Shadertoy, &text).iter().any(|e| e.contains("lists in braces")), "{statements}");
+    }
+    let text = "struct S { vec2 at; int n; };\nconst S ALL[2] = { {{1, 2}, 3}, {{4, 5}, 6} };\n\
+                void mainImage(out vec4 c, in vec2 p) { c = vec4(0); }";
+    // Lists in lists are those of an array's elements alone.
+    assert!(!errors(Dialect::Ghostty, text).is_empty());
+    for wrong in
+        ["float a[3] = {1, 2}; c = vec4(a[0]);", "float x = {}; c = vec4(x);", "float a[2] = {1, 2; c = vec4(a[0]);"]
+    {
+        assert!(!errors(Dialect::Ghostty, &body(wrong)).is_empty(), "{wrong}");
+    }
+}
+
+#[test]
+fn globals_begin_with_any_value() {
+    let text = "float at = sin(iTime) + iResolution.x;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(at); }";
+    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
+    compile(&source(Dialect::Isf, text)).unwrap();
+    assert_eq!(errors(Dialect::Shadertoy, text).len(), 1);
+}
+
+#[test]
+fn ghostty_gives_one_channel_and_sets_no_uniforms_of_the_author() {
+    let texture = |n: u32| body(&format!("c = texture(iChannel{n}, p / iResolution.xy);"));
+    assert_eq!(errors(Dialect::Ghostty, &texture(0)), [""; 0]);
+    assert_eq!(errors(Dialect::Ghostty, &texture(1)).len(), 1);
+    assert_eq!(errors(Dialect::Shadertoy, &texture(1).replace("/ 2;", "/ 2.0;")), [""; 0]);
+    let own = "uniform float strength;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(strength); }";
+    assert_eq!(errors(Dialect::Ghostty, own).len(), 1);
+    for statements in ["c = vec4(iGlobalTime);", "c = vec4(iCh0.time);", "st_assert(true); c = vec4(0);"] {
+        assert!(!errors(Dialect::Ghostty, &body(statements)).is_empty(), "{statements}");
+    }
+}
+
+#[test]
+fn the_version_is_that_of_the_language() {
+    for (dialect, version) in [(Dialect::Shadertoy, 300), (Dialect::Ghostty, 430), (Dialect::Isf, 120)] {
+        let text = format!(
+            "#if __VERSION__ != {version}\n#error other\n#endif\n{}",
+            body("c = vec4(p, p);").replace("/ 2;", "/ 2.0;")
+        );
+        assert_eq!(errors(dialect, &text), [""; 0], "{version}");
+    }
+}
+
+#[test]
+fn what_both_stages_declare_is_one_variable() {
+    let text = "vec2 left;\nvoid before() { left = vec2(1.0); }\nvec2 left;\n\
+                void mainImage(out vec4 c, in vec2 p) { before(); c = vec4(left, 0.0, 1.0); }";
+    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
+    assert_eq!(errors(Dialect::Ghostty, text).len(), 1);
+    assert_eq!(errors(Dialect::Isf, &text.replacen("vec2 left;", "vec3 left;", 1)).len(), 2);
+}

@@ -1,0 +1,49 @@
+//! Custom shaders of the terminal Ghostty: Shadertoy's `mainImage`, with the terminal's picture in `iChannel0` and uniforms
+//! that tell of its cursor and colours. Source: `src/renderer/shaders/shadertoy_prefix.glsl`, `src/renderer/generic.zig` and the
+//! documentation of `custom-shader` in `src/config/Config.zig` of <https://github.com/ghostty-org/ghostty> (August 2026).
+//!
+//! Owns a stand-in for the terminal, a pure function of time and resolution: what is typed and where the cursor goes
+//! ([`script`]), the picture of it, which is a buffer of the project in GLSL ([`screen`]), and the values of the uniforms
+//! ([`uniforms`]).
+//!
+//! Positions are in pixels. y points up, as Ghostty has it with OpenGL; with Metal, on macOS, it points down there.
+
+mod advice;
+mod font;
+mod prelude;
+mod screen;
+pub mod script;
+mod uniforms;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use advice::word;
+pub use advice::{advice, names_word};
+pub use uniforms::{HostUniform, uniforms, values};
+
+use super::{Channel, Dialect, Filter, Input, Pass, PassId, Project, Sampler, Source, TexelFormat, Wrap};
+
+/// The name of the buffer that draws the stand-in terminal.
+pub const TERMINAL: &str = "terminal";
+
+/// Begins the name of a file that is to be read as a custom shader of Ghostty.
+pub(super) const PREFIX: &str = "ghostty:";
+
+/// Makes a custom shader of the project of one GLSL file: it gets the prelude that Ghostty puts before it as Common, and the
+/// stand-in terminal as the buffer that it reads.
+pub(super) fn dress(project: &mut Project) {
+    let generated = |name: &str, text: String| Source { name: name.into(), path: None, text: text.into() };
+    let terminal = PassId::Buffer(TERMINAL.into());
+    let mut pass = Pass::new(terminal.clone(), generated("terminal", screen::text()));
+    pass.settings.format = TexelFormat::Rgba8;
+    project.passes.retain(|pass| pass.id == PassId::Image);
+    for image in &mut project.passes {
+        let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
+        let channel = Channel { input: Input::pass(terminal.clone()), sampler };
+        image.channels = [Some(channel), None, None, None];
+    }
+    project.passes.insert(0, pass);
+    project.common = Some(generated("Ghostty", prelude::text()));
+    project.dialect = Dialect::Ghostty;
+}

@@ -1,0 +1,98 @@
+//! The uniforms that Ghostty adds to Shadertoy's, and their values. `iPalette` is not here: it is an array, which never
+//! changes, and a constant of the prelude.
+
+use super::{
+    prelude,
+    script::{self, CREAM, Cursor, Grid, Moment},
+};
+use crate::CustomUniformType as Type;
+
+/// A uniform that the program which the texts are written for sets.
+pub struct HostUniform {
+    pub name: &'static str,
+    pub ty: Type,
+    /// Completes "it is ..." for the editor.
+    pub about: &'static str,
+    value: fn(&Moment, u32) -> [f32; 4],
+}
+
+fn row(name: &'static str, ty: Type, about: &'static str, value: fn(&Moment, u32) -> [f32; 4]) -> HostUniform {
+    HostUniform { name, ty, about, value }
+}
+
+fn one(value: f32) -> [f32; 4] {
+    [value, 0.0, 0.0, 0.0]
+}
+
+fn rgb([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [r, g, b, 0.0]
+}
+
+fn rectangle(cursor: &Cursor, height: u32) -> [f32; 4] {
+    Grid::of(height).rectangle(cursor, height)
+}
+
+/// Ghostty's colours of a cursor have an alpha.
+fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [r, g, b, 1.0]
+}
+
+/// All of them, in the order of Ghostty's prefix.
+static ROWS: std::sync::LazyLock<[HostUniform; 16]> = std::sync::LazyLock::new(|| {
+    [
+        row(
+            "iCurrentCursor",
+            Type::Vec4,
+            "the left and the upper edge of the cursor, its width and its height",
+            |m, h| rectangle(&m.cursor, h),
+        ),
+        row("iPreviousCursor", Type::Vec4, "the same of the cursor before it changed", |m, h| {
+            m.previous.map_or([0.0; 4], |cursor| rectangle(&cursor, h))
+        }),
+        row("iCurrentCursorColor", Type::Vec4, "the colour of the cursor", |m, _| opaque(m.cursor.color)),
+        row("iPreviousCursorColor", Type::Vec4, "the colour of the cursor before it changed", |m, _| {
+            m.previous.map_or([0.0; 4], |cursor| opaque(cursor.color))
+        }),
+        row("iCurrentCursorStyle", Type::Int, "the shape of the cursor, one of CURSORSTYLE_..", |m, _| {
+            one(f32::from(m.cursor.style as u8))
+        }),
+        row("iPreviousCursorStyle", Type::Int, "the shape of the cursor before it changed", |m, _| {
+            one(m.previous.map_or(0.0, |cursor| f32::from(cursor.style as u8)))
+        }),
+        row("iCursorVisible", Type::Int, "1 where the cursor is shown, else 0", |m, _| {
+            one(f32::from(u8::from(m.cursor.is_visible)))
+        }),
+        row(
+            "iTimeCursorChange",
+            Type::Float,
+            "iTime at which the cursor last changed",
+            |m, _| one(m.changed_at as f32),
+        ),
+        row("iTimeFocus", Type::Float, "iTime at which the terminal last got the focus", |m, _| {
+            one(m.focused_at as f32)
+        }),
+        row("iFocus", Type::Int, "1 where the terminal has the focus, else 0", |m, _| {
+            one(f32::from(u8::from(m.is_focused)))
+        }),
+        row("iBackgroundColor", Type::Vec3, "the background colour of the terminal", |_, _| rgb(prelude::BACKGROUND)),
+        row("iForegroundColor", Type::Vec3, "the colour of text", |_, _| rgb(prelude::FOREGROUND)),
+        row("iCursorColor", Type::Vec3, "the colour of the cursor as configured", |_, _| rgb(CREAM)),
+        row("iCursorText", Type::Vec3, "the colour of text under the cursor", |_, _| rgb(prelude::BACKGROUND)),
+        row("iSelectionForegroundColor", Type::Vec3, "the colour of selected text", |_, _| rgb(prelude::BACKGROUND)),
+        row("iSelectionBackgroundColor", Type::Vec3, "the colour behind selected text", |_, _| {
+            rgb(prelude::FOREGROUND)
+        }),
+    ]
+});
+
+/// Returns the uniforms, in the order of [`values`].
+pub fn uniforms() -> &'static [HostUniform] {
+    &*ROWS
+}
+
+/// Returns the values at `secs` on a canvas of this height; the components that a type does not have are 0, and an `int` is
+/// a whole number.
+pub fn values(secs: f64, height: u32) -> Vec<[f32; 4]> {
+    let moment = script::at(secs);
+    ROWS.iter().map(|row| (row.value)(&moment, height)).collect()
+}

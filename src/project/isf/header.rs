@@ -1,0 +1,226 @@
+//! The JSON object of an ISF file.
+
+use crate::limits;
+use eddy_diag::{Diagnostic, SourceId, Span};
+use serde_json::{Map, Value};
+
+/// The description that an ISF file gives of itself.
+#[derive(Debug, Default)]
+pub(super) struct Header {
+    pub description: String,
+    pub credit: String,
+    pub categories: Vec<String>,
+    pub inputs: Vec<IsfInput>,
+    pub passes: Vec<IsfPass>,
+    pub imported: Vec<Imported>,
+}
+
+#[derive(Debug)]
+pub(super) struct IsfInput {
+    pub name: String,
+    pub label: String,
+    pub kind: Kind,
+    /// One number for each component; none where the file gives none.
+    pub default: Vec<f64>,
+    pub min: Vec<f64>,
+    pub max: Vec<f64>,
+    /// The numbers that a `long` may be, as the file lists them.
+    pub values: Vec<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Event,
+    Bool,
+    Long,
+    Float,
+    Point2D,
+    Color,
+    Image,
+    Audio,
+    AudioFft,
+}
+
+impl Kind {
+    pub const ALL: [(&str, Kind); 9] = [
+        ("event", Kind::Event),
+        ("bool", Kind::Bool),
+        ("long", Kind::Long),
+        ("float", Kind::Float),
+        ("point2D", Kind::Point2D),
+        ("color", Kind::Color),
+        ("image", Kind::Image),
+        ("audio", Kind::Audio),
+        ("audioFFT", Kind::AudioFft),
+    ];
+
+    /// It is a picture, and no uniform.
+    pub fn is_image(self) -> bool {
+        matches!(self, Kind::Image | Kind::Audio | Kind::AudioFft)
+    }
+}
+
+#[derive(Debug, Default)]
+pub(super) struct IsfPass {
+    /// The buffer that it draws; empty for one that draws the picture.
+    pub target: String,
+    pub is_float: bool,
+    pub width: Option<String>,
+    pub height: Option<String>,
+}
+
+#[derive(Debug)]
+pub(super) struct Imported {
+    pub name: String,
+    pub path: String,
+}
+
+/// Reads the header, of which byte 0 is at `start` of a text. Err: what is wrong, each with its place.
+pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header, Vec<Diagnostic>> {
+    let whole = Span::new(id, start..start + json.len());
+    if json.len() as u64 > limits::ISF_HEADER.bytes {
+        let message = format!("the header is larger than {}, the limit", limits::in_bytes(limits::ISF_HEADER.bytes));
+        return Err(vec![Diagnostic::error(whole, message)]);
+    }
+    let object: Map<String, Value> = serde_json::from_str(json).map_err(|error| {
+        let before: usize = json.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+        let at = (before + error.column().saturating_sub(1)).min(json.len());
+        let at = (0..=at).rev().find(|&at| json.is_char_boundary(at)).unwrap_or(0);
+        let why = error.to_string();
+        let why = why.split(" at line").next().unwrap_or_default();
+        let message = format!("the JSON object of the ISF file cannot be read: {why}");
+        vec![Diagnostic::error(Span::new(id, start + at..start + at), message).hint("fix the JSON at this place")]
+    })?;
+    let mut reader = Reader { json, id, start, found: Vec::new() };
+    let header = reader.header(&object);
+    for (count, most, of) in [
+        (header.passes.len(), limits::PASSES, "passes"),
+        (header.inputs.len(), limits::UNIFORMS, "inputs"),
+        (header.imported.len(), limits::PASSES, "imported images"),
+    ] {
+        if count > most {
+            let message = format!("the ISF file has {count} {of}: at most {most} are read");
+            reader.found.push(Diagnostic::error(whole, message).hint("remove some of them"));
+        }
+    }
+    if reader.found.iter().any(Diagnostic::is_error) { Err(reader.found) } else { Ok(header) }
+}
+
+struct Reader<'t> {
+    json: &'t str,
+    id: SourceId,
+    start: usize,
+    found: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn header(&mut self, object: &Map<String, Value>) -> Header {
+        let list = |key: &str| object.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
+        Header {
+            description: text(object.get("DESCRIPTION")),
+            credit: text(object.get("CREDIT")),
+            categories: list("CATEGORIES").iter().filter_map(Value::as_str).map(str::to_owned).collect(),
+            inputs: list("INPUTS").iter().filter_map(|input| self.input(input.as_object()?)).collect(),
+            passes: list("PASSES").iter().filter_map(Value::as_object).map(pass).collect(),
+            imported: self.imported(object.get("IMPORTED")),
+        }
+    }
+
+    fn error(&mut self, at: &str, message: String, hint: impl Into<String>) {
+        let place = self.json.find(&format!("\"{at}\"")).map_or(0..0, |i| i..i + at.len() + 2);
+        let span = Span::new(self.id, self.start + place.start..self.start + place.end);
+        self.found.push(Diagnostic::error(span, message).hint(hint));
+    }
+
+    fn input(&mut self, input: &Map<String, Value>) -> Option<IsfInput> {
+        let (name, kind) = (text(input.get("NAME")), text(input.get("TYPE")));
+        if !is_name(&name) {
+            self.error(&name, format!("\"{name}\" is not a name of an input"), "use letters, digits and _");
+            return None;
+        }
+        let Some((_, kind)) = Kind::ALL.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(&kind)) else {
+            let known = Kind::ALL.map(|(known, _)| known).join(", ");
+            self.error(
+                &kind,
+                format!("the input \"{name}\" has the unknown type \"{kind}\""),
+                format!("use one of {known}"),
+            );
+            return None;
+        };
+        let numbers = |key: &str| input.get(key).map(numbers).unwrap_or_default();
+        let label = text(input.get("LABEL"));
+        Some(IsfInput {
+            label: if label.is_empty() { String::new() } else { label.replace(['\n', '\r'], " ") },
+            kind,
+            default: numbers("DEFAULT"),
+            min: numbers("MIN"),
+            max: numbers("MAX"),
+            values: numbers("VALUES"),
+            name,
+        })
+    }
+
+    /// Version 2 has an object of name to file, some converters write a list of objects with names.
+    fn imported(&mut self, value: Option<&Value>) -> Vec<Imported> {
+        let mut all = Vec::new();
+        let mut add = |reader: &mut Self, name: String, file: &Value| {
+            let path = file.get("PATH").unwrap_or(&Value::Null);
+            if !is_name(&name) {
+                reader.error(&name, format!("\"{name}\" is not a name of an image"), "use letters, digits and _");
+            } else if let Some(path) = path.as_str() {
+                all.push(Imported { name, path: path.to_owned() });
+            } else {
+                let message = format!("the imported image \"{name}\" is a cubemap, which ISF does not have");
+                reader.error(&name, message, "give one PATH, of an image file");
+            }
+        };
+        match value {
+            Some(Value::Object(files)) => files.iter().for_each(|(name, file)| add(self, name.clone(), file)),
+            Some(Value::Array(files)) => files.iter().for_each(|file| add(self, text(file.get("NAME")), file)),
+            _ => {}
+        }
+        all
+    }
+}
+
+/// Returns whether a name is an identifier of GLSL.
+pub(super) fn is_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+        && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+fn pass(pass: &Map<String, Value>) -> IsfPass {
+    let is_set = |key: &str| match pass.get(key) {
+        Some(Value::Bool(on)) => *on,
+        Some(Value::Number(n)) => n.as_f64().is_some_and(|n| n > 0.0),
+        Some(Value::String(text)) => text.eq_ignore_ascii_case("true") || text.parse::<f64>().is_ok_and(|n| n > 0.0),
+        _ => false,
+    };
+    let size = |key: &str| match pass.get(key) {
+        Some(Value::String(text)) if !text.trim().is_empty() => Some(text.clone()),
+        Some(Value::Number(n)) => Some(n.to_string()),
+        _ => None,
+    };
+    IsfPass {
+        target: text(pass.get("TARGET")),
+        is_float: is_set("FLOAT"),
+        width: size("WIDTH"),
+        height: size("HEIGHT"),
+    }
+}
+
+fn text(value: Option<&Value>) -> String {
+    value.and_then(Value::as_str).unwrap_or_default().trim().to_owned()
+}
+
+/// Returns the numbers of a value: one, or a list; `true` is 1.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Bool(on) => vec![f64::from(u8::from(*on))],
+        Value::Number(n) => n.as_f64().into_iter().collect(),
+        Value::String(text) => text.trim().parse().into_iter().collect(),
+        Value::Array(all) => all.iter().flat_map(|one| numbers(one)).collect(),
+        Value::Null | Value::Object(_) => Vec::new(),
+    }
+}

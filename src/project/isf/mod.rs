@@ -1,0 +1,33 @@
+//! Interactive Shader Format, version 2: a fragment shader with a JSON object in its first comment, which describes inputs and
+//! passes. Source: <https://github.com/mrRay/ISF_Spec>.
+//!
+//! A file becomes a project whose passes include it: nothing of its text is changed, and an edit of the included file is an edit
+//! of the ISF file. Owns the header ([`header`]), the sizes of passes ([`size`]), the texts around the file ([`texts`]) and the
+//! project ([`read`]). The way back is in the package `translate`.
+
+mod header;
+mod read;
+mod size;
+mod texts;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use read::{load, save};
+
+use super::lines::trim_start;
+
+/// Returns the JSON of an ISF file and where it begins, if the text begins with a comment that holds one, and has an entry point
+/// of a whole fragment shader.
+pub(super) fn json_of(text: &str) -> Option<(usize, &str)> {
+    let start = trim_start(text.trim_start_matches('\u{feff}'));
+    let comment = start.strip_prefix("/*")?;
+    let end = comment.find("*/")?;
+    let json = &comment[..end];
+    let keys =
+        ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\"", "\"DESCRIPTION\"", "\"CREDIT\""];
+    let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
+    let is_whole = super::ghostty::word(text, "main").is_some() && super::ghostty::word(text, "mainImage").is_none()
+        || super::ghostty::word(text, "gl_FragColor").is_some();
+    (is_isf && is_whole).then(|| (text.len() - comment.len(), json))
+}

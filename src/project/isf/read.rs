@@ -1,0 +1,263 @@
+//! An ISF file becomes a project, and is written again.
+
+use super::{
+    header::{self, Header, Kind},
+    json_of,
+    size::size,
+    texts,
+};
+use crate::{
+    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassId, PassSize,
+    Project, ProjectError, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
+    writes::Writes,
+};
+use eddy_diag::{Diagnostic, SourceMap, Span};
+use std::{collections::BTreeSet, path::Path};
+
+/// Channels of a pass.
+const CHANNELS: usize = 4;
+/// Textures that stand in for images that the person does not choose, one after the other.
+const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
+
+/// Returns the project of a text of a file, if that is an ISF file. Err: what is wrong with its header.
+pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -> Option<Result<Loaded, ProjectError>> {
+    let (start, json) = json_of(text)?;
+    let mut sources = SourceMap::default();
+    let id = sources.add(name, text);
+    let refuse =
+        |diagnostics, sources| Err(ProjectError::Invalid { what: path.display().to_string(), diagnostics, sources });
+    let header = match header::parse(json, (id, start)) {
+        Ok(header) => header,
+        Err(found) => return Some(refuse(found, sources)),
+    };
+    let mut maker = Maker { header, name, text, at: Span::new(id, start..start + json.len()), found: Vec::new() };
+    let vertex = path.with_extension("vs").file_name().map(|n| n.to_string_lossy().into_owned());
+    let vertex = vertex.filter(|vertex| files.exists(vertex));
+    let mut project = maker.project(path, vertex.as_deref());
+    if maker.found.iter().any(Diagnostic::is_error) {
+        return Some(refuse(maker.found, sources));
+    }
+    includes::read(&mut project, Some(files));
+    let mut all = project.sources();
+    let moved = all.add(name, text);
+    for span in maker.found.iter_mut().filter_map(|d| d.span.as_mut()) {
+        span.source = moved;
+    }
+    Some(Ok(Loaded { project, warnings: maker.found, sources: all }))
+}
+
+struct Maker<'t> {
+    header: Header,
+    name: &'t str,
+    text: &'t str,
+    /// The header.
+    at: Span,
+    found: Vec<Diagnostic>,
+}
+
+impl Maker<'_> {
+    fn error(&mut self, message: String, hint: &str) {
+        self.found.push(Diagnostic::error(self.at, message).hint(hint));
+    }
+
+    fn project(&mut self, path: &Path, vertex: Option<&str>) -> Project {
+        let targets = self.targets();
+        let images = self.images(&targets, vertex);
+        let mut passes: Vec<Pass> = self.audio_passes(&images);
+        let count = self.header.passes.len().max(1);
+        for index in 0..count {
+            let isf = self.header.passes.get(index);
+            let target = isf.map(|pass| pass.target.clone()).filter(|target| !target.is_empty());
+            let is_float = isf.is_some_and(|pass| pass.is_float);
+            let is_last = index + 1 == count;
+            if target.is_none() && !is_last {
+                self.found.push(
+                    Diagnostic::warning(
+                        self.at,
+                        format!("pass {index} has no TARGET and is not the last: nothing shows it"),
+                    )
+                    .hint("remove it, or give it a TARGET"),
+                );
+                continue;
+            }
+            let id = target.as_ref().map_or(PassId::Image, |target| PassId::Buffer(buffer_name(target)));
+            let mut pass = Pass::new(id.clone(), generated(&id, texts::pass(index, &images, self.name, vertex)));
+            if target.is_some() {
+                pass.settings.format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
+                pass.settings.size = self.size_of(index);
+            }
+            for (slot, name) in pass.channels.iter_mut().zip(&images) {
+                *slot = Some(self.channel(name, &targets));
+            }
+            passes.push(pass);
+            if is_last && let Some(target) = target {
+                let mut image = Pass::new(PassId::Image, generated(&PassId::Image, texts::SHOW.to_owned()));
+                image.channels[0] = Some(linear(Input::buffer(buffer_name(&target))));
+                passes.push(image);
+            }
+        }
+        let origin = Origin::File(path.to_owned());
+        let mut project = Project::new(path.file_stem().unwrap_or_default().to_string_lossy(), passes, origin);
+        project.dialect = Dialect::Isf;
+        project.common = Some(Source { name: "ISF".into(), path: None, text: texts::common(&self.header).into() });
+        project.info = Info {
+            description: self.header.description.clone(),
+            author: self.header.credit.clone(),
+            tags: self.header.categories.clone(),
+            ..Info::default()
+        };
+        project
+    }
+
+    /// The buffers that passes draw, each once.
+    fn targets(&mut self) -> Vec<String> {
+        let mut targets: Vec<String> = Vec::new();
+        let mut wrong = Vec::new();
+        for pass in self.header.passes.iter().filter(|pass| !pass.target.is_empty()) {
+            if !header::is_name(&pass.target) {
+                wrong.push((format!("\"{}\" is not a name of a buffer", pass.target), "use letters, digits and _"));
+            } else if targets.iter().any(|known| buffer_name(known) == buffer_name(&pass.target)) {
+                let message =
+                    format!("two passes draw the buffer \"{}\": Eddy draws a buffer by one pass", pass.target);
+                wrong.push((message, "give each pass a TARGET of its own"));
+            } else {
+                targets.push(pass.target.clone());
+            }
+        }
+        wrong.into_iter().for_each(|(message, hint)| self.error(message, hint));
+        targets
+    }
+
+    /// The names of the images that the text reads, in the order of their channels.
+    fn images(&mut self, targets: &[String], vertex: Option<&str>) -> Vec<String> {
+        let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
+        let imported = self.header.imported.iter().map(|image| &image.name);
+        let all: Vec<&String> = inputs.chain(imported).chain(targets).collect();
+        let is_read = |name: &String| vertex.is_some() || crate::ghostty::word(self.text, name).is_some();
+        let mut read: Vec<String> = Vec::new();
+        for name in all.into_iter().filter(|name| is_read(name)) {
+            if !read.contains(name) {
+                read.push(name.clone());
+            }
+        }
+        if read.len() > CHANNELS {
+            let message = format!(
+                "the shader reads {} images, and a pass of Eddy has {CHANNELS} channels: {}",
+                read.len(),
+                read.join(", ")
+            );
+            self.error(message, "read at most four images, buffers among them");
+        }
+        // An image may be called as a channel is, and is then that one.
+        for n in 0..read.len().min(CHANNELS) {
+            let own = read.iter().position(|name| *name == format!("iChannel{n}"));
+            if let Some(own) = own {
+                read.swap(n, own);
+            }
+        }
+        read.truncate(CHANNELS);
+        read
+    }
+
+    fn channel(&self, name: &str, targets: &[String]) -> Channel {
+        if targets.iter().any(|target| target == name) {
+            return linear(Input::buffer(buffer_name(name)));
+        }
+        if let Some(image) = self.header.imported.iter().find(|image| image.name == name) {
+            let file = confine::relative("", &image.path).unwrap_or_else(|_| image.path.clone());
+            return linear(Input::texture(Media::File(file.into())));
+        }
+        let images = self.header.inputs.iter().filter(|input| input.kind == Kind::Image);
+        let place = images.clone().position(|input| input.name == name);
+        match place {
+            Some(place) => linear(Input::texture(Media::Builtin(STAND_INS[place % STAND_INS.len()].to_owned()))),
+            None => linear(Input::buffer(buffer_name(name))),
+        }
+    }
+
+    /// The buffers that make images of sounds.
+    fn audio_passes(&self, images: &[String]) -> Vec<Pass> {
+        let inputs = self.header.inputs.iter().filter(|input| matches!(input.kind, Kind::Audio | Kind::AudioFft));
+        let read = inputs.filter(|input| images.contains(&input.name));
+        let pass = |input: &header::IsfInput| {
+            let id = PassId::Buffer(buffer_name(&input.name));
+            let mut pass = Pass::new(id.clone(), generated(&id, texts::audio(input.kind)));
+            let samples = input.max.first().filter(|max| (1.0..=4096.0).contains(*max)).map_or(512, |max| *max as u32);
+            pass.settings.size = PassSize::Fixed(samples, 1);
+            pass.channels[0] = Some(Channel::new(Input::Device(InputKind::Microphone)));
+            pass
+        };
+        read.map(pass).collect()
+    }
+
+    fn size_of(&mut self, index: usize) -> PassSize {
+        let pass = &self.header.passes[index];
+        let inputs = &self.header.inputs;
+        let input = |name: &str| {
+            let input = inputs.iter().find(|input| input.name == name && !input.kind.is_image())?;
+            Some(input.default.first().or(input.min.first()).copied().unwrap_or(0.0))
+        };
+        let expressions = [&pass.width, &pass.height].map(|side| side.clone());
+        let is_moved = inputs
+            .iter()
+            .any(|input| expressions.iter().flatten().any(|text| text.contains(&format!("${}", input.name))));
+        match size((expressions[0].as_deref(), expressions[1].as_deref()), &input) {
+            Ok((size, said)) => {
+                if let Some(said) = said {
+                    self.found.push(Diagnostic::warning(self.at, format!("the size of pass {index}: {said}")));
+                }
+                if is_moved {
+                    let message =
+                        format!("the size of pass {index} depends on an input: it stays as its default makes it");
+                    self.found.push(Diagnostic::warning(self.at, message));
+                }
+                size
+            }
+            Err(why) => {
+                let hint = "give a fixed width and height, or the same part of $WIDTH and $HEIGHT";
+                self.error(format!("the size of pass {index} cannot be had: {why}"), hint);
+                PassSize::Canvas
+            }
+        }
+    }
+}
+
+fn generated(id: &PassId, text: String) -> Source {
+    Source { name: id.title(), path: None, text: text.into() }
+}
+
+/// Returns what the buffer of a target is called: names of buffers have letters and digits alone.
+fn buffer_name(target: &str) -> String {
+    match PassId::buffer_named(&format!("buffer_{target}")) {
+        Some(PassId::Buffer(name)) => name,
+        _ => "isf".to_owned(),
+    }
+}
+
+fn linear(input: Input) -> Channel {
+    Channel { input, sampler: Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true } }
+}
+
+/// Writes what was edited of an ISF file, and of the files that it includes; the texts around it are Eddy's.
+pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
+    let fresh = load_again(target)?;
+    let is_same = |a: &Pass, b: &Pass| a.id == b.id && a.source.text == b.source.text && a.settings == b.settings;
+    let passes = project.passes.len() == fresh.passes.len()
+        && project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b) && a.channels == b.channels);
+    if !passes || project.custom_uniform_values != fresh.custom_uniform_values || !project.controls.is_empty() {
+        let what = "more than the text of an ISF file, such as values of sliders or further passes".into();
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
+    let edited: Vec<_> = project.includes.iter().filter(|included| included.is_edited).collect();
+    let owned: BTreeSet<String> = edited.iter().map(|included| included.source.name.clone()).collect();
+    let mut writes = Writes::into(target.parent().unwrap_or(Path::new("")), owned);
+    for included in edited {
+        writes.add(&included.source.name, Content::Bytes(included.source.text.as_bytes().to_vec()))?;
+    }
+    writes.write(overwrite)?;
+    load_again(target)
+}
+
+fn load_again(path: &Path) -> Result<Project, ProjectError> {
+    Ok(crate::load(&path.display().to_string())?.project)
+}

@@ -1,0 +1,199 @@
+//! Widths and heights of passes: expressions of `$WIDTH`, `$HEIGHT` and inputs.
+
+use crate::{PassSize, limits};
+
+/// Returns the value of an expression with + - * / %, parentheses, the functions floor, ceil, round, abs, sqrt, min, max, pow and
+/// mod, and `$NAME` for what `value` knows. Err: what cannot be understood.
+pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Result<f64, String> {
+    let mut reader = Reader { rest: text.trim(), value, depth: 0 };
+    let result = reader.sum()?;
+    match reader.rest.trim_start() {
+        "" => Ok(result),
+        rest => Err(format!("\"{rest}\" is not understood")),
+    }
+}
+
+struct Reader<'t> {
+    rest: &'t str,
+    value: &'t dyn Fn(&str) -> Option<f64>,
+    depth: u32,
+}
+
+impl<'t> Reader<'t> {
+    fn eat(&mut self, sign: char) -> bool {
+        self.rest = self.rest.trim_start();
+        let rest = self.rest.strip_prefix(sign);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
+    fn take(&mut self, is_part: impl Fn(char) -> bool) -> &'t str {
+        let end = self.rest.find(|c| !is_part(c)).unwrap_or(self.rest.len());
+        let (part, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        part
+    }
+
+    fn sum(&mut self) -> Result<f64, String> {
+        let mut left = self.product()?;
+        loop {
+            if self.eat('+') {
+                left += self.product()?;
+            } else if self.eat('-') {
+                left -= self.product()?;
+            } else {
+                return Ok(left);
+            }
+        }
+    }
+
+    fn product(&mut self) -> Result<f64, String> {
+        let mut left = self.factor()?;
+        loop {
+            if self.eat('*') {
+                left *= self.factor()?;
+            } else if self.eat('/') {
+                left /= self.factor()?;
+            } else if self.eat('%') {
+                left %= self.factor()?;
+            } else {
+                return Ok(left);
+            }
+        }
+    }
+
+    fn factor(&mut self) -> Result<f64, String> {
+        self.depth += 1;
+        if self.depth > limits::ISF_DEPTH {
+            return Err("it nests too deep".to_owned());
+        }
+        let result = self.operand();
+        self.depth -= 1;
+        result
+    }
+
+    fn operand(&mut self) -> Result<f64, String> {
+        if self.eat('-') {
+            return Ok(-self.factor()?);
+        }
+        if self.eat('(') {
+            let inner = self.sum()?;
+            return if self.eat(')') { Ok(inner) } else { Err("a `)` is missing".to_owned()) };
+        }
+        if self.eat('$') {
+            let name = self.take(|c| c.is_ascii_alphanumeric() || c == '_');
+            return (self.value)(name).ok_or_else(|| format!("there is no number ${name}"));
+        }
+        if self.rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+            let number = self.take(|c| c.is_ascii_digit() || c == '.');
+            return number.parse().map_err(|_| format!("\"{number}\" is not a number"));
+        }
+        let name = self.take(|c| c.is_ascii_alphanumeric() || c == '_');
+        if name.is_empty() || !self.eat('(') {
+            return Err(if name.is_empty() {
+                "a number is missing".to_owned()
+            } else {
+                format!("\"{name}\" is not understood")
+            });
+        }
+        let first = self.sum()?;
+        let second = if self.eat(',') { Some(self.sum()?) } else { None };
+        if !self.eat(')') {
+            return Err("a `)` is missing".to_owned());
+        }
+        Ok(match (name, second) {
+            ("floor", None) => first.floor(),
+            ("ceil", None) => first.ceil(),
+            ("round", None) => first.round(),
+            ("abs", None) => first.abs(),
+            ("sqrt", None) => first.sqrt(),
+            ("min", Some(second)) => first.min(second),
+            ("max", Some(second)) => first.max(second),
+            ("pow", Some(second)) => first.powf(second),
+            ("mod", Some(second)) => first.rem_euclid(second),
+            _ => return Err(format!("there is no function {name} of so many numbers")),
+        })
+    }
+}
+
+/// Returns the size of a pass by its expressions, where `None` stands for the canvas's own, and what to say of it. Err: the
+/// canvas determines it in a way that Eddy does not have.
+pub(super) fn size(
+    (width, height): (Option<&str>, Option<&str>),
+    input: &dyn Fn(&str) -> Option<f64>,
+) -> Result<(PassSize, Option<String>), String> {
+    let at = |canvas: (f64, f64)| -> Result<(f64, f64), String> {
+        let value = |name: &str| match name {
+            "WIDTH" => Some(canvas.0),
+            "HEIGHT" => Some(canvas.1),
+            name => input(name),
+        };
+        let side = |text: Option<&str>, own: f64| text.map_or(Ok(own), |text| evaluate(text, &value));
+        let (w, h) = (side(width, canvas.0)?, side(height, canvas.1)?);
+        let in_range = |side: f64| (side >= 0.0 && side < 1e9).then_some(side.max(1.0));
+        let none = || format!("it is {w} by {h} for a canvas of {} by {}", canvas.0, canvas.1);
+        Ok((in_range(w).ok_or_else(none)?, in_range(h).ok_or_else(none)?))
+    };
+    const CANVASES: [(f64, f64); 4] = [(1920.0, 1080.0), (3000.0, 4000.0), (16384.0, 8192.0), (7777.0, 16384.0)];
+    let sizes = CANVASES.iter().map(|canvas| at(*canvas)).collect::<Result<Vec<_>, _>>()?;
+    let first = sizes[0];
+    if sizes.iter().all(|size| *size == first) {
+        return Ok((PassSize::Fixed(first.0 as u32, first.1 as u32), None));
+    }
+    let (x, y) = (sizes[2].0 / CANVASES[2].0, sizes[2].1 / CANVASES[2].1);
+    let is_scaled = |(size, canvas): (&(f64, f64), &(f64, f64))| {
+        (size.0 - canvas.0 * x).abs() <= 2.0 && (size.1 - canvas.1 * y).abs() <= 2.0
+    };
+    if !sizes.iter().zip(&CANVASES).all(is_scaled) {
+        return Err("it is neither fixed nor a part of the canvas in both directions".to_owned());
+    }
+    // What is rounded down differs in the last digits.
+    let (x, y) = (tidy(x), tidy(y));
+    let by = x.max(y);
+    let said =
+        (x != y).then(|| format!("Eddy scales both sides alike, by {by:.3}: the file asks for {x:.3} by {y:.3}"));
+    Ok((if by == 1.0 { PassSize::Canvas } else { PassSize::Scale(by) }, said))
+}
+
+/// Returns the fraction of small whole numbers that a factor most likely is, else the factor.
+fn tidy(factor: f64) -> f64 {
+    let near = (1..=512).map(f64::from).map(|n| (factor * n).round() / n).find(|part| (part - factor).abs() < 1e-4);
+    near.filter(|part| *part > 0.0).unwrap_or(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> Result<f64, String> {
+        evaluate(text, &|name| match name {
+            "WIDTH" => Some(640.0),
+            "amount" => Some(0.5),
+            _ => None,
+        })
+    }
+
+    #[test]
+    fn expressions_have_the_usual_rules() {
+        assert_eq!(value("floor($WIDTH / 3.0) + 2 * -1"), Ok(211.0));
+        assert_eq!(value("max(8.0, floor($WIDTH*$amount))"), Ok(320.0));
+        assert_eq!(value("2 * (3 - 1) % 3"), Ok(1.0));
+        for wrong in ["", "1 +", "$height", "floor(1, 2)", "sin(1)", "(1", "1 2"] {
+            assert!(value(wrong).is_err(), "{wrong}");
+        }
+        assert!(value(&"(".repeat(10_000)).is_err());
+    }
+
+    #[test]
+    fn sizes_are_fixed_or_parts_of_the_canvas() {
+        let of = |w, h| size((w, h), &|name| (name == "quality").then_some(0.25));
+        assert_eq!(of(None, None), Ok((PassSize::Canvas, None)));
+        assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok((PassSize::Scale(1.0 / 3.0), None)));
+        assert_eq!(of(Some("max($WIDTH*$quality,1.0)"), Some("$HEIGHT*$quality")), Ok((PassSize::Scale(0.25), None)));
+        assert_eq!(of(Some("2"), Some("1.0")), Ok((PassSize::Fixed(2, 1), None)));
+        let (scaled, said) = of(Some("$WIDTH/4.0"), Some("$HEIGHT/2.0")).unwrap();
+        assert!(scaled == PassSize::Scale(0.5) && said.is_some());
+        assert!(of(Some("$WIDTH"), Some("1")).is_err());
+        assert!(of(Some("0 - 5"), Some("1")).is_err());
+    }
+}

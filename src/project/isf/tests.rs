@@ -1,0 +1,185 @@
+use super::json_of;
+use crate::{
+    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassId, PassSize, Project, ProjectError, Tab,
+    TexelFormat, load, save,
+};
+use std::{fs, path::Path};
+
+fn open(folder: &Path, name: &str, text: &str) -> Result<Loaded, ProjectError> {
+    let file = folder.join(name);
+    fs::write(&file, text).unwrap();
+    load(file.to_str().unwrap())
+}
+
+fn project(text: &str) -> Project {
+    open(tempfile::tempdir().unwrap().path(), "a.fs", text).unwrap().project
+}
+
+/// The messages of what is wrong with a header, with the text that each points to.
+fn wrong(text: &str) -> Vec<(String, String)> {
+    match open(tempfile::tempdir().unwrap().path(), "a.fs", text) {
+        Err(ProjectError::Invalid { diagnostics, sources, .. }) => {
+            let at = |span: eddy_diag::Span| sources.get(span.source).unwrap().text[span.range()].to_owned();
+            diagnostics.into_iter().map(|d| (d.message, d.span.map(at).unwrap_or_default())).collect()
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+const TRAILS: &str = r#"/*{
+    "ISFVSN": "2", "DESCRIPTION": "Trails of an image", "CREDIT": "somebody", "CATEGORIES": ["Blur"],
+    "INPUTS": [
+        {"NAME": "inputImage", "TYPE": "image"},
+        {"NAME": "decay", "TYPE": "float", "DEFAULT": 0.9, "MIN": 0.0, "MAX": 1.0, "LABEL": "How much stays"},
+        {"NAME": "mode", "TYPE": "long", "VALUES": [0, 1, 2], "LABELS": ["a", "b", "c"], "DEFAULT": 1},
+        {"NAME": "flash", "TYPE": "event"},
+        {"NAME": "inverted", "TYPE": "bool", "DEFAULT": 1},
+        {"NAME": "center", "TYPE": "point2D", "DEFAULT": [0.5, 0.25], "MIN": [0, 0], "MAX": [1, 1]},
+        {"NAME": "tint", "TYPE": "color", "DEFAULT": [1, 0.5, 0, 1]},
+        {"NAME": "mix", "TYPE": "float", "DEFAULT": 2.0, "MIN": 0.0, "MAX": 1.0}
+    ],
+    "PASSES": [
+        {"TARGET": "trail_1", "PERSISTENT": true, "FLOAT": true},
+        {"TARGET": "small", "WIDTH": "floor($WIDTH/2.0)", "HEIGHT": "floor($HEIGHT/2.0)"},
+        {}
+    ]
+}*/
+void main() {
+    vec4 old = IMG_THIS_PIXEL(trail_1);
+    if (PASSINDEX == 0) gl_FragColor = old * decay + IMG_NORM_PIXEL(inputImage, isf_FragNormCoord);
+    else gl_FragColor = IMG_NORM_PIXEL(small, center) * tint;
+}
+"#;
+
+#[test]
+fn passes_become_buffers_and_inputs_sliders() {
+    let project = project(TRAILS);
+    assert_eq!(project.dialect, Dialect::Isf);
+    assert_eq!((&*project.info.description, &*project.info.author), ("Trails of an image", "somebody"));
+    let ids: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    assert_eq!(ids, ["buffer_trail1", "buffer_small", "image"]);
+    assert_eq!(project.passes[0].settings.format, TexelFormat::Rgba32f);
+    assert_eq!(
+        (project.passes[1].settings.format, project.passes[1].settings.size),
+        (TexelFormat::Rgba8, PassSize::Scale(0.5))
+    );
+    let image = &project.passes[2].channels;
+    let inputs: Vec<&Input> = image.iter().flatten().map(|channel| &channel.input).collect();
+    assert!(matches!(inputs[0], Input::Media { media: Media::Builtin(_), .. }));
+    assert_eq!(inputs[1..], [&Input::buffer("trail1"), &Input::buffer("small")]);
+    let uniforms = project.custom_uniforms();
+    assert_eq!(uniforms.diagnostics, []);
+    let of = |name: &str| uniforms.get(name).unwrap_or_else(|| panic!("{name}"));
+    assert_eq!(of("decay").about, "How much stays");
+    assert_eq!((of("mode").ty, of("mode").default.components()), (CustomUniformType::Int, vec![1.0]));
+    assert_eq!(of("inverted").default.components(), [1.0]);
+    assert_eq!(of("center").default.components(), [0.5, 0.25]);
+    assert_eq!(of("tint").default.components(), [1.0, 0.5, 0.0, 1.0]);
+    // A name that GLSL has is another one there, and a default widens its range.
+    assert_eq!(of("isf_mix").default.components(), [2.0]);
+    assert!(project.common.as_ref().unwrap().text.contains("#define mix isf_mix"));
+    let included: Vec<&str> = project.includes.iter().map(|i| &*i.source.name).collect();
+    assert_eq!(included, ["a.fs"]);
+    assert_eq!(project.include_lines().missing, []);
+}
+
+#[test]
+fn a_last_pass_with_a_target_is_shown() {
+    let project = project(
+        "/*{\"PASSES\": [{\"TARGET\": \"state\", \"PERSISTENT\": true}]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(state); }",
+    );
+    let ids: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    assert_eq!(ids, ["buffer_state", "image"]);
+    let channels = &project.passes[1].channels;
+    assert_eq!(channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("state")));
+    assert!(project.stateful_passes().contains(&PassId::Buffer("state".into())));
+}
+
+#[test]
+fn audio_is_an_image_of_one_row() {
+    let project = project(
+        "/*{\"INPUTS\": [{\"NAME\": \"fft\", \"TYPE\": \"audioFFT\", \"MAX\": 64}]}*/\n\
+         void main() { gl_FragColor = IMG_NORM_PIXEL(fft, vec2(0.5)); }",
+    );
+    assert_eq!(project.passes[0].id, PassId::Buffer("fft".into()));
+    assert_eq!(project.passes[0].settings.size, PassSize::Fixed(64, 1));
+    assert_eq!(
+        project.pass(&PassId::Image).unwrap().channels[0].as_ref().map(|c| &c.input),
+        Some(&Input::buffer("fft"))
+    );
+}
+
+#[test]
+fn a_vertex_shader_beside_it_is_included_too() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(
+        dir.path().join("a.vs"),
+        "varying vec2 left;\nvoid main() { isf_vertShaderInit(); left = isf_FragNormCoord; }",
+    )
+    .unwrap();
+    let text = "/*{\"ISFVSN\": \"2\"}*/\nvarying vec2 left;\nvoid main() { gl_FragColor = vec4(left, 0.0, 1.0); }";
+    let project = open(dir.path(), "a.fs", text).unwrap().project;
+    let mut included: Vec<&str> = project.includes.iter().map(|i| &*i.source.name).collect();
+    included.sort_unstable();
+    assert_eq!(included, ["a.fs", "a.vs"]);
+}
+
+#[test]
+fn what_is_wrong_with_a_header_is_told_at_its_place() {
+    let file =
+        |header: &str| format!("/*{header}*/\nvoid main() {{ gl_FragColor = vec4(isf_FragNormCoord, a, 1.0); }}");
+    let said = wrong(&file("{\"INPUTS\": [ , ]}"));
+    assert!(said[0].0.contains("cannot be read"), "{said:?}");
+    let said = wrong(&file("{\"INPUTS\": [{\"NAME\": \"a\", \"TYPE\": \"number\"}]}"));
+    assert_eq!(said, [("the input \"a\" has the unknown type \"number\"".to_owned(), "\"number\"".to_owned())]);
+    let said = wrong(&file("{\"INPUTS\": [{\"NAME\": \"a b\", \"TYPE\": \"float\"}]}"));
+    assert!(said[0].0.contains("not a name"), "{said:?}");
+    let said = wrong(&file("{\"PASSES\": [{\"TARGET\": \"a_b\"}, {\"TARGET\": \"ab\"}, {}]}"));
+    assert!(said[0].0.contains("two passes draw"), "{said:?}");
+    let said = wrong(&file("{\"PASSES\": [{\"TARGET\": \"row\", \"WIDTH\": \"$WIDTH\", \"HEIGHT\": \"1\"}, {}]}"));
+    assert!(said[0].0.contains("the size of pass 0 cannot be had"), "{said:?}");
+    let said = wrong(&file("{\"IMPORTED\": {\"a\": {\"PATH\": [\"x\", \"y\"]}}}"));
+    assert!(said[0].0.contains("cubemap"), "{said:?}");
+    let inputs: Vec<String> = (0..5).map(|n| format!("{{\"NAME\": \"a{n}\", \"TYPE\": \"image\"}}")).collect();
+    let reads = "/*{\"INPUTS\": [".to_owned()
+        + &inputs.join(", ")
+        + "]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(a0) + IMG_THIS_PIXEL(a1) + IMG_THIS_PIXEL(a2) + IMG_THIS_PIXEL(a3) + IMG_THIS_PIXEL(a4); }";
+    assert!(wrong(&reads)[0].0.contains("reads 5 images"));
+    // Images that the text does not read take no channel.
+    assert!(project(&reads.replace(" + IMG_THIS_PIXEL(a4)", "")).pass(&PassId::Image).is_some());
+}
+
+#[test]
+fn other_texts_with_a_comment_are_left_alone() {
+    for text in [
+        "/* a shader */ void main() { gl_FragColor = vec4(1.0); }",
+        "/*{\"INPUTS\": []}*/\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }",
+        "/*{\"INPUTS\": []}",
+        "// {\"INPUTS\": []}",
+        "",
+    ] {
+        assert!(json_of(text).is_none(), "{text}");
+    }
+}
+
+#[test]
+fn saving_writes_the_file_as_it_was_edited() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut project = open(dir.path(), "a.fs", TRAILS).unwrap().project;
+    let file = dir.path().join("a.fs");
+    let tab = Tab::Included("a.fs".into());
+    let edited = TRAILS.replace("* tint", "+ tint");
+    project.source_mut(&tab).unwrap().text = edited.clone().into();
+    project.includes[0].is_edited = true;
+    let saved = save(&project, &file, Overwrite::Refuse).unwrap();
+    assert_eq!(fs::read_to_string(&file).unwrap(), edited);
+    assert_eq!(saved.source(&tab).map(|s| &*s.text), Some(&*edited));
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    project.custom_uniform_values.insert("decay".into(), crate::CustomUniformValue::Float(0.5));
+    assert!(matches!(save(&project, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
+    // As a folder it is a project like others, with the file in it.
+    let folder = dir.path().join("as_folder");
+    let moved = save(&project, &folder, Overwrite::Refuse).unwrap();
+    assert_eq!(moved.dialect, Dialect::Isf);
+    assert_eq!(load(folder.to_str().unwrap()).unwrap().project.passes.len(), 3);
+}

@@ -1,0 +1,177 @@
+//! The GLSL that stands around the text of an ISF file: what an ISF host declares, in terms of Shadertoy's.
+
+use super::header::{Header, IsfInput, Kind};
+use std::fmt::Write;
+
+/// Names that Eddy or GLSL ES has taken, which an input of ISF may have all the same.
+const TAKEN: [&str; 22] = [
+    "iResolution",
+    "iTime",
+    "iTimeDelta",
+    "iFrame",
+    "iFrameRate",
+    "iMouse",
+    "iDate",
+    "iSampleRate",
+    "iChannelTime",
+    "iChannelResolution",
+    "iChannel0",
+    "iChannel1",
+    "iChannel2",
+    "iChannel3",
+    "iGlobalTime",
+    "mix",
+    "step",
+    "distance",
+    "length",
+    "radians",
+    "degrees",
+    "sign",
+];
+
+/// Returns what the uniform of an input is called.
+fn uniform_name(name: &str) -> String {
+    if TAKEN.contains(&name) { format!("isf_{name}") } else { name.to_owned() }
+}
+
+/// Returns Common: the built-ins of ISF, and the inputs as sliders.
+pub(super) fn common(header: &Header) -> String {
+    let mut out = String::from(BUILT_INS);
+    for input in header.inputs.iter().filter(|input| !input.kind.is_image()) {
+        let name = uniform_name(&input.name);
+        if name != input.name {
+            let _ = writeln!(out, "#define {} {name}", input.name);
+        }
+        let _ = writeln!(out, "{}", declaration(&name, input));
+    }
+    out
+}
+
+/// The `#iUniform` line of an input.
+fn declaration(name: &str, input: &IsfInput) -> String {
+    let about = if input.label.is_empty() { String::new() } else { format!(" // {}", input.label) };
+    let at = |list: &[f64], i: usize| list.get(i).copied().filter(|x| x.is_finite());
+    let first = |list: &[f64]| at(list, 0);
+    let vector = |ty: &str, count: usize, list: &[f64], missing: f64| {
+        let all: Vec<String> = (0..count).map(|i| format!("{:?}", at(list, i).unwrap_or(missing))).collect();
+        format!("{ty}({})", all.join(", "))
+    };
+    match input.kind {
+        Kind::Event => format!("#iUniform bool {name} = false{about}"),
+        Kind::Bool => format!("#iUniform bool {name} = {}{about}", first(&input.default).is_some_and(|x| x > 0.5)),
+        Kind::Long => {
+            let all = || input.values.iter().copied().filter(|x| x.is_finite());
+            let least = all().reduce(f64::min).or(first(&input.min));
+            let most = all().reduce(f64::max).or(first(&input.max));
+            let default = first(&input.default).or(least).unwrap_or(0.0).round();
+            match least.zip(most).filter(|(least, most)| least < most) {
+                Some((least, most)) => {
+                    let (least, most) = (least.round(), most.round());
+                    format!("#iUniform int {name} = {} in {{ {least}, {most} }}{about}", default.clamp(least, most))
+                }
+                None => format!("#iUniform int {name} = {default}{about}"),
+            }
+        }
+        Kind::Float => {
+            let range = first(&input.min).zip(first(&input.max)).filter(|(min, max)| min < max);
+            let default = first(&input.default).or(range.map(|(min, _)| min)).unwrap_or(0.0);
+            match range {
+                // Hosts take a default beyond the range.
+                Some((min, max)) => {
+                    let (min, max) = (min.min(default), max.max(default));
+                    format!("#iUniform float {name} = {default:?} in {{ {min:?}, {max:?} }}{about}")
+                }
+                None => format!("#iUniform float {name} = {default:?}{about}"),
+            }
+        }
+        Kind::Point2D => {
+            let range = first(&input.min).zip(first(&input.max)).filter(|(min, max)| min < max);
+            let default = vector("vec2", 2, &input.default, 0.0);
+            let low = |i: usize| at(&input.default, i).unwrap_or(0.0);
+            match range {
+                Some((min, max)) => {
+                    let (min, max) = (min.min(low(0)).min(low(1)), max.max(low(0)).max(low(1)));
+                    format!("#iUniform vec2 {name} = {default} in {{ {min:?}, {max:?} }}{about}")
+                }
+                None => format!("#iUniform vec2 {name} = {default}{about}"),
+            }
+        }
+        Kind::Color => {
+            let missing = if input.default.is_empty() { 1.0 } else { 0.0 };
+            let mut values = input.default.clone();
+            if values.len() == 3 {
+                values.push(1.0);
+            }
+            let clamped: Vec<f64> = values.iter().map(|x| x.clamp(0.0, 1.0)).collect();
+            format!("#iUniform vec4 {name} = {} in {{ 0.0, 1.0 }}{about}", vector("vec4", 4, &clamped, missing))
+        }
+        Kind::Image | Kind::Audio | Kind::AudioFft => String::new(),
+    }
+}
+
+/// Returns the text of a pass: which images lie in which channels, and the files whose text it is.
+pub(super) fn pass(index: usize, images: &[String], fragment: &str, vertex: Option<&str>) -> String {
+    let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
+    let _ = writeln!(out, "#define PASSINDEX {index}");
+    for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
+        let _ = writeln!(out, "#define {name} iChannel{channel}");
+    }
+    if let Some(vertex) = vertex {
+        let _ = write!(out, "\n#define main isf_vertexMain\n#include \"{vertex}\"\n#undef main\n");
+    }
+    let _ = write!(out, "\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n");
+    out.push_str("void mainImage(out vec4 isf_color, in vec2 isf_at) {\n");
+    if vertex.is_some() {
+        out.push_str("    isf_vertexMain();\n");
+    }
+    out.push_str("    isf_main();\n    isf_color = isf_FragColor;\n}\n");
+    out
+}
+
+/// Returns the text of a buffer that makes the image of an audio input of the texture of a sound in channel 0: Shadertoy's
+/// has the spectrum in its lower row and the wave in its upper one.
+pub(super) fn audio(kind: Kind) -> String {
+    let (row, what) = if kind == Kind::AudioFft { (0.25, "spectrum") } else { (0.75, "wave") };
+    format!(
+        "// The {what} of the sound, as an image of ISF.\n\
+         void mainImage(out vec4 color, in vec2 at) {{\n\
+         \x20   color = vec4(texture(iChannel0, vec2(at.x / iResolution.x, {row:?})).rrr, 1.0);\n}}\n"
+    )
+}
+
+/// The text of an Image pass that shows a buffer in channel 0.
+pub(super) const SHOW: &str = "\
+// The last pass of the ISF file draws a buffer, which is shown.
+void mainImage(out vec4 color, in vec2 at) {
+    color = texture(iChannel0, at / iResolution.xy);
+}
+";
+
+const BUILT_INS: &str = "\
+// What an ISF host puts before a shader, in terms of Shadertoy's uniforms.
+#define TIME iTime
+#define TIMEDELTA iTimeDelta
+#define FRAMEINDEX iFrame
+#define DATE vec4(iDate.x, iDate.y + 1.0, iDate.zw)
+#define RENDERSIZE (iResolution.xy)
+#define isf_FragNormCoord (gl_FragCoord.xy / iResolution.xy)
+#define vv_FragNormCoord isf_FragNormCoord
+#define IMG_SIZE(image) vec2(textureSize(image, 0))
+#define IMG_NORM_PIXEL(image, at) texture(image, at)
+#define IMG_PIXEL(image, at) texture(image, (at) / IMG_SIZE(image))
+#define IMG_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
+#define IMG_THIS_NORM_PIXEL(image) texture(image, isf_FragNormCoord)
+#define IMG_NORM_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
+#define texture2D texture
+#define texture2DRect(image, at) IMG_PIXEL(image, at)
+vec4 isf_FragColor;
+#define gl_FragColor isf_FragColor
+
+// Of its vertex shader, which is called for each pixel.
+#define varying
+vec4 isf_position;
+#define gl_Position isf_position
+void isf_vertShaderInit() { isf_position = vec4(2.0 * isf_FragNormCoord - 1.0, 0.0, 1.0); }
+#define vv_vertShaderInit isf_vertShaderInit
+
+";
