@@ -89,7 +89,7 @@ fn what_the_types_name_is_opened() {
         let (name, content) = match glob.strip_prefix('*') {
             Some(ending) if ending.ends_with(".json") => (format!("toy{ending}"), json.to_string()),
             Some(ending) => (format!("toy{ending}"), shader.into()),
-            None => (format!("project/{glob}"), "name = \"Toy\"".into()),
+            None => (format!("project/{glob}"), "name = \"Toy\"\n[passes.image]\n".into()),
         };
         b.write(&name, content);
         b.line(&format!("check {name}")).expect(0);
