@@ -165,8 +165,8 @@ fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
     let is_wrong = wrong(&typed.text).is_some();
     let hint = RichText::new("always; or quality > 1").color(theme::of(ui).weak);
     let field = TextEdit::singleline(&mut typed.text).hint_text(hint).font(egui::TextStyle::Monospace);
-    let width = ui.available_width().clamp(140.0, 420.0);
-    let response = ui.add_sized([width, 24.0], field.text_color_opt(is_wrong.then_some(theme::of(ui).error)));
+    let field = field.desired_width(200.0).text_color_opt(is_wrong.then_some(theme::of(ui).error));
+    let response = ui.add(field);
     accessible::name(&response, Role::TextInput, "Drawn when");
     out.place("passes:when", response.rect);
     let why = wrong(&typed.text);

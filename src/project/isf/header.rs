@@ -220,7 +220,7 @@ fn numbers(value: &Value) -> Vec<f64> {
         Value::Bool(on) => vec![f64::from(u8::from(*on))],
         Value::Number(n) => n.as_f64().into_iter().collect(),
         Value::String(text) => text.trim().parse().into_iter().collect(),
-        Value::Array(all) => all.iter().flat_map(|one| numbers(one)).collect(),
+        Value::Array(all) => all.iter().flat_map(numbers).collect(),
         Value::Null | Value::Object(_) => Vec::new(),
     }
 }

@@ -130,7 +130,7 @@ pub(super) fn size(
         };
         let side = |text: Option<&str>, own: f64| text.map_or(Ok(own), |text| evaluate(text, &value));
         let (w, h) = (side(width, canvas.0)?, side(height, canvas.1)?);
-        let in_range = |side: f64| (side >= 0.0 && side < 1e9).then_some(side.max(1.0));
+        let in_range = |side: f64| (0.0..1e9).contains(&side).then_some(side.max(1.0));
         let none = || format!("it is {w} by {h} for a canvas of {} by {}", canvas.0, canvas.1);
         Ok((in_range(w).ok_or_else(none)?, in_range(h).ok_or_else(none)?))
     };
