@@ -51,7 +51,7 @@ impl Cycle {
         }
     }
 
-    fn from_zero(self) -> &'static str {
+    fn sweep_from_zero(self) -> &'static str {
         if self == Cycle::Jacobi { FIRST } else { FIRST_COLOURED }
     }
 
@@ -69,11 +69,11 @@ impl Cycle {
         let mut passes = Vec::new();
         passes.push(match guess {
             Some(guess) => pass(&name("pre", 0), &of_source(self.before()), size(0), &[guess, source]),
-            None => pass(&name("pre", 0), &of_source(self.from_zero()), size(0), &[source]),
+            None => pass(&name("pre", 0), &of_source(self.sweep_from_zero()), size(0), &[source]),
         });
         for level in 1..=levels {
             passes.push(pass(&name("rhs", level), self.rest(), size(level), &[&name("pre", level - 1)]));
-            passes.push(pass(&name("pre", level), self.from_zero(), size(level), &[&name("rhs", level)]));
+            passes.push(pass(&name("pre", level), self.sweep_from_zero(), size(level), &[&name("rhs", level)]));
         }
         let mut below = name("pre", levels);
         for level in (0..levels).rev() {
@@ -124,7 +124,7 @@ impl Cycle {
             passes.push(gathered);
         }
         let (right, _) = f(coarsest);
-        passes.push(pass(&solved(coarsest), self.from_zero(), size(coarsest), &[&right]));
+        passes.push(pass(&solved(coarsest), self.sweep_from_zero(), size(coarsest), &[&right]));
         let mut last = String::new();
         for grid in (0..coarsest).rev() {
             let (right, component) = f(grid);
