@@ -2,7 +2,7 @@
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 /// Seconds in which a driver that resets the device refuses to open another. NVIDIA's answers with `DEVICE_LOST` until
@@ -29,15 +29,16 @@ fn caught(poll: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
     })
 }
 
-/// Opens another device in the place of a lost one: again and again until it is there or `patience` is over.
+/// Opens another device in the place of a lost one: again and again until it is there or `patience` is over, which the
+/// tries themselves may exceed.
 pub fn reopen<T, E>(patience: Duration, mut open: impl FnMut() -> Result<T, E>) -> Result<T, E> {
-    let began = Instant::now();
-    loop {
+    for _ in 0..patience.as_millis() / PAUSE.as_millis() {
         match open() {
-            Err(_) if began.elapsed() + PAUSE <= patience => std::thread::sleep(PAUSE),
-            ended => return ended,
+            Err(_) => std::thread::sleep(PAUSE),
+            opened => return opened,
         }
     }
+    open()
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
             && settings.boundary.is_none();
         if !is_plain {
             let message = format!("{title} is drawn by settings that XScreenSaver does not have");
-            found.push(Diagnostic::error(None, message).hint("draw the whole canvas, and no meshes"));
+            found.push(Diagnostic::error(None, message).hint("draw the whole picture, and no meshes"));
         }
         let own = buffers.iter().position(|id| **id == pass.id).unwrap_or(buffers.len());
         for (n, channel) in pass.channels.iter().enumerate() {
@@ -59,7 +59,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
                     (message, "compute it in a buffer".to_owned())
                 }
                 Some(of) if of >= own => {
-                    let message = format!("iChannel{n} of {title} reads what was drawn in the frame before");
+                    let message = format!("iChannel{n} of {title} reads the previous frame");
                     (message, "XScreenSaver keeps nothing from frame to frame".to_owned())
                 }
                 Some(of) if of != n => {

@@ -79,7 +79,7 @@ static ROWS: std::sync::LazyLock<[HostUniform; 16]> = std::sync::LazyLock::new(|
         row("iCursorColor", Type::Vec3, "the colour of the cursor as configured", |_, _| rgb(CREAM)),
         row("iCursorText", Type::Vec3, "the colour of text under the cursor", |_, _| rgb(prelude::BACKGROUND)),
         row("iSelectionForegroundColor", Type::Vec3, "the colour of selected text", |_, _| rgb(prelude::BACKGROUND)),
-        row("iSelectionBackgroundColor", Type::Vec3, "the colour behind selected text", |_, _| {
+        row("iSelectionBackgroundColor", Type::Vec3, "the background colour of selected text", |_, _| {
             rgb(prelude::FOREGROUND)
         }),
     ]

@@ -111,7 +111,7 @@ impl<'t> Reader<'t> {
             ("max", Some(second)) => first.max(second),
             ("pow", Some(second)) => first.powf(second),
             ("mod", Some(second)) => first.rem_euclid(second),
-            _ => return Err(format!("there is no function {name} of so many numbers")),
+            _ => return Err(format!("there is no function {name} of this number of arguments")),
         })
     }
 }
@@ -131,7 +131,7 @@ pub(super) fn size(
         let side = |text: Option<&str>, own: f64| text.map_or(Ok(own), |text| evaluate(text, &value));
         let (w, h) = (side(width, canvas.0)?, side(height, canvas.1)?);
         let in_range = |side: f64| (0.0..1e9).contains(&side).then_some(side.max(1.0));
-        let none = || format!("it is {w} by {h} for a canvas of {} by {}", canvas.0, canvas.1);
+        let none = || format!("it is {w} by {h} for a picture of {} by {}", canvas.0, canvas.1);
         Ok((in_range(w).ok_or_else(none)?, in_range(h).ok_or_else(none)?))
     };
     const CANVASES: [(f64, f64); 4] = [(1920.0, 1080.0), (3000.0, 4000.0), (16384.0, 8192.0), (7777.0, 16384.0)];
@@ -145,7 +145,7 @@ pub(super) fn size(
         (size.0 - canvas.0 * x).abs() <= 2.0 && (size.1 - canvas.1 * y).abs() <= 2.0
     };
     if !sizes.iter().zip(&CANVASES).all(is_scaled) {
-        return Err("it is neither fixed nor a part of the canvas in both directions".to_owned());
+        return Err("it is neither fixed nor a part of the resolution in both directions".to_owned());
     }
     // What is rounded down differs in the last digits.
     let (x, y) = (tidy(x), tidy(y));
