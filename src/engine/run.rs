@@ -287,7 +287,8 @@ impl Engine {
         })
     }
 
-    /// Writes a texel of a pass's newest ones: `texel` gets how many bytes it has, and how many components.
+    /// Writes a texel of a pass's newest ones: `texel` gets how many bytes it has, and how many components. A pass that is off
+    /// keeps its texels: no frame could have broken one.
     fn overwrite(
         &mut self,
         pass: &PassId,
@@ -296,6 +297,9 @@ impl Engine {
     ) -> Result<(), EngineError> {
         let (gpu, none) = (&self.shared.gpu, || EngineError::NoSuchPass(pass.title()));
         let running = self.running.as_mut().ok_or_else(none)?;
+        if running.check_is_on(pass).is_err() {
+            return Ok(());
+        }
         let target = running.target(pass, 0)?;
         let texture = target.newest();
         let format = texture.shape.format;

@@ -147,7 +147,7 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
     let here = "mix(mix(a, b, f.x), mix(c, d, f.x), f.y) + smoothed(0.0, heightOf(p - ivec2(1, 0)) - heightOf(p), \
                 heightOf(p + ivec2(1, 0)) - heightOf(p), heightOf(p - ivec2(0, 1)) - heightOf(p), heightOf(p + \
                 ivec2(0, 1)) - heightOf(p))";
-    let upstream = "mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y)";
+    let upstream = "lower + f.y * (upper - lower)";
     // The paper's form within its limits, where flows are fast.
     let set = |mut subject: Subject| {
         for assignment in ["form=0", "stiffness=0.5", "viscosity=0.6", "tension=1"] {
