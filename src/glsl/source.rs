@@ -93,6 +93,35 @@ impl Dialect {
         self != Dialect::Ghostty
     }
 
+    /// A text may define a built-in function with its own parameters again, which replaces it (GLSL 1.20 and 4.30, section 8);
+    /// in GLSL ES 3.00 it may not (section 6.1).
+    pub(crate) fn replaces_builtins(self) -> bool {
+        self != Dialect::Shadertoy
+    }
+
+    /// A text may declare its own variables by the names of Shadertoy's uniforms, which its program does not have.
+    pub(crate) fn frees_uniforms(self) -> bool {
+        self == Dialect::Isf
+    }
+
+    /// Returns what stands before the text, for messages.
+    pub(crate) fn header(self) -> &'static str {
+        match self {
+            Dialect::Shadertoy => "Shadertoy's header",
+            Dialect::Ghostty => "Ghostty's prefix",
+            Dialect::Isf => "the ISF host's header",
+        }
+    }
+
+    /// Returns the version of the language, for messages.
+    pub(crate) fn language(self) -> &'static str {
+        match self {
+            Dialect::Shadertoy => "GLSL ES 3.00",
+            Dialect::Ghostty => "GLSL 4.30",
+            Dialect::Isf => "the host's GLSL, from 1.20 on",
+        }
+    }
+
     /// Shadertoy's names beside its uniforms are there: `iCh0`, `iGlobalTime`, `st_assert`.
     pub(crate) fn has_extras(self) -> bool {
         self != Dialect::Ghostty

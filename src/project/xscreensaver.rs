@@ -1,5 +1,5 @@
-//! The `xshadertoy` module of XScreenSaver, as far as it takes a project. Source: `hacks/glx/xshadertoy.c` and its manual of XScreenSaver
-//! 6.15 (<https://www.jwz.org/xscreensaver/>).
+//! The `xshadertoy` module of XScreenSaver, as far as it takes a project. Source: `hacks/glx/xshadertoy.c` and its manual
+//! (<https://www.jwz.org/xscreensaver/>).
 //!
 //! It runs up to four buffers and Image, each from a file, in the order of its options `--program0` to `--program4`. Channel N of
 //! every program is what program N drew; nothing else can be read, and not what a program itself drew before.

@@ -63,7 +63,13 @@ impl Checker<'_> {
         {
             return self.resolved_call(id, args, loc);
         }
-        if let Some(id) = self.converting_overload(first, args) {
+        // Of functions that take the arguments as they are, a built-in comes before those to which they are converted.
+        let builtin = Builtin::from_symbol(self.module[first].name.symbol).filter(|builtin| !builtin.is_of_image);
+        let is_exact = builtin.is_some_and(|builtin| {
+            let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
+            self.builtin_result(builtin, &given).is_some()
+        });
+        if !is_exact && let Some(id) = self.converting_overload(first, args) {
             for (i, &arg) in ast[args].iter().enumerate() {
                 let want = self.module.params(id)[i].ty;
                 self.implicit(arg, want);
@@ -71,9 +77,7 @@ impl Checker<'_> {
             return self.resolved_call(id, args, loc);
         }
         // Overloads of a built-in leave its own in force.
-        if let Some(builtin) = Builtin::from_symbol(self.module[first].name.symbol)
-            && !builtin.is_of_image
-        {
+        if let Some(builtin) = builtin {
             return self.builtin_call(builtin, args, loc);
         }
         let broken = ast[args].iter().any(|&arg| self.ty(self.done(arg)) == TypeId::ERROR);

@@ -102,12 +102,14 @@ impl Checker<'_> {
         let text = self.name(name.symbol);
         let sign = FunctionSign { symbol: name.symbol, token: name.token, result, params: &params };
         let builtin = Builtin::from_symbol(name.symbol).filter(|builtin| !builtin.is_of_image);
-        let func = if builtin.is_some_and(|builtin| !builtin.may_be_overloaded) {
+        let replaces = self.settings.dialect.replaces_builtins();
+        let func = if builtin.is_some_and(|builtin| !builtin.may_be_overloaded) && !replaces {
             self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
         } else if text == "main" && matches!(self.env, Env::Pass(kind) if !kind.is_stage()) {
-            self.error(name, "Shadertoy's header already has `main`; a pass defines its own entry point");
+            let header = self.settings.dialect.header();
+            self.error(name, format!("{header} already has `main`; a pass defines its own entry point"));
             if let Env::Pass(kind) = self.env {
                 let entry = env::entry(kind);
                 let is_there = self.header_entry.is_some_and(|id| self.module[id].body.is_some());
@@ -142,7 +144,8 @@ impl Checker<'_> {
                 }
             }
         };
-        if builtin.is_some_and(|builtin| builtin.may_be_overloaded) && self.module[func].declared_at.is_empty() {
+        let is_overload = builtin.is_some_and(|builtin| builtin.may_be_overloaded) && !replaces;
+        if is_overload && self.module[func].declared_at.is_empty() {
             self.warning(
                 name,
                 format!("`{text}` is a built-in function; only Shadertoy's compiler allows overloading it"),
@@ -243,7 +246,7 @@ impl Checker<'_> {
                 let (was, is) = (self.type_name(self.module[known].result), self.type_name(sign.result));
                 self.error(decl.header, format!("`{name}` returns `{is}` here, but was declared to return `{was}`"));
                 match usage {
-                    Some(usage) => self.hint(format!("Shadertoy declares it as `{usage}`")),
+                    Some(usage) => self.hint(format!("{} declares it as `{usage}`", self.settings.dialect.header())),
                     None => self.hint("overloads must differ in their parameters, not only in what they return"),
                 }
                 if let Some(first) = first {
@@ -257,7 +260,7 @@ impl Checker<'_> {
             let param = self.ast[decl.params][at];
             self.error(param.loc, format!("`{name}` was declared with another qualifier (in, out, inout, const) here"));
             match usage {
-                Some(usage) => self.hint(format!("Shadertoy declares it as `{usage}`")),
+                Some(usage) => self.hint(format!("{} declares it as `{usage}`", self.settings.dialect.header())),
                 None => self.hint("prototype and definition must agree"),
             }
             if let Some(first) = first {

@@ -10,6 +10,7 @@ use super::{
 use crate::{
     ast::{self, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
     hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId},
+    source::Dialect,
 };
 
 /// Members from which on those of a struct are found by a table.
@@ -263,7 +264,11 @@ impl<'a> Checker<'a> {
 
     /// Declares a name, or reports that this scope has it already.
     pub(super) fn declare(&mut self, name: ast::Ident, binding: Binding) -> bool {
-        if let Some(previous) = self.scopes.here(name.symbol) {
+        let is_given = |previous: &Binding| {
+            matches!(previous, Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_))
+        };
+        let is_free = |previous: &Binding| self.settings.dialect.frees_uniforms() && is_given(previous);
+        if let Some(previous) = self.scopes.here(name.symbol).filter(|previous| !is_free(previous)) {
             if previous != Binding::Poison {
                 self.redeclared(name, previous);
             }
@@ -282,12 +287,18 @@ impl<'a> Checker<'a> {
             Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_) | Binding::BuiltinVar(_)
         );
         if matches!(previous, Binding::CustomUniform(_)) {
-            self.error(name, format!("`{text}` is already declared by an #iUniform line"));
+            let by = match self.settings.dialect {
+                Dialect::Shadertoy => "by an #iUniform line",
+                Dialect::Ghostty => "by Ghostty's prefix or an #iUniform line",
+                Dialect::Isf => "as an input of the ISF file",
+            };
+            self.error(name, format!("`{text}` is already declared {by}"));
             self.hint("remove this declaration, or choose another name");
             return;
         }
         if given {
-            self.error(name, format!("`{text}` is already declared by Shadertoy's header"));
+            let header = self.settings.dialect.header();
+            self.error(name, format!("`{text}` is already declared by {header}"));
             self.hint("remove this declaration, or choose another name");
             return;
         }

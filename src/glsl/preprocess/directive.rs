@@ -75,13 +75,13 @@ impl Preprocessor<'_, '_> {
             "extension" if self.is_plain => self.extension(name, line),
             "version" => self.error(
                 name,
-                "`#version` must come first, and Shadertoy's header already has it",
-                Some("delete the line: the language is always GLSL ES 3.00".into()),
+                format!("`#version` must come first, and {} already has it", self.dialect.header()),
+                Some(format!("delete the line: the language is always {}", self.dialect.language())),
             ),
             "extension" => self.error(
                 name,
-                "`#extension` must come before all declarations, but Shadertoy's header comes first",
-                Some("delete the line: the feature is part of GLSL ES 3.00 or not available".into()),
+                format!("`#extension` must come before all declarations, but {} comes first", self.dialect.header()),
+                Some(format!("delete the line: the feature is part of {} or not available", self.dialect.language())),
             ),
             "pragma" => self.pragma(line),
             "include" => self.include(name, line),

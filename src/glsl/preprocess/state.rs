@@ -70,6 +70,7 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub line: LineCount,
     /// Nothing stands in front of the text, so that it may begin with its version and extensions.
     pub is_plain: bool,
+    pub dialect: Dialect,
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
@@ -111,6 +112,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             fence: None,
             line: LineCount::new(unit),
             is_plain: matches!(unit, Unit::Pass(kind) if kind.is_plain()),
+            dialect,
         };
         // A token for four bytes is what shaders have, comments included.
         new.tokens.reserve(bytes / 4 + 16);

@@ -13,6 +13,8 @@ pub(super) struct Header {
     pub inputs: Vec<IsfInput>,
     pub passes: Vec<IsfPass>,
     pub imported: Vec<Imported>,
+    /// Things in it that some hosts refuse.
+    pub warnings: Vec<Diagnostic>,
 }
 
 #[derive(Debug)]
@@ -82,7 +84,10 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
         let message = format!("the header is larger than {}, the limit", limits::in_bytes(limits::ISF_HEADER.bytes));
         return Err(vec![Diagnostic::error(whole, message)]);
     }
-    let object: Map<String, Value> = serde_json::from_str(json).map_err(|error| {
+    let commas = trailing_commas(json);
+    let mut plain = json.as_bytes().to_vec();
+    commas.iter().for_each(|&at| plain[at] = b' ');
+    let object: Map<String, Value> = serde_json::from_slice(&plain).map_err(|error| {
         let before: usize = json.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
         let at = (before + error.column().saturating_sub(1)).min(json.len());
         let at = (0..=at).rev().find(|&at| json.is_char_boundary(at)).unwrap_or(0);
@@ -92,7 +97,12 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
         vec![Diagnostic::error(Span::new(id, start + at..start + at), message).hint("fix the JSON at this place")]
     })?;
     let mut reader = Reader { json, id, start, found: Vec::new() };
-    let header = reader.header(&object);
+    let mut header = reader.header(&object);
+    if let Some(&at) = commas.first() {
+        let message = "a comma before a closing bracket is not JSON: some ISF hosts refuse the file";
+        let place = Span::new(id, start + at..start + at + 1);
+        header.warnings.push(Diagnostic::warning(place, message).hint("remove the comma"));
+    }
     for (count, most, of) in [
         (header.passes.len(), limits::PASSES, "passes"),
         (header.inputs.len(), limits::UNIFORMS, "inputs"),
@@ -104,6 +114,33 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
         }
     }
     if reader.found.iter().any(Diagnostic::is_error) { Err(reader.found) } else { Ok(header) }
+}
+
+/// Returns where commas stand outside of strings after which an object or a list ends.
+fn trailing_commas(json: &str) -> Vec<usize> {
+    let bytes = json.as_bytes();
+    let (mut found, mut last) = (Vec::new(), None);
+    let (mut at, mut is_text) = (0, false);
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b'\\' if is_text => at += 1,
+            b'"' => is_text = !is_text,
+            _ => {}
+        }
+        if !is_text && !byte.is_ascii_whitespace() {
+            if matches!(byte, b'}' | b']') {
+                found.extend(last);
+            }
+            last = (byte == b',' && ends_with_value(&bytes[..at])).then_some(at);
+        }
+        at += 1;
+    }
+    found
+}
+
+/// Returns whether a text ends with a value.
+fn ends_with_value(before: &[u8]) -> bool {
+    before.iter().rev().find(|byte| !byte.is_ascii_whitespace()).is_some_and(|byte| !b"[{,:".contains(byte))
 }
 
 struct Reader<'t> {
@@ -123,6 +160,7 @@ impl Reader<'_> {
             inputs: list("INPUTS").iter().filter_map(|input| self.input(input.as_object()?)).collect(),
             passes: list("PASSES").iter().filter_map(Value::as_object).map(pass).collect(),
             imported: self.imported(object.get("IMPORTED")),
+            warnings: Vec::new(),
         }
     }
 

@@ -17,10 +17,13 @@ pub(super) use read::{load, save};
 
 use super::lines::trim_start;
 
-/// Returns the JSON of an ISF file and where it begins, if the text begins with a comment that holds one, and has an entry point
-/// of a whole fragment shader.
+/// Returns the JSON of an ISF file and where it begins, if it is in the first comment between `/*` and `*/`, and the text has an
+/// entry point of a whole fragment shader. Lines of `//` may stand before it.
 pub(super) fn json_of(text: &str) -> Option<(usize, &str)> {
-    let start = trim_start(text.trim_start_matches('\u{feff}'));
+    let mut start = trim_start(text.trim_start_matches('\u{feff}'));
+    while let Some(line) = start.strip_prefix("//") {
+        start = trim_start(line.split_once('\n')?.1);
+    }
     let comment = start.strip_prefix("/*")?;
     let end = comment.find("*/")?;
     let json = &comment[..end];

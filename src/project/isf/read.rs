@@ -26,11 +26,12 @@ pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -
     let id = sources.add(name, text);
     let refuse =
         |diagnostics, sources| Err(ProjectError::Invalid { what: path.display().to_string(), diagnostics, sources });
-    let header = match header::parse(json, (id, start)) {
+    let mut header = match header::parse(json, (id, start)) {
         Ok(header) => header,
         Err(found) => return Some(refuse(found, sources)),
     };
-    let mut maker = Maker { header, name, text, at: Span::new(id, start..start + json.len()), found: Vec::new() };
+    let found = std::mem::take(&mut header.warnings);
+    let mut maker = Maker { header, name, text, at: Span::new(id, start..start + json.len()), found };
     let vertex = path.with_extension("vs").file_name().map(|n| n.to_string_lossy().into_owned());
     let vertex = vertex.filter(|vertex| files.exists(vertex));
     let mut project = maker.project(path, vertex.as_deref());
@@ -64,6 +65,14 @@ impl Maker<'_> {
         let targets = self.targets();
         let images = self.images(&targets, vertex);
         let mut passes: Vec<Pass> = self.audio_passes(&images);
+        let scaled = self.scaled(&images, &targets, vertex);
+        passes.extend(scaled.iter().map(|name| {
+            let id = PassId::Buffer(buffer_name(name));
+            let mut pass = Pass::new(id.clone(), generated(&id, texts::SCALED.to_owned()));
+            pass.settings.format = TexelFormat::Rgba8;
+            pass.channels[0] = Some(self.channel(name, &targets));
+            pass
+        }));
         let count = self.header.passes.len().max(1);
         for index in 0..count {
             let isf = self.header.passes.get(index);
@@ -81,13 +90,17 @@ impl Maker<'_> {
                 continue;
             }
             let id = target.as_ref().map_or(PassId::Image, |target| PassId::Buffer(buffer_name(target)));
-            let mut pass = Pass::new(id.clone(), generated(&id, texts::pass(index, &images, self.name, vertex)));
+            let mut pass =
+                Pass::new(id.clone(), generated(&id, texts::pass(index, &images, (self.name, self.text), vertex)));
             if target.is_some() {
                 pass.settings.format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
                 pass.settings.size = self.size_of(index);
             }
             for (slot, name) in pass.channels.iter_mut().zip(&images) {
-                *slot = Some(self.channel(name, &targets));
+                *slot = Some(match scaled.contains(name) {
+                    true => linear(Input::buffer(buffer_name(name))),
+                    false => self.channel(name, &targets),
+                });
             }
             passes.push(pass);
             if is_last && let Some(target) = target {
@@ -173,6 +186,21 @@ impl Maker<'_> {
             Some(place) => linear(Input::texture(Media::Builtin(STAND_INS[place % STAND_INS.len()].to_owned()))),
             None => linear(Input::buffer(buffer_name(name))),
         }
+    }
+
+    /// The images of the person that are drawn at the size of the canvas first: a host gives a filter images of the size that
+    /// it draws, so texts take pixels of the one for pixels of the other. Where a text reads no pixel by its number, that makes
+    /// no difference.
+    fn scaled(&self, images: &[String], targets: &[String], vertex: Option<&str>) -> Vec<String> {
+        let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
+        let has_pixels = |name: &str| {
+            vertex.is_some()
+                || reads.iter().any(|word| crate::ghostty::word(self.text, word).is_some())
+                || self.text.contains(&format!("_{name}_img"))
+        };
+        let is_free = |name: &str| targets.iter().all(|target| buffer_name(target) != buffer_name(name));
+        let inputs = self.header.inputs.iter().filter(|input| input.kind == Kind::Image).map(|input| &input.name);
+        inputs.filter(|name| images.contains(name) && has_pixels(name) && is_free(name)).cloned().collect()
     }
 
     /// The buffers that make images of sounds.

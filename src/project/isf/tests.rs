@@ -125,6 +125,62 @@ fn a_vertex_shader_beside_it_is_included_too() {
 }
 
 #[test]
+fn lines_of_comment_may_stand_before_the_header() {
+    let text = "// Somebody\n\n// 2016\n/*{\"ISFVSN\": \"2\"}*/\nvoid main() { gl_FragColor = vec4(1.0); }";
+    let (start, json) = json_of(text).unwrap();
+    assert_eq!((json, &text[start..start + 3]), ("{\"ISFVSN\": \"2\"}", "{\"I"));
+    assert_eq!(project(text).dialect, Dialect::Isf);
+}
+
+#[test]
+fn a_comma_too_many_is_a_warning() {
+    let text = "/*{\"CREDIT\": \"a,]\", \"INPUTS\": [{\"NAME\": \"b\", \"TYPE\": \"float\", }, ],}*/\n\
+                void main() { gl_FragColor = vec4(b); }";
+    let loaded = open(tempfile::tempdir().unwrap().path(), "a.fs", text).unwrap();
+    assert_eq!(&*loaded.project.info.author, "a,]");
+    assert!(loaded.project.custom_uniforms().get("b").is_some());
+    let [warning] = &loaded.warnings[..] else { panic!("{:?}", loaded.warnings) };
+    assert!(warning.message.contains("is not JSON"), "{warning:?}");
+    assert_eq!(warning.span.map(|span| &text[span.range()]), Some(","));
+    assert!(!wrong(&text.replace("[{", "[,{"))[0].0.is_empty());
+}
+
+#[test]
+fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
+    let text = "/*{\"INPUTS\": [{\"NAME\": \"inputImage\", \"TYPE\": \"image\"}]}*/\n\
+                void main() { gl_FragColor = IMG_PIXEL(inputImage, gl_FragCoord.xy); }";
+    let scaled = project(text);
+    assert_eq!(scaled.passes[0].id, PassId::Buffer("inputImage".into()));
+    assert_eq!(scaled.passes[0].settings.size, PassSize::Canvas);
+    let of = |project: &Project, n: usize| project.passes[n].channels[0].as_ref().map(|c| c.input.clone());
+    assert!(matches!(of(&scaled, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
+    assert_eq!(of(&scaled, 1), Some(Input::buffer("inputImage")));
+    let plain = project(&text.replace("IMG_PIXEL(inputImage, gl_FragCoord.xy)", "IMG_THIS_PIXEL(inputImage)"));
+    assert!(matches!(of(&plain, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
+}
+
+#[test]
+fn uniforms_of_images_and_names_of_shadertoy_are_there() {
+    let project = project(
+        "/*{\"INPUTS\": [{\"NAME\": \"left\", \"TYPE\": \"image\"}, {\"NAME\": \"smooth\", \"TYPE\": \"float\"}]}*/\n\
+         void mainImage(out vec4 c) { c = IMG_NORM_PIXEL(left, _left_imgRect.zw / _left_imgSize); }\n\
+         void main() { mainImage(gl_FragColor); gl_FragColor *= smooth; }",
+    );
+    let image = project.pass(&PassId::Image).unwrap();
+    let text = &*image.source.text;
+    for line in [
+        "#define _left_imgRect vec4(vec2(0.0), IMG_SIZE(iChannel0))",
+        "#define _left_imgSize IMG_SIZE(iChannel0)",
+        "#define mainImage isf_mainImage",
+        "#undef mainImage",
+    ] {
+        assert!(text.lines().any(|known| known == line), "{line}\n{text}");
+    }
+    assert!(!text.contains("_left_flip"));
+    assert!(project.custom_uniforms().get("isf_smooth").is_some());
+}
+
+#[test]
 fn what_is_wrong_with_a_header_is_told_at_its_place() {
     let file =
         |header: &str| format!("/*{header}*/\nvoid main() {{ gl_FragColor = vec4(isf_FragNormCoord, a, 1.0); }}");

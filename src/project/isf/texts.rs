@@ -1,10 +1,11 @@
 //! The GLSL that stands around the text of an ISF file: what an ISF host declares, in terms of Shadertoy's.
 
 use super::header::{Header, IsfInput, Kind};
+use crate::ghostty::word;
 use std::fmt::Write;
 
 /// Names that Eddy or GLSL ES has taken, which an input of ISF may have all the same.
-const TAKEN: [&str; 22] = [
+const TAKEN: [&str; 52] = [
     "iResolution",
     "iTime",
     "iTimeDelta",
@@ -27,6 +28,36 @@ const TAKEN: [&str; 22] = [
     "radians",
     "degrees",
     "sign",
+    "smooth",
+    "flat",
+    "inverse",
+    "round",
+    "min",
+    "max",
+    "abs",
+    "floor",
+    "ceil",
+    "fract",
+    "mod",
+    "clamp",
+    "pow",
+    "exp",
+    "log",
+    "sqrt",
+    "sin",
+    "cos",
+    "tan",
+    "dot",
+    "cross",
+    "normalize",
+    "reflect",
+    "refract",
+    "smoothstep",
+    "any",
+    "all",
+    "not",
+    "transpose",
+    "trunc",
 ];
 
 /// Returns what the uniform of an input is called.
@@ -109,17 +140,38 @@ fn declaration(name: &str, input: &IsfInput) -> String {
     }
 }
 
-/// Returns the text of a pass: which images lie in which channels, and the files whose text it is.
-pub(super) fn pass(index: usize, images: &[String], fragment: &str, vertex: Option<&str>) -> String {
+/// Returns the text of a pass: which images lie in which channels, and the files whose text it is, of which `text` is the
+/// fragment shader's.
+pub(super) fn pass(index: usize, images: &[String], (fragment, text): (&str, &str), vertex: Option<&str>) -> String {
     let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
     let _ = writeln!(out, "#define PASSINDEX {index}");
     for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
         let _ = writeln!(out, "#define {name} iChannel{channel}");
     }
+    // Uniforms that hosts set for each image: its rectangle in its texture in texels, its size, and whether it is upside down.
+    for (channel, name) in images.iter().enumerate() {
+        for (ending, value) in [
+            ("imgRect", format!("vec4(vec2(0.0), IMG_SIZE(iChannel{channel}))")),
+            ("imgSize", format!("IMG_SIZE(iChannel{channel})")),
+            ("flip", "false".to_owned()),
+        ] {
+            let uniform = format!("_{name}_{ending}");
+            if word(text, &uniform).is_some() {
+                let _ = writeln!(out, "#define {uniform} {value}");
+            }
+        }
+    }
+    // A function of the text may be called as the entry point below is.
+    if word(text, "mainImage").is_some() {
+        out.push_str("#define mainImage isf_mainImage\n");
+    }
     if let Some(vertex) = vertex {
         let _ = write!(out, "\n#define main isf_vertexMain\n#include \"{vertex}\"\n#undef main\n");
     }
     let _ = write!(out, "\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n");
+    if word(text, "mainImage").is_some() {
+        out.push_str("#undef mainImage\n");
+    }
     out.push_str("void mainImage(out vec4 isf_color, in vec2 isf_at) {\n");
     if vertex.is_some() {
         out.push_str("    isf_vertexMain();\n");
@@ -147,18 +199,28 @@ void mainImage(out vec4 color, in vec2 at) {
 }
 ";
 
+/// The text of a buffer that makes an image of the size of the canvas of the picture in channel 0.
+pub(super) const SCALED: &str = "\
+// The image at the size of the canvas. Choose another picture in iChannel0 of this buffer.
+void mainImage(out vec4 color, in vec2 at) {
+    color = texture(iChannel0, at / iResolution.xy);
+}
+";
+
 const BUILT_INS: &str = "\
 // What an ISF host puts before a shader, in terms of Shadertoy's uniforms.
 #define TIME iTime
 #define TIMEDELTA iTimeDelta
 #define FRAMEINDEX iFrame
 #define DATE vec4(iDate.x, iDate.y + 1.0, iDate.zw)
-#define RENDERSIZE (iResolution.xy)
-#define isf_FragNormCoord (gl_FragCoord.xy / iResolution.xy)
+vec2 isf_renderSize() { return iResolution.xy; }
+#define RENDERSIZE isf_renderSize()
+#define isf_FragNormCoord (gl_FragCoord.xy / RENDERSIZE)
 #define vv_FragNormCoord isf_FragNormCoord
 #define IMG_SIZE(image) vec2(textureSize(image, 0))
-#define IMG_NORM_PIXEL(image, at) texture(image, at)
-#define IMG_PIXEL(image, at) texture(image, (at) / IMG_SIZE(image))
+#define IMG_NORM_PIXEL texture
+vec4 IMG_PIXEL(sampler2D image, vec2 at) { return texture(image, at / IMG_SIZE(image)); }
+vec4 IMG_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at / IMG_SIZE(image), bias); }
 #define IMG_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
 #define IMG_THIS_NORM_PIXEL(image) texture(image, isf_FragNormCoord)
 #define IMG_NORM_THIS_PIXEL(image) texture(image, isf_FragNormCoord)

@@ -133,3 +133,53 @@ fn what_both_stages_declare_is_one_variable() {
     assert_eq!(errors(Dialect::Ghostty, text).len(), 1);
     assert_eq!(errors(Dialect::Isf, &text.replacen("vec2 left;", "vec3 left;", 1)).len(), 2);
 }
+
+#[test]
+fn a_text_may_replace_functions_of_the_language() {
+    let text = "float round(float x) { return floor(x + 0.5); }\nvec2 normalize(vec2 v, float most) { return v * most; }\n\
+                int sign(vec2 a, vec2 b) { return 3; }\n\
+                void mainImage(out vec4 c, in vec2 p) { float one = round(0.75); int three = sign(p, p); \
+                c = vec4(one, three, sign(-2.0), normalize(p, 2.0).x); c.xyz = normalize(c.xyz) + round(c.xyz); }";
+    assert_eq!(errors(Dialect::Shadertoy, text).iter().filter(|e| e.contains("cannot be declared again")).count(), 3);
+    for dialect in [Dialect::Ghostty, Dialect::Isf] {
+        assert_eq!(errors(dialect, text), [""; 0]);
+        let said = diagnose(&source(dialect, text));
+        assert!(said.is_empty(), "{said:?}");
+        compile(&source(dialect, text)).unwrap();
+    }
+}
+
+#[test]
+fn a_function_that_takes_the_arguments_as_they_are_comes_before_conversions() {
+    // The built-in has an `int` overload, which is called though the text has one for `float`.
+    let text = "vec2 max(float a, float b) { return vec2(a, b); }\n\
+                void mainImage(out vec4 c, in vec2 p) { int of_ints = max(1, 2); vec2 own = max(1.0, 2.0); c = vec4(own, of_ints, 1); }";
+    assert_eq!(errors(Dialect::Ghostty, text), [""; 0]);
+}
+
+#[test]
+fn names_of_shadertoys_uniforms_are_free_in_isf() {
+    let text = "vec2 size() { return iResolution.xy; }\nvec3 iResolution = vec3(size(), 1.0);\nconst float iTime = 2.0;\n\
+                void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, iTime, 1.0); }";
+    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
+    compile(&source(Dialect::Isf, text)).unwrap();
+    let said = errors(Dialect::Ghostty, text);
+    assert!(said.iter().any(|e| e == "`iResolution` is already declared by Ghostty's prefix"), "{said:?}");
+}
+
+#[test]
+fn messages_name_the_program_whose_header_it_is() {
+    let said = |dialect| {
+        errors(dialect, "#version 330\nvoid main() {}\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }")
+            .join("\n")
+    };
+    for (dialect, header) in [
+        (Dialect::Shadertoy, "Shadertoy's header"),
+        (Dialect::Ghostty, "Ghostty's prefix"),
+        (Dialect::Isf, "the ISF host's header"),
+    ] {
+        let said = said(dialect);
+        assert_eq!(said.matches(header).count(), 2, "{said}");
+        assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");
+    }
+}
