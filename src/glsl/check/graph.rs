@@ -92,7 +92,8 @@ impl Checker<'_> {
         }
         let mut marks = vec![Mark::New; self.funcs.len()];
         let mut order = Vec::with_capacity(self.funcs.len());
-        let roots: Vec<FuncId> = self.module.entry.into_iter().chain(self.global_calls.iter().copied()).collect();
+        // The entry point comes last, behind what values of globals call.
+        let roots: Vec<FuncId> = self.global_calls.iter().copied().chain(self.module.entry).collect();
         for root in roots {
             self.walk_calls(root, &mut marks, &mut order);
         }

@@ -144,7 +144,8 @@ pub(super) fn size(
     let is_scaled = |(size, canvas): (&(f64, f64), &(f64, f64))| {
         (size.0 - canvas.0 * x).abs() <= 2.0 && (size.1 - canvas.1 * y).abs() <= 2.0
     };
-    if !sizes.iter().zip(&CANVASES).all(is_scaled) {
+    let is_row = sizes.iter().all(|size| size.0 == first.0) || sizes.iter().all(|size| size.1 == first.1);
+    if is_row || !sizes.iter().zip(&CANVASES).all(is_scaled) {
         return Err("it is neither fixed nor a part of the resolution in both directions".to_owned());
     }
     // What is rounded down differs in the last digits.

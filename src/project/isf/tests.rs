@@ -150,11 +150,11 @@ fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
     let text = "/*{\"INPUTS\": [{\"NAME\": \"inputImage\", \"TYPE\": \"image\"}]}*/\n\
                 void main() { gl_FragColor = IMG_PIXEL(inputImage, gl_FragCoord.xy); }";
     let scaled = project(text);
-    assert_eq!(scaled.passes[0].id, PassId::Buffer("inputImage".into()));
+    assert_eq!(scaled.passes[0].id, PassId::Buffer("inputimage".into()));
     assert_eq!(scaled.passes[0].settings.size, PassSize::Canvas);
     let of = |project: &Project, n: usize| project.passes[n].channels[0].as_ref().map(|c| c.input.clone());
     assert!(matches!(of(&scaled, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
-    assert_eq!(of(&scaled, 1), Some(Input::buffer("inputImage")));
+    assert_eq!(of(&scaled, 1), Some(Input::buffer("inputimage")));
     let plain = project(&text.replace("IMG_PIXEL(inputImage, gl_FragCoord.xy)", "IMG_THIS_PIXEL(inputImage)"));
     assert!(matches!(of(&plain, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
 }
