@@ -158,7 +158,7 @@ mod tests {
             (
                 image(&[], ""),
                 vec![buffer("A", &[(0, Input::buffer("A"))])],
-                "error: iChannel0 of Buffer A reads what was drawn",
+                "error: iChannel0 of Buffer A reads the previous frame",
             ),
             (image(&[], ""), vec![pass(PassId::Sound, &[], "")], "error: XScreenSaver has no Sound pass"),
             (

@@ -45,9 +45,9 @@ vec2 bilinear(sampler2D field, vec2 p) {
 #endif
     vec2 base = floor(p - 0.5), t = p - 0.5 - base;
     ivec2 i = ivec2(base);
-    vec2 low = mix(at(field, i), at(field, i + ivec2(1, 0)), t.x);
-    vec2 high = mix(at(field, i + ivec2(0, 1)), at(field, i + ivec2(1, 1)), t.x);
-    return mix(low, high, t.y);
+    vec2 a = at(field, i), b = at(field, i + ivec2(1, 0)), c = at(field, i + ivec2(0, 1)), d = at(field, i + ivec2(1, 1));
+    vec2 low = a + t.x * (b - a), high = c + t.x * (d - c);
+    return low + t.y * (high - low);
 }
 
 // Where what is at `p` was `span` of time ago; negative: where it will be. By the midpoint rule, in the velocity of the

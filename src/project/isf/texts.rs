@@ -162,14 +162,14 @@ pub(super) fn pass(index: usize, images: &[String], (fragment, text): (&str, &st
         }
     }
     // A function of the text may be called as the entry point below is.
-    if word(text, "mainImage").is_some() {
+    if has_main_image(text) {
         out.push_str("#define mainImage isf_mainImage\n");
     }
     if let Some(vertex) = vertex {
         let _ = write!(out, "\n#define main isf_vertexMain\n#include \"{vertex}\"\n#undef main\n");
     }
     let _ = write!(out, "\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n");
-    if word(text, "mainImage").is_some() {
+    if has_main_image(text) {
         out.push_str("#undef mainImage\n");
     }
     out.push_str("void mainImage(out vec4 isf_color, in vec2 isf_at) {\n");
@@ -199,9 +199,18 @@ void mainImage(out vec4 color, in vec2 at) {
 }
 ";
 
-/// The text of a buffer that makes an image of the size of the canvas of the picture in channel 0.
+/// Returns whether a text has an entry point of Shadertoy's that it calls itself. One that it names otherwise by a macro, as
+/// exported files do, needs no other name.
+fn has_main_image(text: &str) -> bool {
+    let defines = |line: &str| {
+        line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))
+    };
+    word(text, "mainImage").is_some() && !text.lines().any(defines)
+}
+
+/// The text of a buffer that makes an image of the resolution of the picture from the one in channel 0.
 pub(super) const SCALED: &str = "\
-// The image at the size of the canvas. Choose another picture in iChannel0 of this buffer.
+// The image at the resolution of the picture. Choose another image in iChannel0 of this buffer.
 void mainImage(out vec4 color, in vec2 at) {
     color = texture(iChannel0, at / iResolution.xy);
 }
