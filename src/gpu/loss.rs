@@ -5,8 +5,8 @@ use std::{
     time::Duration,
 };
 
-/// Seconds in which a driver that resets the device refuses to open another. NVIDIA's answers with `DEVICE_LOST` until
-/// it has ended every program that the same hang has stopped.
+/// Time for which another device is asked for while the driver resets the lost one. An H100 (driver 580.159) answered with
+/// `DEVICE_LOST` after a hang; how long a reset takes was not measured.
 pub const RESET: Duration = Duration::from_secs(5);
 /// The time between two tries.
 const PAUSE: Duration = Duration::from_millis(250);
