@@ -1,5 +1,5 @@
-//! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every thing that is done on a grid. The names of cycles
-//! and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
+//! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every thing that is done on a
+//! grid. The names of cycles and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
 
 use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
 
