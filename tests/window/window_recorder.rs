@@ -200,6 +200,9 @@ fn a_film_that_is_cancelled_or_closed_over_leaves_no_file() {
     display.shot("recorder-cancelled.png");
     window.click_on("film:live");
     window.wait_until("some frames", "film", |e| e["state"] == "live" && e["frames"].as_u64() > Some(5));
+    // What it says gets longer once the speed is known: the button must not move then.
+    let (cancel, status) = (window.rect("film:cancel"), window.rect("film:status"));
+    assert!(cancel[1] < status[1], "the button is below the words: {cancel:?}, {status:?}");
     window.click_on("film:cancel");
     becomes(&mut window, "cancelled");
     empties(&folder);

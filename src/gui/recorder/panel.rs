@@ -122,17 +122,7 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         FilmView::Done(_) => p.good,
         _ => p.text,
     };
-    let words = film.words();
-    let said = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
-    out.place("film:status", said.rect);
-    if let Some(part) = film.part() {
-        let bar = ProgressBar::new(part).desired_height(16.0).fill(p.accent_fill).corner_radius(4);
-        let bar = ui.add(bar.text(RichText::new(format!("{:.0} %", part * 100.0)).size(11.5).color(p.strong)));
-        out.place("film:progress", bar.rect);
-    }
-    if session.closes_after_film() {
-        ui.label("Eddy closes when the film is complete.");
-    }
+    // Above the words, which grow by a line while it runs: a button must not move away from the pointer.
     if film.is_busy() {
         ui.horizontal_wrapped(|ui| {
             if matches!(film, FilmView::Live(_)) {
@@ -145,6 +135,17 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
                 out.ask(Command::CancelFilm);
             }
         });
+    }
+    if let Some(part) = film.part() {
+        let bar = ProgressBar::new(part).desired_height(16.0).fill(p.accent_fill).corner_radius(4);
+        let bar = ui.add(bar.text(RichText::new(format!("{:.0} %", part * 100.0)).size(11.5).color(p.strong)));
+        out.place("film:progress", bar.rect);
+    }
+    let words = film.words();
+    let said = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
+    out.place("film:status", said.rect);
+    if session.closes_after_film() {
+        ui.label("Eddy closes when the film is complete.");
     }
     ui.separator();
 }
