@@ -79,7 +79,7 @@ fn light_comes_back_at_the_edges_of_every_size() {
 #[test]
 fn the_classic_clamp_resolves_as_much_as_is_known() {
     let Some(rig) = rig() else { return };
-    let still = Star { frame: None }.picture();
+    let still = Star::STILL.picture();
     let found = |method, setting| {
         let rest = taa::rest(&rig, method, setting).unwrap();
         (psnr(&rest.picture, &still), ssim(&rest.picture, &still))
@@ -106,7 +106,7 @@ fn the_classic_clamp_resolves_as_much_as_is_known() {
 #[test]
 fn the_preset_keeps_detail_at_rest_without_more_ghost() {
     let Some(rig) = rig() else { return };
-    let still = Star { frame: None }.picture();
+    let still = Star::STILL.picture();
     let rest = taa::rest(&rig, "taa", 0.75).unwrap();
     let [wide, narrow, blind] =
         ["taa", "taa-narrow", "taa-blind"].map(|method| taa::moving(&rig, method, 0.75).unwrap());

@@ -1,12 +1,15 @@
-// A Siemens star and a hairline, which rest, and a disc before them, which moves if MOVES is 1. Places are in pixels from the
-// canvas's middle, where the canvas is 192 high; alpha is 2 on the disc.
+// A Siemens star and a hairline, which rest, and a disc before them, which moves by DISC_SPEED pixels a frame if MOVES is
+// 1. Places are in pixels from the canvas's middle, where the canvas is 192 high; alpha is 2 on the disc.
 
 #ifndef MOVES
 #define MOVES 0
 #endif
+#ifndef DISC_SPEED
+#define DISC_SPEED 2.37
+#endif
 
 vec2 discAt(float frame) {
-    return vec2(-60.0 + 2.37 * frame, -20.0);
+    return vec2(-60.0 + DISC_SPEED * frame, -20.0);
 }
 
 vec4 scene(vec2 q, float frame) {

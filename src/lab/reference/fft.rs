@@ -1,24 +1,15 @@
-//! The discrete Fourier transform of n x n values, n a power of two: radix 2, in place.
+//! The discrete Fourier transform of n x n values, n a power of two.
 
-use std::f64::consts::PI;
+use rustfft::FftPlanner;
+use std::{f64::consts::PI, sync::Arc};
 
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Complex {
-    pub re: f64,
-    pub im: f64,
-}
-
-impl Complex {
-    fn times(self, o: Complex) -> Complex {
-        Complex { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
-    }
-}
+pub type Complex = rustfft::num_complex::Complex<f64>;
 
 /// Transforms of one size.
 pub struct Fft {
     n: usize,
-    /// exp(-2 pi i k / n) for k < n / 2.
-    turns: Vec<Complex>,
+    /// Of a line: there and back.
+    lines: [Arc<dyn rustfft::Fft<f64>>; 2],
 }
 
 impl Fft {
@@ -26,8 +17,8 @@ impl Fft {
     /// If `n` is no power of two.
     pub fn new(n: usize) -> Fft {
         assert!(n.is_power_of_two(), "{n} is no power of two");
-        let angle = |k: usize| -2.0 * PI * k as f64 / n as f64;
-        Fft { n, turns: (0..n / 2).map(|k| Complex { re: angle(k).cos(), im: angle(k).sin() }).collect() }
+        let mut planner = FftPlanner::new();
+        Fft { n, lines: [planner.plan_fft_forward(n), planner.plan_fft_inverse(n)] }
     }
 
     /// Transforms real values.
@@ -54,40 +45,19 @@ impl Fft {
     }
 
     fn both(&self, all: &mut [Complex], inverse: bool) {
-        let n = self.n;
-        all.chunks_exact_mut(n).for_each(|row| self.line(row, inverse));
-        let mut column = vec![Complex::default(); n];
-        for x in 0..n {
-            (0..n).for_each(|y| column[y] = all[y * n + x]);
-            self.line(&mut column, inverse);
-            (0..n).for_each(|y| all[y * n + x] = column[y]);
-        }
+        let line = &self.lines[usize::from(inverse)];
+        line.process(all);
+        self.transpose(all);
+        line.process(all);
+        self.transpose(all);
     }
 
-    fn line(&self, line: &mut [Complex], inverse: bool) {
-        let n = line.len();
-        let bits = n.trailing_zeros();
-        for i in 0..n {
-            let j = if bits == 0 { 0 } else { i.reverse_bits() >> (usize::BITS - bits) };
-            if i < j {
-                line.swap(i, j);
+    fn transpose(&self, all: &mut [Complex]) {
+        let n = self.n;
+        for y in 1..n {
+            for x in 0..y {
+                all.swap(y * n + x, x * n + y);
             }
-        }
-        let mut half = 1;
-        while half < n {
-            let stride = n / (2 * half);
-            for block in line.chunks_exact_mut(2 * half) {
-                for k in 0..half {
-                    let mut turn = self.turns[k * stride];
-                    if inverse {
-                        turn.im = -turn.im;
-                    }
-                    let (a, b) = (block[k], turn.times(block[k + half]));
-                    block[k] = Complex { re: a.re + b.re, im: a.im + b.im };
-                    block[k + half] = Complex { re: a.re - b.re, im: a.im - b.im };
-                }
-            }
-            half *= 2;
         }
     }
 

@@ -95,13 +95,14 @@ impl Spectral {
             let (kx, ky) = self.waves(i);
             (-viscosity * (kx * kx + ky * ky) * h / 2.0).exp()
         };
-        let half: Vec<f64> = (0..self.n * self.n).map(decay).collect();
+        // Of no half of a step, one and two.
+        let half: Vec<[f64; 3]> = (0..self.n * self.n).map(|i| [0, 1, 2].map(|halves| decay(i).powi(halves))).collect();
         for _ in 0..steps {
             let w = &self.vorticity;
             // a + h b, where each is carried on by so many halves of the viscosity.
-            let sum = |a: &[Complex], (m, by): (i32, f64), b: &[Complex], p: i32| -> Vec<Complex> {
+            let sum = |a: &[Complex], (m, by): (usize, f64), b: &[Complex], p: usize| -> Vec<Complex> {
                 let one = |i: usize| {
-                    let (e, f) = (half[i].powi(m), by * half[i].powi(p));
+                    let (e, f) = (half[i][m], by * half[i][p]);
                     Complex { re: e * a[i].re + f * b[i].re, im: e * a[i].im + f * b[i].im }
                 };
                 (0..a.len()).map(one).collect()

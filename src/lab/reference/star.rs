@@ -6,8 +6,9 @@ use std::ops::RangeInclusive;
 /// Side of the canvas in pixels.
 pub const SIDE: usize = 192;
 
-/// Pixels that the disc moves in a frame, to the right.
+/// Pixels that the disc moves in a frame, to the right: fast, and so slowly that its edge is in a pixel for three frames.
 pub const SPEED: f64 = 2.37;
+pub const SLOW: f64 = 0.35;
 
 const RADIUS: f64 = 20.0;
 pub const DISC: [f64; 3] = [0.95, 0.90, 0.80];
@@ -16,22 +17,27 @@ pub const DISC: [f64; 3] = [0.95, 0.90, 0.80];
 #[derive(Clone, Copy, Debug)]
 pub struct Star {
     pub frame: Option<u32>,
+    /// Pixels that the disc moves in a frame.
+    pub speed: f64,
 }
 
 impl Star {
+    /// Without the disc.
+    pub const STILL: Star = Star { frame: None, speed: SPEED };
+
     /// Returns where the disc's middle is, in pixels from the canvas's.
-    fn disc(frame: u32) -> [f64; 2] {
-        [-60.0 + SPEED * f64::from(frame), -20.0]
+    fn disc(frame: u32, speed: f64) -> [f64; 2] {
+        [-60.0 + speed * f64::from(frame), -20.0]
     }
 
-    fn is_disc(frame: u32, [x, y]: [f64; 2]) -> bool {
-        let [cx, cy] = Star::disc(frame);
+    fn is_disc((frame, speed): (u32, f64), [x, y]: [f64; 2]) -> bool {
+        let [cx, cy] = Star::disc(frame, speed);
         (x - cx).powi(2) + (y - cy).powi(2) < RADIUS * RADIUS
     }
 
     /// The colour at a place, in pixels from the canvas's middle.
     fn colour(self, [x, y]: [f64; 2]) -> [f64; 3] {
-        if self.frame.is_some_and(|frame| Star::is_disc(frame, [x, y])) {
+        if self.frame.is_some_and(|frame| Star::is_disc((frame, self.speed), [x, y])) {
             return DISC;
         }
         // 72 rays of a 144th of the circle each, 90 pixels long; a line of one pixel's width.
@@ -57,21 +63,38 @@ impl Star {
         Picture::new(SIDE, (0..SIDE * SIDE).map(pixel).collect())
     }
 
-    /// The pixels that the disc covered wholly at `frame` and touched in none of the frames `since`.
-    pub fn vacated(frame: u32, since: RangeInclusive<u32>) -> Vec<usize> {
-        let middle = SIDE as f64 / 2.0;
-        let corners = |i: usize| {
-            [0, 1, 2, 3].map(|c| [((i % SIDE) + c % 2) as f64 - middle, ((i / SIDE) + c / 2) as f64 - middle])
-        };
+    /// The pixels that a disc of this speed covered wholly at `frame` and touched in none of the frames `since`.
+    pub fn vacated(speed: f64, frame: u32, since: RangeInclusive<u32>) -> Vec<usize> {
         // Rows that the disc never comes to are left out.
+        let middle = SIDE as f64 / 2.0;
         let rows = (middle - 20.0 - RADIUS) as usize - 1..(middle - 20.0 + RADIUS) as usize + 2;
         (rows.start * SIDE..rows.end * SIDE)
             .filter(|&i| {
-                let is_covered = corners(i).iter().all(|p| Star::is_disc(frame, *p));
-                is_covered && since.clone().all(|f| !corners(i).iter().any(|p| Star::is_disc(f, *p)))
+                let is_covered = corners(i).iter().all(|p| Star::is_disc((frame, speed), *p));
+                is_covered && !Star::touches(speed, since.clone(), i)
             })
             .collect()
     }
+
+    /// The pixels that a disc of this speed, having covered them wholly, touches in no frame from so many before `frame`
+    /// on, but touched in the one before those.
+    pub fn left_ago(speed: f64, frame: u32, ago: u32) -> Vec<usize> {
+        let last = frame - ago;
+        // The edge crosses a pixel's diagonal.
+        let crosses = (2f64.sqrt() / speed).ceil() as u32;
+        let gone = Star::vacated(speed, last - crosses, last + 1..=frame);
+        gone.into_iter().filter(|i| Star::touches(speed, last..=last, *i)).collect()
+    }
+
+    fn touches(speed: f64, mut frames: RangeInclusive<u32>, i: usize) -> bool {
+        frames.any(|frame| corners(i).iter().any(|p| Star::is_disc((frame, speed), *p)))
+    }
+}
+
+/// The corners of a pixel, from the canvas's middle.
+fn corners(i: usize) -> [[f64; 2]; 4] {
+    let middle = SIDE as f64 / 2.0;
+    [0, 1, 2, 3].map(|c| [((i % SIDE) + c % 2) as f64 - middle, ((i / SIDE) + c / 2) as f64 - middle])
 }
 
 #[cfg(test)]
@@ -80,7 +103,7 @@ mod tests {
 
     #[test]
     fn half_of_the_star_is_light_and_the_disc_has_its_area() {
-        let still = Star { frame: None }.picture();
+        let still = Star::STILL.picture();
         let middle = SIDE as f64 / 2.0;
         let (mut sum, mut n) = (0.0, 0.0);
         for (i, c) in still.rgb.iter().enumerate() {
@@ -90,7 +113,7 @@ mod tests {
             }
         }
         assert!((sum / n - 0.5).abs() < 2e-3, "{}", sum / n);
-        let moved = Star { frame: Some(20) }.picture();
+        let moved = Star { frame: Some(20), speed: SPEED }.picture();
         let blue = moved.rgb.iter().filter(|c| (c[0] - DISC[0]).abs() < 1e-9 && (c[2] - DISC[2]).abs() < 1e-9).count();
         let area = std::f64::consts::PI * RADIUS * RADIUS;
         assert!((blue as f64) < area && blue as f64 > 0.88 * area, "{blue}");
@@ -98,11 +121,15 @@ mod tests {
 
     #[test]
     fn what_is_vacated_lies_behind_the_disc() {
-        let all = Star::vacated(34, 40..=40);
-        let right = Star::disc(40)[0] - RADIUS * 0.2 + SIDE as f64 / 2.0;
+        let all = Star::vacated(SPEED, 34, 40..=40);
+        let right = Star::disc(40, SPEED)[0] - RADIUS * 0.2 + SIDE as f64 / 2.0;
         assert!(all.len() > 300 && all.iter().all(|i| ((i % SIDE) as f64) < right), "{}", all.len());
         // A strip of what one frame uncovers.
-        let strip = Star::vacated(34, 35..=40);
+        let strip = Star::vacated(SPEED, 34, 35..=40);
         assert!(strip.len() > 10 && strip.len() < all.len() / 3 && strip.iter().all(|i| all.contains(i)));
+        // What a slow disc left four frames ago is a thin strip behind it.
+        let slow = Star::left_ago(SLOW, 40, 4);
+        let back = |i: &usize| Star::disc(40, SLOW)[0] + SIDE as f64 / 2.0 - (i % SIDE) as f64;
+        assert!(slow.len() > 5 && slow.len() < 60 && slow.iter().all(|i| back(i) > 0.0 && back(i) < RADIUS + 4.0), "{slow:?}");
     }
 }

@@ -113,6 +113,12 @@ impl Solver {
         Solver { setup: solver.setup.storage(storage), ..solver }
     }
 
+    /// Returns whether it takes the pressure, or the density, that it is begun with.
+    pub fn keeps_pressure(&self) -> bool {
+        let is_kept = matches!(self.kind, Kind::Centred { is_compressible: true } | Kind::Staggered | Kind::Lattice);
+        is_kept || self.begun.held.is_some()
+    }
+
     /// Value of an `#iUniform` of the project.
     #[must_use]
     pub fn uniform(mut self, name: &str, value: f64) -> Solver {

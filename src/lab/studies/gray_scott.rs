@@ -158,6 +158,7 @@ pub static STUDY: Study = Study {
     grids: three_of([16, 32, 64, 128]),
     // A larger grid is a larger box.
     has_order: false,
+    signed: Some("mean_v"),
     ..Study::of(setup, measure)
 };
 

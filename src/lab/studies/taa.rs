@@ -7,7 +7,7 @@ use crate::{
     picture::{Picture, psnr, ssim},
     reference::{
         rays::on_all_cores,
-        star::{DISC, SIDE, SPEED, Star},
+        star::{DISC, SIDE, SLOW, SPEED, Star},
     },
 };
 use std::sync::LazyLock;
@@ -20,11 +20,14 @@ const NOW: u32 = 40;
 const ROUND: u32 = 16;
 
 /// The star at rest, and with the disc in each frame from [`NOW`] on for a round. Every point is compared with these.
-static STILL: LazyLock<Picture> = LazyLock::new(|| Star { frame: None }.picture());
-static PASSING: LazyLock<Vec<Picture>> = LazyLock::new(|| {
+static STILL: LazyLock<Picture> = LazyLock::new(|| Star::STILL.picture());
+static PASSING: LazyLock<Vec<Picture>> = LazyLock::new(|| passing(SPEED));
+static CREEPING: LazyLock<Vec<Picture>> = LazyLock::new(|| passing(SLOW));
+
+fn passing(speed: f64) -> Vec<Picture> {
     let frames: Vec<u32> = (NOW..NOW + ROUND).collect();
-    on_all_cores(&frames, |frame| Star { frame: Some(*frame) }.picture())
-});
+    on_all_cores(&frames, |frame| Star { frame: Some(*frame), speed }.picture())
+}
 
 /// Less of the disc than this is no ghost.
 const FAINT: f64 = 0.01;
@@ -63,19 +66,20 @@ void mainImage(out vec4 sampled, in vec2 fragCoord) {
 }
 ";
 
-/// A method's project with the star in it, at rest or with the disc moving before it.
-fn scene(method: &str, setting: f64, side: u32, moves: bool) -> Setup {
+/// A method's project with the star in it, at rest or with the disc moving before it by so many pixels a frame.
+fn scene(method: &str, setting: f64, side: u32, speed: Option<f64>) -> Setup {
     let size = (side, side);
-    let moving = u32::from(moves);
+    let (moving, speed) = (u32::from(speed.is_some()), speed.unwrap_or(SPEED));
     if method == "supersampling" {
-        return Setup::new("supersampling", size).define("SAMPLES", setting as u32).define("MOVES", moving);
+        return Setup::new("supersampling", size).define("SAMPLES", setting as u32).define("MOVES", moving).define("DISC_SPEED", speed);
     }
     // As the scene has it: pixels over the preset's unit, which is .7 of the width here.
-    let disc = "vec2 cogAt(float t) { return vec2(-60.0 + 2.37 * 60.0 * t, -20.0) / (0.7 * 192.0); }";
+    let disc = format!("vec2 cogAt(float t) {{ return vec2(-60.0 + {speed:?} * 60.0 * t, -20.0) / (0.7 * 192.0); }}");
     let setup = Setup::new("taa", size)
         .wants(&["b"])
         .text("a", format!("{SCENE}{SAMPLED}"))
         .define("MOVES", moving)
+        .define("DISC_SPEED", speed)
         .edit("common", "vec2 cogAt(float t) { return vec2(-0.48 + 0.10 * sin(0.7 * t), -0.12); }", disc)
         .edit("common", "return p + vec2(0.06 * t, 0.0);", "return p;")
         .edit("common", "return q - vec2(0.06 * t, 0.0);", "return q;");
@@ -103,7 +107,7 @@ pub struct Still {
 
 /// The star at rest, after [`REST`] frames and a round more.
 pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Still, LabError> {
-    let mut running = rig.open(&scene(method, setting, SIDE as u32, false))?;
+    let mut running = rig.open(&scene(method, setting, SIDE as u32, None))?;
     running.frames(REST + 1)?;
     let mut frames = Vec::new();
     for _ in 0..ROUND {
@@ -145,21 +149,21 @@ impl Moving {
 const LONGEST: u32 = 30;
 
 pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError> {
-    let mut running = rig.open(&scene(method, setting, SIDE as u32, true))?;
+    let mut running = rig.open(&scene(method, setting, SIDE as u32, Some(SPEED)))?;
     running.frames(NOW)?;
     let (mut ghost, mut off, mut first) = (vec![(0.0, 0.0); LONGEST as usize], Vec::new(), None);
     for (frame, truth) in (NOW..).zip(PASSING.iter()) {
         running.frames(1)?;
         let picture = Picture::of(&running.read(result(method))?);
         for (ago, (sum, all)) in (1..).zip(&mut ghost) {
-            for i in Star::vacated(frame - ago, frame - ago + 1..=frame) {
+            for i in Star::vacated(SPEED, frame - ago, frame - ago + 1..=frame) {
                 for (c, disc) in DISC.iter().enumerate() {
                     *sum += picture.rgb[i][c] - truth.rgb[i][c];
                     *all += disc - truth.rgb[i][c];
                 }
             }
         }
-        let near = Star::vacated(frame - 6, frame..=frame);
+        let near = Star::vacated(SPEED, frame - 6, frame..=frame);
         let distance = |i: usize| (0..3).map(|c| (picture.rgb[i][c] - truth.rgb[i][c]).abs()).sum::<f64>() / 3.0;
         off.extend(near.into_iter().map(distance));
         first.get_or_insert(picture);
@@ -169,6 +173,28 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
     Ok(Moving { picture, ghost, beside: mean(&off) })
 }
 
+/// The part that is left of a slow disc's colour in the pixels that its edge left [`SLOW_AGO`] frames ago, as in
+/// [`Moving::ghost`].
+pub fn slow_ghost(rig: &Rig, method: &str, setting: f64) -> Result<f64, LabError> {
+    let mut running = rig.open(&scene(method, setting, SIDE as u32, Some(SLOW)))?;
+    running.frames(NOW)?;
+    let (mut left, mut all) = (0.0, 0.0);
+    for (frame, truth) in (NOW..).zip(CREEPING.iter()) {
+        running.frames(1)?;
+        let picture = Picture::of(&running.read(result(method))?);
+        for i in Star::left_ago(SLOW, frame, SLOW_AGO) {
+            for (c, disc) in DISC.iter().enumerate() {
+                left += picture.rgb[i][c] - truth.rgb[i][c];
+                all += disc - truth.rgb[i][c];
+            }
+        }
+    }
+    Ok(left / all)
+}
+
+/// Frames after which an edge that creeps should have taken its colour along.
+const SLOW_AGO: u32 = 4;
+
 pub static STUDY: Study = Study {
     name: "taa",
     title: "Temporal anti-aliasing",
@@ -176,9 +202,10 @@ pub static STUDY: Study = Study {
            disc that crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples \
            a pixel in f64. Errors are those of colours as a screen shows them, of the resting picture. Of the \
            moving one the table gives PSNR and FLIP, and how much of the disc's colour is left where it was \
-           six frames ago at most, and how many pixels behind it 1 % of it is left. Flicker is the deviation \
-           in time over a round of the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of \
-           at most 24 pixels.",
+           six frames ago at most, and how many pixels behind it 1 % of it is left. slow_ghost is the part of \
+           its colour that is left four frames after its edge, where it moves by .35 pixels a frame. Flicker is \
+           the deviation in time over a round of the jitter. Hard cases: 31 dB at rest; no more than .02 \
+           flicker; a tail of at most 24 pixels.",
     parameter: "gamma, or samples",
     unit: Unit::Frame,
     error: "of the resting picture",
@@ -186,7 +213,7 @@ pub static STUDY: Study = Study {
     grids: [[48, 96, SIDE as u32]; 2],
     // The truth is that of one canvas.
     has_order: false,
-    ..Study::of(|point| scene(&point.method, point.setting, point.grid, true), measure)
+    ..Study::of(|point| scene(&point.method, point.setting, point.grid, Some(SPEED)), measure)
 };
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
@@ -205,6 +232,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
         .value("moving_flip", flip::mean(&moving.picture, truth))
         .value("ghost", moving.beside)
         .value("ghost_px", moving.tail())
+        .value("slow_ghost", slow_ghost(rig, &point.method, point.setting)?)
         // A root mean square of 10^(-31 / 20).
         .hard(HardCase::at_most("31 dB at rest", 10f64.powf(-off / 20.0), 0.0282))
         .hard(HardCase::at_most("flicker", rest.flicker, 0.02))
