@@ -130,6 +130,9 @@ mod tests {
         // What a slow disc left four frames ago is a thin strip behind it.
         let slow = Star::left_ago(SLOW, 40, 4);
         let back = |i: &usize| Star::disc(40, SLOW)[0] + SIDE as f64 / 2.0 - (i % SIDE) as f64;
-        assert!(slow.len() > 5 && slow.len() < 60 && slow.iter().all(|i| back(i) > 0.0 && back(i) < RADIUS + 4.0), "{slow:?}");
+        assert!(
+            slow.len() > 5 && slow.len() < 60 && slow.iter().all(|i| back(i) > 0.0 && back(i) < RADIUS + 4.0),
+            "{slow:?}"
+        );
     }
 }

@@ -71,7 +71,10 @@ fn scene(method: &str, setting: f64, side: u32, speed: Option<f64>) -> Setup {
     let size = (side, side);
     let (moving, speed) = (u32::from(speed.is_some()), speed.unwrap_or(SPEED));
     if method == "supersampling" {
-        return Setup::new("supersampling", size).define("SAMPLES", setting as u32).define("MOVES", moving).define("DISC_SPEED", speed);
+        return Setup::new("supersampling", size)
+            .define("SAMPLES", setting as u32)
+            .define("MOVES", moving)
+            .define("DISC_SPEED", speed);
     }
     // As the scene has it: pixels over the preset's unit, which is .7 of the width here.
     let disc = format!("vec2 cogAt(float t) {{ return vec2(-60.0 + {speed:?} * 60.0 * t, -20.0) / (0.7 * 192.0); }}");

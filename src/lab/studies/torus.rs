@@ -237,10 +237,13 @@ impl Torus {
         let mut measured = Measured { norms, frames_per_unit: f64::from(frames), ..Measured::default() }
             .value("energy", kept)
             .value("divergence", divergence(&solver, after, 1.0));
-        measured = measured.value("energy_error", match self {
-            Torus::ShearLayer => kept - energy_kept(),
-            Torus::TaylorGreen | Torus::LambOseen => square_drift(&exact, after),
-        });
+        measured = measured.value(
+            "energy_error",
+            match self {
+                Torus::ShearLayer => kept - energy_kept(),
+                Torus::TaylorGreen | Torus::LambOseen => square_drift(&exact, after),
+            },
+        );
         if *self == Torus::TaylorGreen && solver.keeps_pressure() {
             let cold = self.begun(&point.method, point.grid, point.setting, false);
             let mut running = rig.open(&cold.setup)?;
