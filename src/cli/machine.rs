@@ -111,13 +111,14 @@ impl Machine {
             anyhow::bail!("{refusal}");
         }
         let patience = if self.loss == Loss::New { loss::RESET } else { Duration::ZERO };
-        match loss::reopen(patience, || Gpu::new(&GpuOptions::default())) {
+        match loss::reopen(patience, || loss::open_in_time(|| Gpu::new(&GpuOptions::default()))) {
             Ok(gpu) => {
                 self.loss = Loss::None;
                 Ok(self.gpu.insert(gpu).clone())
             }
             Err(error) => {
                 match self.loss {
+                    _ if matches!(error, GpuError::NoAnswer { .. }) => self.refusal = Some(error.to_string()),
                     Loss::None => self.refusal = Some(error.to_string()),
                     Loss::New | Loss::Lasting => self.loss = Loss::Lasting,
                 }

@@ -40,7 +40,7 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::{lsp, playback::trial};
+use crate::{gpu::loss, lsp, playback::trial};
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
@@ -84,6 +84,7 @@ pub fn main() -> Next {
         Ok(Err(_)) => TROUBLE,
         Err(error) => trouble(format_args!("no thread could be started: {error}")),
     };
+    loss::end_process(code);
     Next::Exit(ExitCode::from(code))
 }
 

@@ -48,6 +48,11 @@ pub enum GpuError {
     TooManyTargets { what: String, count: u32, limit: u32 },
     #[error("the graphics device ran out of memory for {0}")]
     OutOfMemory(String),
+    #[error(
+        "the graphics driver has not answered for {secs} s: a program that hangs the GPU stops every other program on it. \
+         End that program, or restart the machine"
+    )]
+    NoAnswer { secs: u64 },
     #[error("the graphics device was lost: {0}")]
     Lost(String),
     /// wgpu refused something Eddy made: Eddy's own bug.

@@ -1,7 +1,13 @@
-//! A device that is lost: what wgpu makes of it, and another in its place.
+//! A device that is lost or hangs: what wgpu makes of it, another in its place, and how the process ends.
 
+use crate::GpuError;
 use std::{
+    io::Write,
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
+    sync::{
+        atomic::{AtomicBool, Ordering},
+        mpsc::{RecvTimeoutError, channel},
+    },
     time::Duration,
 };
 
@@ -10,6 +16,63 @@ use std::{
 pub const RESET: Duration = Duration::from_secs(5);
 /// The time between two tries.
 const PAUSE: Duration = Duration::from_millis(250);
+
+/// Time after which a driver that opens a device is taken to hang. The first start of a driver compiles shaders of its own.
+const OPENS: Duration = Duration::from_secs(60);
+
+/// A thread was left behind in a call of the driver.
+static LEFT_BEHIND: AtomicBool = AtomicBool::new(false);
+
+/// Says that a thread is left behind in a call of the driver that may never return.
+pub fn leave_behind() {
+    LEFT_BEHIND.store(true, Ordering::Relaxed);
+}
+
+/// Ends the process if a thread was left behind in the driver, without the exit handlers of libraries: those of a driver
+/// would wait for that thread, or free what it uses.
+pub fn end_process(code: u8) {
+    if !LEFT_BEHIND.load(Ordering::Relaxed) {
+        return;
+    }
+    let _ = std::io::stdout().flush();
+    let _ = std::io::stderr().flush();
+    #[cfg(unix)]
+    // SAFETY: `_exit` takes any code and touches no memory of the process.
+    unsafe {
+        libc::_exit(code.into())
+    }
+    #[cfg(not(unix))]
+    std::process::exit(code.into())
+}
+
+/// Opens a device on a thread that is left behind where the driver hangs, as that of an H200 (580.159) did while a shader of
+/// another process ran without end.
+pub fn open_in_time<T: Send + 'static>(
+    open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
+) -> Result<T, GpuError> {
+    open_within(OPENS, open)
+}
+
+fn open_within<T: Send + 'static>(
+    limit: Duration,
+    open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
+) -> Result<T, GpuError> {
+    let (sender, receiver) = channel();
+    let thread = std::thread::Builder::new().name("open device".into()).spawn(move || drop(sender.send(open())));
+    let thread = thread.map_err(|error| GpuError::NoAdapter(format!("no thread could be started: {error}")))?;
+    match receiver.recv_timeout(limit) {
+        Ok(opened) => opened,
+        Err(RecvTimeoutError::Timeout) => {
+            leave_behind();
+            Err(GpuError::NoAnswer { secs: limit.as_secs() })
+        }
+        // The driver brought the thread down.
+        Err(RecvTimeoutError::Disconnected) => match thread.join() {
+            Err(panic) => resume_unwind(panic),
+            Ok(()) => Err(GpuError::NoAdapter("the driver ended the thread that opened it".into())),
+        },
+    }
+}
 
 /// Returns whether a panic is wgpu's way to say that the device was lost: wgpu 30 returns errors of a poll, but for this
 /// one (`wgpu_core.rs`, `Device::poll`, whose other errors are fatal).
@@ -30,10 +93,11 @@ fn caught(poll: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
 }
 
 /// Opens another device in the place of a lost one: again and again until it is there or `patience` is over, which the
-/// tries themselves may exceed.
-pub fn reopen<T, E>(patience: Duration, mut open: impl FnMut() -> Result<T, E>) -> Result<T, E> {
+/// tries themselves may exceed. A driver that does not answer is not asked again.
+pub fn reopen<T>(patience: Duration, mut open: impl FnMut() -> Result<T, GpuError>) -> Result<T, GpuError> {
     for _ in 0..patience.as_millis() / PAUSE.as_millis() {
         match open() {
+            Err(GpuError::NoAnswer { secs }) => return Err(GpuError::NoAnswer { secs }),
             Err(_) => std::thread::sleep(PAUSE),
             opened => return opened,
         }
@@ -63,14 +127,31 @@ mod tests {
         let mut tries = 0;
         let opened = reopen(RESET, || {
             tries += 1;
-            if tries < 3 { Err("lost") } else { Ok(tries) }
+            if tries < 3 { Err(GpuError::Lost(String::new())) } else { Ok(tries) }
         });
-        assert_eq!(opened, Ok(3));
-        let mut tries = 0;
-        let refused: Result<(), &str> = reopen(Duration::ZERO, || {
-            tries += 1;
-            Err("lost")
+        assert!(matches!(opened, Ok(3)));
+        let refused = |patience, error: fn() -> GpuError| {
+            let mut tries = 0;
+            let refused: Result<(), GpuError> = reopen(patience, || {
+                tries += 1;
+                Err(error())
+            });
+            (refused.unwrap_err().to_string(), tries)
+        };
+        assert_eq!(refused(Duration::ZERO, || GpuError::Lost(String::new())).1, 1);
+        let (hangs, tries) = refused(RESET, || GpuError::NoAnswer { secs: 60 });
+        assert!(hangs.contains("60 s") && tries == 1, "{hangs}: {tries}");
+    }
+
+    #[test]
+    fn a_driver_that_hangs_is_left_behind() {
+        let (_never, waits) = channel::<()>();
+        let opened = open_within(Duration::from_millis(20), move || {
+            let _ = waits.recv();
+            Ok(())
         });
-        assert_eq!((refused, tries), (Err("lost"), 1));
+        assert!(matches!(opened, Err(GpuError::NoAnswer { .. })));
+        assert!(matches!(open_within(OPENS, || Ok(7)), Ok(7)));
+        assert!(catch_unwind(|| open_within(OPENS, || -> Result<(), GpuError> { panic!("driver") })).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! The devices of a machine in words, for a report that somebody sends.
 
-use super::{Gpu, GpuOptions};
+use super::{Gpu, GpuError, GpuOptions, loss};
 
 /// The properties of an adapter, as its driver tells them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,8 +54,12 @@ impl AdapterReport {
     }
 
     /// Lists the adapters of the machine, without opening a device. OpenGL's are listed where there are no others, as
-    /// [`Gpu::new`] looks for them.
-    pub fn all() -> Vec<Self> {
+    /// [`Gpu::new`] looks for them. Err: the driver hangs.
+    pub fn all() -> Result<Vec<Self>, GpuError> {
+        loss::open_in_time(|| Ok(Self::found()))
+    }
+
+    fn found() -> Vec<Self> {
         for descriptor in Gpu::instance_descriptors() {
             let backends = descriptor.backends;
             let instance = wgpu::Instance::new(descriptor);
@@ -74,8 +78,8 @@ fn names(features: wgpu::Features) -> Vec<String> {
 
 impl DeviceReport {
     /// Describes the device that Eddy draws with on this machine. Err: the reason why there is none.
-    pub fn of_default() -> Result<Self, super::GpuError> {
-        Gpu::new(&GpuOptions::default()).map(|gpu| Self::of(&gpu))
+    pub fn of_default() -> Result<Self, GpuError> {
+        loss::open_in_time(|| Gpu::new(&GpuOptions::default())).map(|gpu| Self::of(&gpu))
     }
 
     pub fn of(gpu: &Gpu) -> Self {

@@ -13,7 +13,7 @@ use eddy_engine::{
     BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
     Program, State, StateError,
 };
-use eddy_gpu::{Gpu, GpuError};
+use eddy_gpu::{Gpu, GpuError, loss};
 use eddy_media::MediaSet;
 use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
@@ -359,7 +359,10 @@ impl Offline {
                 self.engine = Some(engine);
                 Ok(Some(done?))
             }
-            Err(RecvTimeoutError::Timeout) => Ok(None),
+            Err(RecvTimeoutError::Timeout) => {
+                loss::leave_behind();
+                Ok(None)
+            }
             Err(RecvTimeoutError::Disconnected) => match thread.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(()) => Err(gone().into()),

@@ -81,7 +81,7 @@ pub use json::losses as json_losses;
 pub use load::Loaded;
 pub use locate::{folder_around, is_manifest, load, load_edited, stem};
 pub use manifest::write as write_manifest;
-pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
+pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap, spec_of};
 pub use names::{listed, nearest};
 pub use pads::{PAD_AXES, PAD_BUTTONS, PADS, PadPart};
 pub use pass_edits::{PassEdit, PassEditError, PassEdited};

@@ -191,6 +191,13 @@ impl Origin {
     }
 }
 
+/// Returns what [`super::load`] is given to read a file as a shader of this dialect. Other dialects than Ghostty's are
+/// known by the text.
+pub fn spec_of(path: &std::path::Path, dialect: Dialect) -> String {
+    let prefix = if dialect == Dialect::Ghostty { ghostty::PREFIX } else { "" };
+    format!("{prefix}{}", path.display())
+}
+
 impl Project {
     /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset,
     /// another dialect and the window say it otherwise.
@@ -203,10 +210,8 @@ impl Project {
     pub fn spec(&self) -> Option<String> {
         match &self.origin {
             Origin::Unsaved | Origin::Preset(_) => None,
-            Origin::File(path) if self.dialect == Dialect::Ghostty => {
-                Some(format!("{}{}", ghostty::PREFIX, path.display()))
-            }
-            Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => Some(path.display().to_string()),
+            Origin::File(path) => Some(spec_of(path, self.dialect)),
+            Origin::Folder { path, .. } | Origin::Json(path) => Some(path.display().to_string()),
         }
     }
 

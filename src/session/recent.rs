@@ -2,7 +2,7 @@
 //!
 //! Owns the file that keeps them from one start to the next, which people can read and several windows write.
 
-use eddy_project::Origin;
+use eddy_project::{Dialect, Origin};
 use serde::{Deserialize, Serialize};
 use std::{
     fs,
@@ -19,7 +19,7 @@ const HEADER: &str = "# Recently opened projects, newest first, with their last 
 /// A project that was open before.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecentProject {
-    /// A folder, a `.glsl` or a `.json` file, as [`Command::Open`](super::Command::Open) takes it. It may be gone.
+    /// A folder, a `.glsl` or a `.json` file. It may be gone.
     pub path: PathBuf,
     /// `iTime` when it was closed.
     #[serde(default, rename = "time")]
@@ -35,6 +35,16 @@ pub struct RecentProject {
     /// Pixels of the picture to those of the view, where it was not the usual scale.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
+    /// It was open as a custom shader of Ghostty, which its text does not tell.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub ghostty: bool,
+}
+
+impl RecentProject {
+    /// Returns what [`Command::Open`](super::Command::Open) takes to open it as it was open.
+    pub fn spec(&self) -> String {
+        eddy_project::spec_of(&self.path, if self.ghostty { Dialect::Ghostty } else { Dialect::Shadertoy })
+    }
 }
 
 /// Says where the time of a project stands when it is closed, and how large its picture is.
@@ -75,14 +85,15 @@ impl Recent {
     }
 
     /// Puts a project first, and returns what is known of it. One that lies in no file is not remembered.
-    pub fn opened(&mut self, origin: &Origin) -> Result<Option<RecentProject>, String> {
+    pub fn opened(&mut self, origin: &Origin, dialect: Dialect) -> Result<Option<RecentProject>, String> {
         let Some(path) = place(origin) else { return Ok(None) };
         let mut known = None;
         self.change(|list| {
             let at = list.iter().position(|project| project.path == path);
             known = at.map(|at| list.remove(at));
             let fresh = || RecentProject { path: path.clone(), ..RecentProject::default() };
-            list.insert(0, known.clone().unwrap_or_else(fresh));
+            let ghostty = dialect == Dialect::Ghostty;
+            list.insert(0, RecentProject { ghostty, ..known.clone().unwrap_or_else(fresh) });
         })?;
         Ok(known)
     }
@@ -171,24 +182,31 @@ mod tests {
         let path = |origin: &Origin| place(origin).unwrap();
         let (mut first, trouble) = Recent::open(Some(&state));
         assert_eq!((trouble, first.list()), (None, &[][..]));
-        assert_eq!(first.opened(&a), Ok(None));
+        assert_eq!(first.opened(&a, Dialect::Shadertoy), Ok(None));
         let (mut second, _) = Recent::open(Some(&state));
-        assert_eq!(second.opened(&b), Ok(None));
+        assert_eq!(second.opened(&b, Dialect::Shadertoy), Ok(None));
         first
             .left(&a, Left { time_secs: 12.5, frame: 750, is_paused: true, size: Some((1080, 1920)), scale: Some(0.5) })
             .unwrap();
         assert_eq!(paths(&first), [path(&b), path(&a)]);
-        let known = second.opened(&a).unwrap().unwrap();
+        let known = second.opened(&a, Dialect::Shadertoy).unwrap().unwrap();
         assert_eq!((known.time_secs, known.frame, known.paused), (12.5, Some(750), true));
         assert_eq!((known.size, known.scale), (Some((1080, 1920)), Some(0.5)));
         // As an earlier version has written it.
         let file = state.join(NAME);
         let text = std::fs::read_to_string(&file).unwrap().replace("frame = 750\n", "");
         std::fs::write(&file, text).unwrap();
-        assert_eq!(first.opened(&a).unwrap().unwrap().frame, None);
+        assert_eq!(first.opened(&a, Dialect::Shadertoy).unwrap().unwrap().frame, None);
         assert_eq!(paths(&Recent::open(Some(&state)).0), [path(&a), path(&b)]);
-        assert_eq!(second.opened(&Origin::Preset("fluid".into())), Ok(None));
+        assert_eq!(second.opened(&Origin::Preset("fluid".into()), Dialect::Shadertoy), Ok(None));
         assert_eq!(second.list().len(), 2);
+        // One is opened as it was open last.
+        let spec = |recent: &Recent| recent.list()[0].spec();
+        assert_eq!(spec(&second), path(&a).display().to_string());
+        second.opened(&a, Dialect::Ghostty).unwrap();
+        assert_eq!(spec(&Recent::open(Some(&state)).0), format!("ghostty:{}", path(&a).display()));
+        second.opened(&a, Dialect::Shadertoy).unwrap();
+        assert_eq!(spec(&second), path(&a).display().to_string());
     }
 
     #[test]
@@ -199,9 +217,9 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let (mut recent, trouble) = Recent::open(Some(dir.path()));
         assert!(trouble.unwrap().starts_with(&format!("{}:3: ", path.display())));
-        assert!(recent.opened(&Origin::File(dir.path().join("a.glsl"))).is_err());
+        assert!(recent.opened(&Origin::File(dir.path().join("a.glsl")), Dialect::Shadertoy).is_err());
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
         let (mut none, trouble) = Recent::open(None);
-        assert_eq!((trouble, none.opened(&Origin::File("a.glsl".into()))), (None, Ok(None)));
+        assert_eq!((trouble, none.opened(&Origin::File("a.glsl".into()), Dialect::Shadertoy)), (None, Ok(None)));
     }
 }

@@ -28,7 +28,8 @@ const PATIENCE: Duration = Duration::from_millis(500);
 impl Session {
     /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
     pub(super) fn place_known(&mut self) -> Option<RecentProject> {
-        match self.recent.opened(&self.documents.current().origin) {
+        let project = self.documents.current();
+        match self.recent.opened(&project.origin, project.dialect) {
             Ok(known) => known,
             Err(why) => {
                 self.notice_about(About::Window, Level::Warning, why);

@@ -378,3 +378,33 @@ fn a_pass_that_takes_the_driver_too_long_is_refused() {
     b.write("short.glsl", sines(600));
     b.line("render short.glsl --size 8x8 --compile-timeout 100 --out short.png").expect(0);
 }
+
+/// A driver that hangs, here for ever in the opening of its library, is told of, and the process ends all the same: its
+/// exit handlers would wait for the thread that was left behind.
+#[test]
+#[ignore = "takes two minutes"]
+#[cfg(target_os = "linux")]
+fn a_driver_that_hangs_ends_the_command() {
+    let b = Bench::new();
+    let fifo = b.path("driver.so");
+    assert!(std::process::Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    let driver = serde_json::json!({
+        "file_format_version": "1.0.0",
+        "ICD": { "library_path": fifo, "api_version": "1.1.0" },
+    });
+    b.write("driver.json", driver.to_string());
+    b.image("a.glsl", PLACE);
+    b.image("b.glsl", PLACE);
+    for (args, code) in [("render a.glsl b.glsl --frames 1 --size 8x8 --out out", 2), ("doctor", 2)] {
+        let mut command = b.command();
+        command.env("VK_DRIVER_FILES", b.path("driver.json")).env("WGPU_BACKEND", "vulkan");
+        let began = std::time::Instant::now();
+        let run = run(command.args(args.split(' '))).expect(code);
+        // Once for both files.
+        let took = began.elapsed().as_secs();
+        assert!((60..75).contains(&took), "{took} s");
+        let said = format!("{}{}", run.out, run.err);
+        let told = said.matches("the graphics driver has not answered for 60 s").count();
+        assert_eq!(told, if args == "doctor" { 1 } else { 2 }, "{said}");
+    }
+}

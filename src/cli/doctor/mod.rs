@@ -6,7 +6,7 @@ mod text;
 
 use super::args::DoctorArgs;
 use crate::{
-    gpu::{AdapterReport, DeviceReport},
+    gpu::{AdapterReport, DeviceReport, GpuError},
     session::home_as_tilde,
     video::Tools,
 };
@@ -183,7 +183,13 @@ pub fn build() -> String {
 
 impl Doctor {
     fn examine() -> Doctor {
-        let device = DeviceReport::of_default().map_err(|error| error.to_string()).map(|device| Device {
+        let device = DeviceReport::of_default();
+        let adapters = match device {
+            // It would not answer now either.
+            Err(GpuError::NoAnswer { .. }) => Vec::new(),
+            _ => AdapterReport::all().unwrap_or_default(),
+        };
+        let device = device.map_err(|error| error.to_string()).map(|device| Device {
             name: device.adapter,
             backend: device.backend,
             features: device.features,
@@ -194,7 +200,7 @@ impl Doctor {
         Doctor {
             build: Build { system: system(), libraries: libraries(), ..Build::of_this() },
             device: device.into(),
-            adapters: AdapterReport::all().into_iter().map(adapter).collect(),
+            adapters: adapters.into_iter().map(adapter).collect(),
             display: Display::of_environment(),
             fonts: fonts(),
             audio: audio(),

@@ -20,11 +20,12 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOut
     let p = theme::of(ui);
     ui.horizontal_wrapped(|ui| match search {
         Some(Status::UnderWay(Count { done, of })) => {
-            ui.spinner();
-            ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
+            // Before the words, which get wider: a button must not move away from the pointer.
             if out.clicked("buffers:stop", &ui.button("Stop")) {
                 out.ask(Command::FindNonfinite(false));
             }
+            ui.spinner();
+            ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
         }
         None => {
             if let Some(NonfiniteTexels { first: (x, y), count }) = bad {

@@ -104,7 +104,7 @@ fn recent_card(
         response.scroll_to_me(None);
     }
     if response.clicked() {
-        out.ask(Command::Open(path.clone()));
+        out.ask(Command::Open(project.spec()));
     }
     if !ui.is_rect_visible(rect) {
         return;

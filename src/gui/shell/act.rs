@@ -244,7 +244,7 @@ impl Shell {
         let opens = session.recent().iter().take(RECENT).map(|project| Offer {
             name: format!("recent:{}", project.path.display()),
             title: format!("Open recent: {} ({})", recent::title(&project.path), recent::parent(&project.path)),
-            command: Command::Open(project.path.display().to_string()),
+            command: Command::Open(project.spec()),
         });
         shows.chain(opens).collect()
     }
