@@ -2,7 +2,7 @@
 
 use super::opt::PassSet;
 
-/// Holds what the driver that will run a pass needs of its code; none of it changes a picture.
+/// Holds what the driver that will run a pass needs of its code; none of it changes a picture that is drawn in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Driver {
     /// The device reads no storage buffers in a fragment shader: large constant tables are then memory of each
@@ -37,6 +37,9 @@ pub struct Driver {
     /// Counters are hidden where they index an array in a loop within a loop: Mesa writes both loops out, whatever that
     /// costs (`nir_loop_analyze.c`).
     pub opaque_counters: bool,
+    /// Loops that may never end are left after some million rounds: no other program draws while one runs, where the
+    /// driver cannot stop it.
+    pub bounded_loops: bool,
     /// Passes of the optimiser that are left out: for who works on the compiler.
     pub without: PassSet,
 }

@@ -97,6 +97,9 @@ pub struct Gpu {
     /// Shaders are compiled on the processor by a compiler that takes time and memory out of proportion for large ones,
     /// in this process: LLVM, in lavapipe.
     pub compiles_here: bool,
+    /// A shader that never ends may keep every program from the device, until it is reset or longer. A processor has time
+    /// for others.
+    pub may_hang: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -222,6 +225,7 @@ impl Gpu {
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
+            may_hang: info.device_type != wgpu::DeviceType::Cpu,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),

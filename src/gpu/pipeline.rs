@@ -77,8 +77,8 @@ pub(super) fn shader_module(
     //   that happens, and `tests/it/random_programs` holds random programs against ones with every index clamped in
     //   their text.
     // - No division of integers traps: `tests/it/glsl_division.rs`, and the same random programs.
-    // - Loops are not bounded. One that never ends keeps the device busy until the driver's watchdog ends it, with
-    //   wgpu's counter up to 2^64 as without.
+    // - Loops that may never end are left after some million rounds where the device may hang
+    //   (`glsl/emit/work_arounds/endless_loops.rs`).
     unsafe {
         gpu.device.create_shader_module_trusted(
             wgpu::ShaderModuleDescriptor {

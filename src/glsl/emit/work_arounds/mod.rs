@@ -1,11 +1,12 @@
 //! Work-arounds for drivers, as changes of the program before it is emitted. Each file names the driver and its fault,
-//! or what the device lacks. None changes what a program computes. ([`super::long_arrays`] is the one that works on the
+//! or what the device lacks. None changes what a program computes that ends. ([`super::long_arrays`] is the one that works on the
 //! emitted module.)
 
 mod angles;
 mod counters;
 mod discard_exits;
 mod discards;
+mod endless_loops;
 mod filtering;
 mod limits;
 mod loop_exits;
@@ -21,6 +22,9 @@ pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
     if driver.small_arrays {
         small_arrays::run(program);
+    }
+    if driver.bounded_loops {
+        endless_loops::run(program);
     }
     loop_steps::run(program);
     zero_divisors::run(program);

@@ -186,13 +186,7 @@ impl Walk<'_> {
         if self.is_loaded(left, var, number) {
             return Some((op, right));
         }
-        let mirrored = match op {
-            Binary::Less => Binary::Greater,
-            Binary::Greater => Binary::Less,
-            Binary::LessEqual => Binary::GreaterEqual,
-            Binary::GreaterEqual => Binary::LessEqual,
-            _ => return None,
-        };
+        let mirrored = mirrored(op).filter(|op| *op != Binary::NotEqual)?;
         self.is_loaded(right, var, number).then_some((mirrored, left))
     }
 
@@ -236,8 +230,20 @@ fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
     found
 }
 
+/// Returns the comparison that says the same with its sides exchanged.
+pub(super) fn mirrored(op: Binary) -> Option<Binary> {
+    Some(match op {
+        Binary::Less => Binary::Greater,
+        Binary::Greater => Binary::Less,
+        Binary::LessEqual => Binary::GreaterEqual,
+        Binary::GreaterEqual => Binary::LessEqual,
+        Binary::NotEqual => Binary::NotEqual,
+        _ => return None,
+    })
+}
+
 /// The comparisons that hold where a condition is `truth`.
-fn holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
+pub(super) fn holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
     match f[condition] {
         Op::Unary { op: Unary::LogicalNot, operand } => holding(f, operand, !truth, out),
         Op::Binary { op, left, right } if truth => out.push((op, left, right)),

@@ -1,0 +1,175 @@
+//! Loops that end after rounds that a counter counts.
+
+use rustc_hash::FxHashSet;
+
+use super::{
+    counters::{holding, mirrored},
+    leaves, stores,
+};
+use crate::{
+    ir::{Binary, Block, Function, Global, Op, Stmt, Unary, Value, VarId},
+    types::{Scalar, TypeId},
+};
+
+/// Returns whether a loop ends whatever its values are: an int is compared with a limit that stays in each round, and
+/// each round adds a constant to it, towards the limit. It may have as many rounds as there are ints.
+pub fn ends(globals: &[Global], f: &Function, body: &Block, continuing: &Block, break_if: Option<Value>) -> bool {
+    let mut tests = Vec::new();
+    for stmt in body.iter().take_while(|stmt| !continues(stmt)) {
+        match stmt {
+            Stmt::If { condition, reject, .. } if leaves_loop(reject) => all_holding(f, *condition, true, &mut tests),
+            Stmt::If { condition, accept, .. } if leaves_loop(accept) => all_holding(f, *condition, false, &mut tests),
+            _ => {}
+        }
+    }
+    if let Some(condition) = break_if {
+        all_holding(f, condition, false, &mut tests);
+    }
+    if tests.is_empty() {
+        return false;
+    }
+    let mut rounds = Rounds { globals, f, body, continuing, computed: FxHashSet::default(), calls: false };
+    rounds.gather(body);
+    rounds.gather(continuing);
+    tests.iter().any(|&(op, left, right)| {
+        rounds.count_to(left, op, right) || mirrored(op).is_some_and(|op| rounds.count_to(right, op, left))
+    })
+}
+
+/// As [`holding`], of each side of an `&&` where both hold.
+fn all_holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
+    match f[condition] {
+        Op::Unary { op: Unary::LogicalNot, operand } => all_holding(f, operand, !truth, out),
+        Op::Binary { op: Binary::LogicalAnd, left, right } if truth => {
+            all_holding(f, left, true, out);
+            all_holding(f, right, true, out);
+        }
+        _ => holding(f, condition, truth, out),
+    }
+}
+
+/// Returns whether every way through a block leaves the loop around.
+fn leaves_loop(block: &Block) -> bool {
+    leaves(block) && !matches!(block.last(), Some(Stmt::Continue))
+}
+
+/// Returns whether a round of the loop around may end in a statement.
+fn continues(stmt: &Stmt) -> bool {
+    let any = |block: &Block| block.iter().any(continues);
+    match stmt {
+        Stmt::Continue => true,
+        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
+        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
+        _ => false,
+    }
+}
+
+/// What the rounds of a loop do.
+struct Rounds<'a> {
+    globals: &'a [Global],
+    f: &'a Function,
+    body: &'a Block,
+    continuing: &'a Block,
+    /// Values that a round computes.
+    computed: FxHashSet<Value>,
+    /// A round calls a function, which may write what all share.
+    calls: bool,
+}
+
+impl Rounds<'_> {
+    fn gather(&mut self, block: &Block) {
+        for stmt in block {
+            if let Stmt::Let(value) = stmt {
+                self.computed.insert(*value);
+                self.calls |= matches!(self.f[*value], Op::Call { .. });
+            }
+            stmt.blocks(|inner| self.gather(inner));
+        }
+    }
+
+    /// Returns whether `counter`, while it compares so with `limit`, comes nearer to it in each round.
+    fn count_to(&self, counter: Value, op: Binary, limit: Value) -> bool {
+        let Some(var) = self.loads(counter).filter(|_| matches!(self.f.ty(counter), TypeId::INT | TypeId::UINT)) else {
+            return false;
+        };
+        let Some(by) = self.step(var) else { return false };
+        let is_towards = match op {
+            Binary::Less | Binary::LessEqual => by > 0,
+            Binary::Greater | Binary::GreaterEqual => by < 0,
+            // All numbers come by.
+            Binary::NotEqual => by.abs() == 1,
+            _ => false,
+        };
+        is_towards && self.stays(limit)
+    }
+
+    /// Returns the variable that a value of a round was loaded from.
+    fn loads(&self, value: Value) -> Option<VarId> {
+        let Op::Load { place } = self.f[value] else { return None };
+        match self.f[place] {
+            Op::Var(var) if self.computed.contains(&value) => Some(var),
+            _ => None,
+        }
+    }
+
+    /// Returns what each round adds to a variable, if that is all that a round writes to it.
+    fn step(&self, var: VarId) -> Option<i64> {
+        if self.writes(Op::Var(var)) != 1 {
+            return None;
+        }
+        let stored = |stmt: &Stmt| match *stmt {
+            Stmt::Store { place, value } if self.f[place] == Op::Var(var) => Some(value),
+            _ => None,
+        };
+        // No round passes it over.
+        let whole = self.body.iter().take_while(|stmt| !continues(stmt)).chain(self.continuing);
+        let Op::Binary { op, left, right } = self.f[whole.into_iter().find_map(stored)?] else { return None };
+        let number = |value: Value| match self.f[value] {
+            Op::Literal(Scalar::Int, bits) => Some(i64::from(bits as i32)),
+            Op::Literal(Scalar::Uint, bits) => Some(i64::from(bits as i32)),
+            _ => None,
+        };
+        match op {
+            Binary::Add if self.loads(left) == Some(var) => number(right),
+            Binary::Add if self.loads(right) == Some(var) => number(left),
+            Binary::Subtract if self.loads(left) == Some(var) => Some(-number(right)?),
+            _ => None,
+        }
+    }
+
+    /// Counts the statements of a round that write to a variable, or to a part of it.
+    fn writes(&self, root: Op) -> usize {
+        let mut count = 0;
+        let mut visit = |place| count += usize::from(self.f[self.f.root(place)] == root);
+        stores(self.f, self.body, &mut visit);
+        stores(self.f, self.continuing, &mut visit);
+        count
+    }
+
+    /// Returns whether a value is the same in each round.
+    fn stays(&self, value: Value) -> bool {
+        if !self.computed.contains(&value) {
+            return true;
+        }
+        let op = &self.f[value];
+        match op {
+            Op::Call { .. } => false,
+            Op::Load { place } => {
+                let root = self.f[self.f.root(*place)].clone();
+                let is_shared = match root {
+                    Op::Global(global) => !self.globals[global.index()].kind.is_read_only(),
+                    Op::Param(_) => true,
+                    _ => false,
+                };
+                self.writes(root) == 0 && !(is_shared && self.calls) && self.all_stay(&self.f[*place])
+            }
+            op => self.all_stay(op),
+        }
+    }
+
+    fn all_stay(&self, op: &Op) -> bool {
+        let mut all = true;
+        op.operands(|operand| all &= self.stays(operand));
+        all
+    }
+}
