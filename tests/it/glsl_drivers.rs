@@ -377,14 +377,15 @@ fn loops_that_may_never_end_are_left() {
     for body in [
         "for (int i = 0; i < 9; i++) o += sin(p.x + float(i));",
         "for (int i = min(iFrame, 0); i < n; i++) o += sin(p.x + float(i));",
-        "for (int i = n; i > m; i -= 2) { if (p.x > 3.0) continue; o += sin(p.x + float(i)); }",
+        "for (int i = n; i > 2; i -= 2) { if (p.x > 3.0) continue; o += sin(p.x + float(i)); }",
         "for (uint i = 0u; i != 7u; ++i) { for (int j = 3; j >= 0; j--) o += sin(p.x + float(j)); }",
         "for (int i = 0;; i++) { if (i >= n || o.x > 3.0) break; o += sin(p.x + float(i)); }",
         "for (int i = 0; i < g * 2 + n; i++) o += sin(p.x + float(i));",
         "while (m < 100) { o += sin(p.x + float(m)); m++; }",
         "do { o += sin(p.x + float(m)); m++; } while (m < 100);",
-        "while (true) { o += sin(o + p.x); if (m++ > n) break; }",
-        "while (true) { o += sin(o + p.x); if (m-- < n) return; }",
+        "for (int i = 0; i <= 99; i += 3) o += sin(p.x + float(i));",
+        "while (true) { o += sin(o + p.x); if (++m >= n) break; }",
+        "while (true) { o += sin(o + p.x); if (--m <= n) return; }",
     ] {
         assert!(!is_bounded(body), "{body}");
     }
@@ -400,6 +401,10 @@ fn loops_that_may_never_end_are_left() {
         "while (m < 100) { o += sin(p.x + float(m)); if (o.x > 2.0) continue; m++; }",
         "while (m < 100) { o += sin(p.x + float(m)); if (o.x > 2.0) m++; }",
         "do { o += sin(p.x + o); } while (o.x < 3.0);",
+        // There may be no number beyond the limit.
+        "for (int i = 0; i <= n; i++) o += sin(p.x + float(i));",
+        "for (uint i = 9u; i >= 0u; i--) o += sin(p.x + float(i));",
+        "for (int i = 0; i < m; i += 2) o += sin(p.x + float(i));",
     ] {
         assert!(is_bounded(body), "{body}");
     }

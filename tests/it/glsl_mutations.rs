@@ -268,8 +268,15 @@ fn any_text_gets_an_answer() {
         let kind =
             [PassKind::Image, PassKind::Buffer, PassKind::Cubemap, PassKind::Sound][random.below(9).saturating_sub(5)];
         let [tables_in_memory, opaque_uniforms, may_discard, nan_angle] = [(); 4].map(|()| random.below(2) == 0);
-        let [array_loops, loop_closing_exits, opaque_limits, opaque_counters, discard_exits, small_arrays, bounded_loops] =
-            [(); 7].map(|()| random.below(2) == 0);
+        let [
+            array_loops,
+            loop_closing_exits,
+            opaque_limits,
+            opaque_counters,
+            discard_exits,
+            small_arrays,
+            bounded_loops,
+        ] = [(); 7].map(|()| random.below(2) == 0);
         let compile = || {
             let result = glsl::compile(&PassSource {
                 kind,

@@ -93,14 +93,30 @@ impl Rounds<'_> {
             return false;
         };
         let Some(by) = self.step(var) else { return false };
-        let is_towards = match op {
-            Binary::Less | Binary::LessEqual => by > 0,
-            Binary::Greater | Binary::GreaterEqual => by < 0,
+        // Numbers wrap: where none is beyond the limit, or it can be stepped over, no round is the last.
+        let (least, most) = match self.f.ty(counter) {
+            TypeId::INT => (i64::from(i32::MIN), i64::from(i32::MAX)),
+            _ => (0, i64::from(u32::MAX)),
+        };
+        let has_room = |beyond: i64| {
+            let limit = match self.f[limit] {
+                Op::Literal(Scalar::Int, bits) => i64::from(bits as i32),
+                Op::Literal(Scalar::Uint, bits) => i64::from(bits),
+                Op::Zero(_) => 0,
+                _ => return false,
+            };
+            (least..=most).contains(&(limit + beyond))
+        };
+        let counts = match op {
+            Binary::Less => by == 1 || (by > 0 && has_room(by - 1)),
+            Binary::Greater => by == -1 || (by < 0 && has_room(by + 1)),
+            Binary::LessEqual => by > 0 && has_room(by),
+            Binary::GreaterEqual => by < 0 && has_room(by),
             // All numbers come by.
             Binary::NotEqual => by.abs() == 1,
             _ => false,
         };
-        is_towards && self.stays(limit)
+        counts && self.stays(limit)
     }
 
     /// Returns the variable that a value of a round was loaded from.
