@@ -13,6 +13,7 @@ mod divergence;
 mod doctor;
 mod failure;
 mod lab;
+mod leave;
 mod library;
 mod machine;
 mod manuals;
@@ -40,7 +41,7 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::{gpu::loss, lsp, playback::trial};
+use crate::{lsp, playback::trial};
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
@@ -84,7 +85,7 @@ pub fn main() -> Next {
         Ok(Err(_)) => TROUBLE,
         Err(error) => trouble(format_args!("no thread could be started: {error}")),
     };
-    loss::end_process(code);
+    leave::end_process(code);
     Next::Exit(ExitCode::from(code))
 }
 

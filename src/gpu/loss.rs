@@ -1,13 +1,9 @@
-//! A device that is lost or hangs: what wgpu makes of it, another in its place, and how the process ends.
+//! A device that is lost or hangs: what wgpu makes of it, and another in its place.
 
 use crate::GpuError;
 use std::{
-    io::Write,
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
-    sync::{
-        atomic::{AtomicBool, Ordering},
-        mpsc::{RecvTimeoutError, channel},
-    },
+    sync::mpsc::{RecvTimeoutError, channel},
     time::Duration,
 };
 
@@ -20,30 +16,8 @@ const PAUSE: Duration = Duration::from_millis(250);
 /// Time after which a driver that opens a device is taken to hang. The first start of a driver compiles shaders of its own.
 const OPENS: Duration = Duration::from_secs(60);
 
-/// A thread was left behind in a call of the driver.
-static LEFT_BEHIND: AtomicBool = AtomicBool::new(false);
-
-/// Says that a thread is left behind in a call of the driver that may never return.
-pub fn leave_behind() {
-    LEFT_BEHIND.store(true, Ordering::Relaxed);
-}
-
-/// Ends the process if a thread was left behind in the driver, without the exit handlers of libraries: those of a driver
-/// would wait for that thread, or free what it uses.
-pub fn end_process(code: u8) {
-    if !LEFT_BEHIND.load(Ordering::Relaxed) {
-        return;
-    }
-    let _ = std::io::stdout().flush();
-    let _ = std::io::stderr().flush();
-    #[cfg(unix)]
-    // SAFETY: `_exit` takes any code and touches no memory of the process.
-    unsafe {
-        libc::_exit(code.into())
-    }
-    #[cfg(not(unix))]
-    std::process::exit(code.into())
-}
+/// The name of the thread that opens a device.
+pub const OPENER: &str = "open device";
 
 /// Opens a device on a thread that is left behind where the driver hangs, as that of an H200 (580.159) did while a shader of
 /// another process ran without end.
@@ -58,14 +32,11 @@ fn open_within<T: Send + 'static>(
     open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
 ) -> Result<T, GpuError> {
     let (sender, receiver) = channel();
-    let thread = std::thread::Builder::new().name("open device".into()).spawn(move || drop(sender.send(open())));
+    let thread = std::thread::Builder::new().name(OPENER.into()).spawn(move || drop(sender.send(open())));
     let thread = thread.map_err(|error| GpuError::NoAdapter(format!("no thread could be started: {error}")))?;
     match receiver.recv_timeout(limit) {
         Ok(opened) => opened,
-        Err(RecvTimeoutError::Timeout) => {
-            leave_behind();
-            Err(GpuError::NoAnswer { secs: limit.as_secs() })
-        }
+        Err(RecvTimeoutError::Timeout) => Err(GpuError::NoAnswer { secs: limit.as_secs() }),
         // The driver brought the thread down.
         Err(RecvTimeoutError::Disconnected) => match thread.join() {
             Err(panic) => resume_unwind(panic),

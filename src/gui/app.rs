@@ -18,7 +18,6 @@ use super::{
 use crate::{
     audio::host::AudioHost,
     control::{midi::host::MidiHost, pads::PadHost},
-    gpu::loss,
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
@@ -63,11 +62,7 @@ pub fn run(options: Options) -> Result<(), GuiError> {
     // Its own end would wait for what the driver's threads are at.
     app.running = None;
     match app.failed {
-        None if has_lost_threads => {
-            loss::leave_behind();
-            loss::end_process(0);
-            Ok(())
-        }
+        None if has_lost_threads => std::process::exit(0),
         None => Ok(()),
         Some(error) => Err(error),
     }

@@ -13,7 +13,7 @@ use eddy_engine::{
     BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
     Program, State, StateError,
 };
-use eddy_gpu::{Gpu, GpuError, loss};
+use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
 use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{
@@ -24,6 +24,9 @@ use std::{
 /// Drivers compile on the thread that draws, and recurse as deep as an expression is nested. Pages that are not used
 /// cost nothing.
 const STACK_BYTES: usize = 256 << 20;
+
+/// The name of a thread that draws a frame and may be left behind.
+pub const DRAWER: &str = "frame";
 
 /// A block of sound, 6 s of it, is given up after this time where nothing else is said: it could not be played as fast
 /// as it is made.
@@ -352,17 +355,14 @@ impl Offline {
                 std::mem::forget(engine);
             }
         };
-        let thread = std::thread::Builder::new().name("frame".into()).stack_size(STACK_BYTES).spawn(work);
+        let thread = std::thread::Builder::new().name(DRAWER.into()).stack_size(STACK_BYTES).spawn(work);
         let thread = thread.map_err(OfflineError::Thread)?;
         match receiver.recv_timeout(limit) {
             Ok((engine, done)) => {
                 self.engine = Some(engine);
                 Ok(Some(done?))
             }
-            Err(RecvTimeoutError::Timeout) => {
-                loss::leave_behind();
-                Ok(None)
-            }
+            Err(RecvTimeoutError::Timeout) => Ok(None),
             Err(RecvTimeoutError::Disconnected) => match thread.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(()) => Err(gone().into()),

@@ -8,7 +8,7 @@ pub type Complex = rustfft::num_complex::Complex<f64>;
 /// Transforms of one size.
 pub struct Fft {
     n: usize,
-    /// Of a line: there and back.
+    /// Transforms of a line: there and back.
     lines: [Arc<dyn rustfft::Fft<f64>>; 2],
 }
 

@@ -44,6 +44,7 @@ fn all_holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binar
             all_holding(f, left, true, out);
             all_holding(f, right, true, out);
         }
+        Op::Binary { op: Binary::Equal, left, right } if !truth => out.push((Binary::NotEqual, left, right)),
         _ => holding(f, condition, truth, out),
     }
 }
@@ -64,7 +65,7 @@ fn continues(stmt: &Stmt) -> bool {
     }
 }
 
-/// What the rounds of a loop do.
+/// The rounds of a loop.
 struct Rounds<'a> {
     globals: &'a [Global],
     f: &'a Function,
@@ -89,9 +90,10 @@ impl Rounds<'_> {
 
     /// Returns whether `counter`, while it compares so with `limit`, comes nearer to it in each round.
     fn count_to(&self, counter: Value, op: Binary, limit: Value) -> bool {
-        let Some(var) = self.loads(counter).filter(|_| matches!(self.f.ty(counter), TypeId::INT | TypeId::UINT)) else {
+        if !matches!(self.f.ty(counter), TypeId::INT | TypeId::UINT) {
             return false;
-        };
+        }
+        let Some(var) = self.loads(counter).or_else(|| self.stored_to(counter)) else { return false };
         let Some(by) = self.step(var) else { return false };
         // Numbers wrap: where none is beyond the limit, or it can be stepped over, no round is the last.
         let (least, most) = match self.f.ty(counter) {
@@ -126,6 +128,17 @@ impl Rounds<'_> {
             Op::Var(var) if self.computed.contains(&value) => Some(var),
             _ => None,
         }
+    }
+
+    /// Returns the variable that a value is stored to, as `++i` gives it.
+    fn stored_to(&self, value: Value) -> Option<VarId> {
+        self.body.iter().find_map(|stmt| match *stmt {
+            Stmt::Store { place, value: stored } if stored == value => match self.f[place] {
+                Op::Var(var) => Some(var),
+                _ => None,
+            },
+            _ => None,
+        })
     }
 
     /// Returns what each round adds to a variable, if that is all that a round writes to it.
