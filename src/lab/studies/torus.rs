@@ -57,7 +57,7 @@ const CIRCULATION: f64 = TAU * CORES[0] / 0.63817;
 
 /// Waves of the spectral reference of the shear layers, and its steps. With 128 waves the velocity differs by 6e-4.
 const WAVES: usize = 256;
-const STEPS: u32 = 384;
+const STEPS: u32 = 320;
 
 /// Waves of the vortex, whose spectrum falls to 1e-15 of its greatest there.
 const VORTEX_WAVES: usize = 128;
