@@ -323,7 +323,7 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         small_arrays: gpu.scatters_arrays,
         opaque_limits: gpu.misjudges_limits,
         opaque_counters: gpu.unrolls_whole_arrays,
-        bounded_loops: gpu.may_hang,
+        most_rounds: gpu.most_rounds,
         without: PassSet::default(),
     }
 }

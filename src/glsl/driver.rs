@@ -37,9 +37,9 @@ pub struct Driver {
     /// Counters are hidden where they index an array in a loop within a loop: Mesa writes both loops out, whatever that
     /// costs (`nir_loop_analyze.c`).
     pub opaque_counters: bool,
-    /// Loops that may never end are left after some million rounds: no other program draws while one runs, where the
-    /// driver cannot stop it.
-    pub bounded_loops: bool,
+    /// Loops that may never end are left after so many rounds of an invocation: no other program draws while one runs,
+    /// where the driver cannot stop it.
+    pub most_rounds: Option<u32>,
     /// Passes of the optimiser that are left out: for who works on the compiler.
     pub without: PassSet,
 }

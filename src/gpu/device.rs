@@ -60,6 +60,9 @@ pub enum GpuError {
     Refused { what: String, reason: String },
 }
 
+/// So many rounds of each pixel take a frame of 1920 x 1080 pixels more than ten seconds on the fastest device.
+const MOST_ROUNDS: u32 = 1 << 22;
+
 /// One device and its queue. Cheap to clone; every clone is the same device.
 #[derive(Clone)]
 pub struct Gpu {
@@ -97,9 +100,9 @@ pub struct Gpu {
     /// Shaders are compiled on the processor by a compiler that takes time and memory out of proportion for large ones,
     /// in this process: LLVM, in lavapipe.
     pub compiles_here: bool,
-    /// A shader that never ends may keep every program from the device, until it is reset or longer. A processor has time
-    /// for others.
-    pub may_hang: bool,
+    /// Rounds after which a shader leaves loops that may never end: it would keep every program from the device, until it
+    /// is reset or longer. `None`: on a processor, which has time for others.
+    pub most_rounds: Option<u32>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -225,7 +228,7 @@ impl Gpu {
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
-            may_hang: info.device_type != wgpu::DeviceType::Cpu,
+            most_rounds: (info.device_type != wgpu::DeviceType::Cpu).then_some(MOST_ROUNDS),
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),

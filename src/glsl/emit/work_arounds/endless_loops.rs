@@ -3,7 +3,8 @@
 //! shaders.
 //!
 //! The specification leaves to the platform what such a loop does (GLSL ES 3.00, section 6.3). Rounds of all loops
-//! of an invocation that no counter ends are counted together.
+//! of an invocation that no counter ends are counted together. (Mesa's llvmpipe leaves each loop after 65,535 rounds by itself:
+//! `LP_MAX_TGSI_LOOP_ITERATIONS`.)
 
 use crate::{
     ast::Loc,
@@ -11,41 +12,38 @@ use crate::{
     types::{Scalar, TypeId},
 };
 
-/// So many rounds of a pixel take a frame of 1920 x 1080 pixels more than ten seconds on the fastest device.
-const MOST_ROUNDS: u32 = 1 << 22;
-
-pub(super) fn run(program: &mut Module) {
+pub(super) fn run(program: &mut Module, most: u32) {
     let mut rounds = None;
     for index in 0..program.functions.len() {
         let mut f = std::mem::take(&mut program.functions[index]);
         let mut body = std::mem::take(&mut f.body);
-        block(program, &mut f, &mut body, &mut rounds);
+        block(program, &mut f, &mut body, (&mut rounds, most));
         f.body = body;
         program.functions[index] = f;
     }
 }
 
-fn block(program: &mut Module, f: &mut Function, stmts: &mut Block, rounds: &mut Option<GlobalId>) {
+fn block(program: &mut Module, f: &mut Function, stmts: &mut Block, (rounds, most): (&mut Option<GlobalId>, u32)) {
     for stmt in stmts {
-        stmt.blocks_mut(|inner| block(program, f, inner, rounds));
+        stmt.blocks_mut(|inner| block(program, f, inner, (&mut *rounds, most)));
         if let Stmt::Loop { body, continuing, break_if } = stmt
             && !analysis::ends(&program.globals, f, body, continuing, *break_if)
         {
             let new = || program.add_global(TypeId::UINT, GlobalKind::Private(None));
-            let counted = counted(f, *rounds.get_or_insert_with(new));
+            let counted = counted(f, *rounds.get_or_insert_with(new), most);
             body.splice(0..0, counted);
         }
     }
 }
 
 /// Returns statements that count a round, and leave the loop where there were enough.
-fn counted(f: &mut Function, rounds: GlobalId) -> [Stmt; 5] {
+fn counted(f: &mut Function, rounds: GlobalId, most: u32) -> [Stmt; 5] {
     let mut add = |op, ty| f.append(op, ty, Loc::default());
     let place = add(Op::Global(rounds), TypeId::UINT);
     let before = add(Op::Load { place }, TypeId::UINT);
     let one = add(Op::Literal(Scalar::Uint, 1), TypeId::UINT);
     let after = add(Op::Binary { op: Binary::Add, left: before, right: one }, TypeId::UINT);
-    let most = add(Op::Literal(Scalar::Uint, MOST_ROUNDS), TypeId::UINT);
+    let most = add(Op::Literal(Scalar::Uint, most), TypeId::UINT);
     let condition = add(Op::Binary { op: Binary::GreaterEqual, left: before, right: most }, TypeId::BOOL);
     [
         Stmt::Let(before),
@@ -62,12 +60,12 @@ mod tests {
 
     #[test]
     fn loops_that_no_counter_ends_are_bounded() {
-        let module = |body: &str, bounded_loops: bool| {
+        let module = |body: &str, bounded: bool| {
             let code = format!(
                 "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \
                  float t = 0.0; if (p.y > 9.0) n = 5; g = m; {body} }}"
             );
-            let driver = Driver { bounded_loops, ..Driver::default() };
+            let driver = Driver { most_rounds: bounded.then_some(1 << 22), ..Driver::default() };
             let compiled = crate::compile(&PassSource { driver, ..PassSource::image(&code) });
             format!("{:?}", compiled.unwrap_or_else(|errors| panic!("{code}: {errors:?}")).module)
         };

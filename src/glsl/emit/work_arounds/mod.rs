@@ -23,8 +23,8 @@ pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     if driver.small_arrays {
         small_arrays::run(program);
     }
-    if driver.bounded_loops {
-        endless_loops::run(program);
+    if let Some(most) = driver.most_rounds {
+        endless_loops::run(program, most);
     }
     loop_steps::run(program);
     zero_divisors::run(program);
