@@ -60,7 +60,7 @@ pub enum GpuError {
     Refused { what: String, reason: String },
 }
 
-/// So many rounds of each pixel take a frame of 1920 x 1080 pixels more than ten seconds on the fastest device.
+/// A choice: 1,000 times the rounds of a long ray march, and few enough to end. What counting them costs is not measured.
 const MOST_ROUNDS: u32 = 1 << 22;
 
 /// One device and its queue. Cheap to clone; every clone is the same device.

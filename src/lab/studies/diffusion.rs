@@ -45,7 +45,7 @@ pub static STUDY: Study = Study {
     error: "of the concentration",
     methods: METHODS,
     grids: three_of([32, 64, 128, 256]),
-    // Where the error of the step and that of the stencil cancel, as at 1/6, the peak is on neither side.
+    // Too large where it has spread too little. The error of the step and that of the stencil cancel near 1/6.
     signed: Some("square_error"),
     ..Study::of(setup, measure)
 };

@@ -1,10 +1,10 @@
 //! Loops that may never end, ended: a driver of a GPU cannot always stop a shader, and one that never ends then keeps the
-//! device from every program. An H100 and an H200 (driver 580.159) stood still for minutes, at two of some 1,300 public
-//! shaders.
+//! device from every program. An H100 and an H200 (driver 580.159) stood still for minutes, each after some 1,300 public
+//! shaders; a loop without end is the likely cause.
 //!
-//! The specification leaves to the platform what such a loop does (GLSL ES 3.00, section 6.3). Rounds of all loops
-//! of an invocation that no counter ends are counted together. (Mesa's llvmpipe leaves each loop after 65,535 rounds by itself:
-//! `LP_MAX_TGSI_LOOP_ITERATIONS`.)
+//! The specification leaves to the platform what such a loop does (GLSL ES 3.00, section 6.3). Rounds of all loops of an
+//! invocation that no counter ends are counted together. (Mesa's llvmpipe leaves each loop after 65,535 rounds by
+//! itself: `LP_MAX_TGSI_LOOP_ITERATIONS`.)
 
 use crate::{
     ast::Loc,

@@ -1,6 +1,6 @@
 //! Work-arounds for drivers, as changes of the program before it is emitted. Each file names the driver and its fault,
-//! or what the device lacks. None changes what a program computes that ends. ([`super::long_arrays`] is the one that works on the
-//! emitted module.)
+//! or what the device lacks. None changes what a program computes that ends. ([`super::long_arrays`] is the one that
+//! works on the emitted module.)
 
 mod angles;
 mod counters;
