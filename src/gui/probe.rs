@@ -1,7 +1,7 @@
 //! The bar over a picture that is a value of the code: what it is, how it is shown, its numbers.
 
 use super::{
-    histogram,
+    accessible, histogram,
     icons::{self, Icon},
     theme,
     ui_output::UiOutput,
@@ -14,9 +14,10 @@ use crate::{
         probe::{ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
     },
 };
-use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Ui, vec2};
+use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Role, Ui, vec2};
 
 const NAMES: [&str; 4] = ["x", "y", "z", "w"];
+
 /// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
 pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let Some(view) = session.probe() else { return };
@@ -73,7 +74,9 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut UiO
 fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut UiOutput) {
     let mut visit = place.visit;
     let field = DragValue::new(&mut visit).prefix("visit ").range(0..=100_000);
-    let response = ui.add(field).on_hover_text("Which evaluation to show: 0 is the first");
+    let response = ui.add(field);
+    accessible::name(&response, Role::SpinButton, "Evaluation to show");
+    let response = response.on_hover_text("Which evaluation to show: 0 is the first");
     out.place("probe:visit", response.rect);
     if visit != place.visit {
         out.ask(Command::Probe(Some(ProbePlace { visit, ..place.clone() })));
@@ -111,12 +114,15 @@ fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut UiOu
     let whole = view.numbers.map_or((0.0, 1.0), |numbers| numbers.statistics.extent(look.channel));
     let (mut low, mut high) = look.range.unwrap_or(whole);
     let speed = f64::from((high - low).abs()).max(1e-6) / 200.0;
-    let mut field = |ui: &mut Ui, name: &str, number: &mut f32| {
+    let mut field = |ui: &mut Ui, place: &str, name: &str, number: &mut f32| {
         let response = ui.add(DragValue::new(number).speed(speed).max_decimals(6));
-        out.place(name, response.rect);
-        response.changed()
+        accessible::name(&response, Role::SpinButton, format!("{name}: {number}"));
+        out.place(place, response.rect);
+        response.on_hover_text(name).changed()
     };
-    let is_typed = field(ui, "probe:low", &mut low) | field(ui, "probe:high", &mut high);
+    let is_low = field(ui, "probe:low", "Start of the range", &mut low);
+    let is_high = field(ui, "probe:high", "End of the range", &mut high);
+    let is_typed = is_low || is_high;
     if is_typed {
         look.range = Some((low, high));
     }

@@ -155,8 +155,8 @@ fn what_is_open_for_moments_has_names() {
     let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
     let at = stage.state().session.text(&tab).find("red * at").unwrap();
     stage.state_mut().session.apply(Command::Probe(Some(ProbePlace { tab, at, visit: 0 })));
-    until(&mut stage, "a probe", |stage| stage.state().shell.place("probe:close").is_some());
-    named(&stage, "a probe");
+    until(&mut stage, "a probe", |stage| stage.state().shell.place("probe:number").is_some());
+    has(&named(&stage, "a probe"), &["Evaluation to show"]);
     stage.state_mut().session.apply(Command::Probe(None));
 
     press(&mut stage, Modifiers::NONE, Key::F9);
