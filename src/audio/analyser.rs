@@ -2,7 +2,7 @@
 //! that it has when nobody touches it: 2,048 samples, smoothing .8, -100 to -30 dB. Shadertoy uploads the first 512
 //! entries of its two arrays as the two rows of a texture.
 
-use realfft::{RealFftPlanner, RealToComplex, num_complex::Complex};
+use eddy_signal::{self as signal, Complex, RealToComplex};
 use std::{collections::HashMap, f64::consts::TAU, sync::Arc};
 
 /// Entries of a row of the texture.
@@ -48,11 +48,7 @@ pub struct Analyser {
 
 impl Default for Analyser {
     fn default() -> Self {
-        Analyser {
-            fft: RealFftPlanner::new().plan_fft_forward(SIZE),
-            window: (0..SIZE).map(blackman).collect(),
-            known: HashMap::new(),
-        }
+        Analyser { fft: signal::real_forward(SIZE), window: (0..SIZE).map(blackman).collect(), known: HashMap::new() }
     }
 }
 

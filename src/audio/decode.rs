@@ -1,7 +1,7 @@
 //! Sound files of all common kinds, decoded as a whole.
 
 use crate::{SAMPLE_RATE, Sound};
-use rubato::{Fft, FixedSync, Resampler, WindowFunction, audioadapter_buffers::direct::InterleavedSlice};
+use eddy_signal::resample_stereo;
 use std::{
     io::Cursor,
     sync::{
@@ -238,7 +238,11 @@ impl<'a> Stereo<'a> {
         if self.frames.is_empty() {
             return Err(AudioError::NoTrack);
         }
-        let frames = if self.rate == SAMPLE_RATE { self.frames } else { resample(&self.frames, self.rate)? };
+        let frames = if self.rate == SAMPLE_RATE {
+            self.frames
+        } else {
+            resample_stereo(&self.frames, self.rate, SAMPLE_RATE).map_err(|e| AudioError::Damaged(e.to_string()))?
+        };
         let frames = frames.chunks_exact(2).map(|f| [f[0], f[1]]).collect();
         Ok(Sound { frames, truncated: self.truncated })
     }
@@ -257,25 +261,6 @@ fn mix(frame: &[f32]) -> [f32; 2] {
         [left, right, ..] => [left, right],
         [] => [0.0; 2],
     }
-}
-
-/// Interleaved stereo at [`SAMPLE_RATE`].
-fn resample(frames: &[f32], rate: u32) -> Result<Vec<f32>, AudioError> {
-    let damaged = |error: &dyn std::fmt::Display| AudioError::Damaged(format!("cannot be resampled: {error}"));
-    let count = frames.len() / 2;
-    let input = InterleavedSlice::new(frames, 2, count).map_err(|e| damaged(&e))?;
-    // Blocks of an even number of output frames: half of one is the delay that is cut off, and half a frame is not.
-    let period = 2 * (rate / gcd(rate, SAMPLE_RATE)) as usize;
-    let block = 1024usize.next_multiple_of(period);
-    let window = WindowFunction::BlackmanHarris2;
-    let rates = (rate as usize, SAMPLE_RATE as usize);
-    let mut resampler =
-        Fft::<f32>::new_custom(rates.0, rates.1, block, 1, 2, window, FixedSync::Both).map_err(|e| damaged(&e))?;
-    Ok(resampler.process_all(&input, count, None).map_err(|e| damaged(&e))?.take_data())
-}
-
-fn gcd(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! The discrete Fourier transform of n x n values, n a power of two.
 
-use rustfft::FftPlanner;
+use eddy_signal as signal;
 use std::{f64::consts::PI, sync::Arc};
 
-pub type Complex = rustfft::num_complex::Complex<f64>;
+pub type Complex = signal::Complex<f64>;
 
 /// Transforms of one size.
 pub struct Fft {
     n: usize,
     /// Transforms of a line: there and back.
-    lines: [Arc<dyn rustfft::Fft<f64>>; 2],
+    lines: [Arc<dyn signal::Fft<f64>>; 2],
 }
 
 impl Fft {
@@ -17,8 +17,7 @@ impl Fft {
     /// If `n` is no power of two.
     pub fn new(n: usize) -> Fft {
         assert!(n.is_power_of_two(), "{n} is no power of two");
-        let mut planner = FftPlanner::new();
-        Fft { n, lines: [planner.plan_fft_forward(n), planner.plan_fft_inverse(n)] }
+        Fft { n, lines: signal::forward_and_inverse(n) }
     }
 
     /// Transforms real values.

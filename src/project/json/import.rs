@@ -215,6 +215,7 @@ fn project(
     let mut passes: Vec<Pass> = Vec::new();
     // Reads of buffers in the order the site loads them, as (place in `passes`, channel).
     let mut reads: Vec<(usize, usize)> = Vec::new();
+    let mut covered = covered_images(&passes_read, warnings);
     for pass in passes_read {
         let kind = kind(&pass)?;
         let Some(code) = pass.code else {
@@ -238,6 +239,10 @@ fn project(
         };
         let buffer = || PassId::Buffer(names.of_passes.pop_front().unwrap_or_default());
         let id = known.id().unwrap_or_else(buffer);
+        if id == PassId::Image && covered > 0 {
+            covered -= 1;
+            continue;
+        }
         if passes.iter().any(|p| p.id == id) {
             return Err(Diagnostic::error(None, format!("the shader has two passes named {}", id.title()))
                 .hint("remove one of them"));
@@ -276,6 +281,18 @@ fn project(
     let name = if name.trim().is_empty() { stem.to_owned() } else { name };
     let info = Info { id, author, description, tags, extra };
     Ok(Project { info, common, sampler_rules: SamplerRules::Site, ..Project::new(name, passes, Origin::Unsaved) })
+}
+
+/// Returns how many Image passes the last one covers. The site draws all of them into its canvas, in the order of the file.
+fn covered_images(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> usize {
+    let is_image = |pass: &&RenderPass| kind(pass).is_ok_and(|kind| kind == PassId::Image.row().json_type);
+    let count = passes.iter().filter(is_image).count();
+    if count > 1 {
+        let message = format!("the shader has {count} Image passes; only the last one is read");
+        let hint = "on Shadertoy it is drawn over the others; move what you need of them into a buffer";
+        warnings.push(Diagnostic::warning(None, message).hint(hint));
+    }
+    count.saturating_sub(1)
 }
 
 /// The type of a pass, in lower case. Where there is none, the name says it as far as the site gives it: "Buf A".

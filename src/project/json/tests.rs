@@ -115,9 +115,26 @@ fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
 }
 
 #[test]
+fn the_last_of_several_images_is_the_picture() {
+    let image = |code: &str| {
+        let mut image = pass("image", None, &[]);
+        image["code"] = code.into();
+        image
+    };
+    let value = shader(&[image("// 1"), pass("buffer", Some("4dXGR8"), &[]), image("// 2"), image("// 3")]);
+    let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
+    let read: Vec<(String, &str)> = project.passes.iter().map(|p| (p.id.title(), &*p.source.text)).collect();
+    assert_eq!(read.len(), 2, "{read:?}");
+    assert_eq!((read[1].0.as_str(), read[1].1), ("Image", "// 3"));
+    let said: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
+    assert_eq!(said, ["the shader has 3 Image passes; only the last one is read"]);
+}
+
+#[test]
 fn what_is_no_shader_is_refused_with_place_and_expectation() {
     let no_image = shader(&[pass("common", None, &[])]).to_string();
-    let two_images = shader(&[pass("image", None, &[]), pass("image", None, &[])]).to_string();
+    let two_sounds =
+        shader(&[pass("sound", None, &[]), pass("sound", None, &[]), pass("image", None, &[])]).to_string();
     let unknown = shader(&[pass("image", None, &[]), pass("vertex", None, &[])]).to_string();
     let version = shader(&[pass("image", None, &[])]).to_string().replace("0.1", "0.2");
     for (text, expected) in [
@@ -142,7 +159,7 @@ fn what_is_no_shader_is_refused_with_place_and_expectation() {
         (version.as_str(), vec!["format version \"0.2\"", "\"ver\": \"0.1\""]),
         ("{ \"renderpass\": [] }", vec!["no Image pass"]),
         (no_image.as_str(), vec!["no Image pass"]),
-        (two_images.as_str(), vec!["two passes named Image"]),
+        (two_sounds.as_str(), vec!["two passes named Sound"]),
         (unknown.as_str(), vec!["unknown type \"vertex\""]),
     ] {
         let said = refusal(text);

@@ -20,6 +20,7 @@ use std::{
 
 /// The packages, each in the folder of its name, and the modules of the root package.
 const LAYERS: &[&str] = &[
+    "signal",
     "audio",
     "texture",
     "diag",
@@ -93,6 +94,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["SystemTime", "Zoned"],
         &[
+            "signal",
             "audio",
             "control",
             "texture",
@@ -117,11 +119,26 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     ),
     (
         &["Instant"],
-        &["texture", "diag", "project", "media", "glsl", "graph", "gpu", "engine", "film", "translate", "web", "lsp"],
+        &[
+            "signal",
+            "texture",
+            "diag",
+            "project",
+            "media",
+            "glsl",
+            "graph",
+            "gpu",
+            "engine",
+            "film",
+            "translate",
+            "web",
+            "lsp",
+        ],
     ),
     (
         &["env"],
         &[
+            "signal",
             "audio",
             "control",
             "texture",
@@ -140,6 +157,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
     (
         &["fs", "File", "OpenOptions"],
         &[
+            "signal",
             "audio",
             "control",
             "texture",
