@@ -55,8 +55,8 @@ const VISCOSITY: f64 = 1e-4;
 const CORES: [f64; 2] = [0.03, 0.05];
 const CIRCULATION: f64 = TAU * CORES[0] / 0.63817;
 
-/// Waves of the spectral reference of the shear layers, and its steps. Off 640 steps, the velocity is wrong by 5e-7; with
-/// 128 waves and 192 steps by 6e-4 (an independent program in f64).
+/// Waves of the spectral reference of the shear layers, and its steps. The velocity differs from that of 640 steps by
+/// 5e-7; with 128 waves and 192 steps it differs by 6e-4 (an independent program in f64).
 const WAVES: usize = 256;
 const STEPS: u32 = 320;
 
