@@ -12,6 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 use symphonia::core::{
+    audio::GenericAudioBufferRef,
     codecs::audio::{AudioDecoder, AudioDecoderOptions},
     errors::Error,
     formats::{FormatOptions, FormatReader, TrackType, probe::Hint},
@@ -110,7 +111,7 @@ fn decode_packets(
         return Err(AudioError::Channels(channels, limits.channels));
     }
     let mut format = open(file, extension)?;
-    let (track, mut decoder) = decoder(&*format)?;
+    let (track, bits, mut decoder) = decoder(&*format)?;
     let mut stereo = Stereo::new(limits);
     // Of a damaged file some readers give the same error for ever.
     let mut silent = 0;
@@ -139,6 +140,8 @@ fn decode_packets(
                     silent = 0;
                 }
                 audio.copy_to_vec_interleaved::<f32>(&mut samples);
+                let scale = scale_above_zero(&audio, bits);
+                samples.iter_mut().filter(|sample| **sample > 0.0).for_each(|sample| *sample *= scale);
                 if !stereo.push(&samples) {
                     break;
                 }
@@ -180,13 +183,28 @@ fn open(file: Arc<[u8]>, extension: Option<&str>) -> Result<Box<dyn FormatReader
         .map_err(|error| AudioError::Unknown(error.to_string()))
 }
 
-fn decoder(format: &dyn FormatReader) -> Result<(u32, Box<dyn AudioDecoder>), AudioError> {
+/// The track to play, the bits that a sample has in the file where it says so, and what decodes it.
+fn decoder(format: &dyn FormatReader) -> Result<(u32, Option<u32>, Box<dyn AudioDecoder>), AudioError> {
     let track = format.default_track(TrackType::Audio).ok_or(AudioError::NoTrack)?;
     let parameters = track.codec_params.as_ref().and_then(|p| p.audio()).ok_or(AudioError::NoTrack)?;
     let decoder = symphonia::default::get_codecs()
         .make_audio_decoder(parameters, &AudioDecoderOptions::default())
         .map_err(|error| AudioError::Unknown(error.to_string()))?;
-    Ok((track.id, decoder))
+    Ok((track.id, parameters.bits_per_sample, decoder))
+}
+
+/// The factor of samples above zero. In Chromium the least integer becomes -1 and the largest 1
+/// (media/base/audio_sample_types.h, `FixedSampleTypeTraits::ToFloat`), here -1 and 1 less one step. The difference is an
+/// offset, which the first bins of the analyser show in 16 bits. FFmpeg, which decodes there, has integers of 8 (only in
+/// WAV files), 16 and 32 bits.
+fn scale_above_zero(audio: &GenericAudioBufferRef<'_>, bits: Option<u32>) -> f32 {
+    let steps = match (audio, bits) {
+        (GenericAudioBufferRef::F32(_) | GenericAudioBufferRef::F64(_), _) => return 1.0,
+        (GenericAudioBufferRef::U8(_), _) => 128.0,
+        (_, Some(..=16)) => 32_768.0,
+        _ => return 1.0,
+    };
+    steps / (steps - 1.0)
 }
 
 /// Frames that have been decoded, mixed to two channels, at the file's rate.
@@ -277,15 +295,35 @@ mod tests {
         (0..count).map(|n| [value(n), -value(n)]).collect()
     }
 
+    /// Integers become floats as in Chromium: both ends of their range are ends of that from -1 to 1.
     #[test]
     fn a_wav_file_comes_back() {
-        let frames = sine(5000, 44_100.0);
+        let mut frames = sine(5000, 44_100.0);
+        frames[7] = [i16::MIN, i16::MAX];
         let sound = read(&wav(&frames)).unwrap();
         assert_eq!(sound.frames.len(), 5000);
-        for (got, wrote) in sound.frames.iter().zip(&frames) {
-            assert_eq!(got[0], f32::from(wrote[0]) / 32768.0);
-            assert_eq!(got[1], f32::from(wrote[1]) / 32768.0);
+        assert_eq!(sound.frames[7], [-1.0, 1.0]);
+        for (got, wrote) in sound.frames.iter().flatten().zip(frames.iter().flatten()) {
+            let exact = f64::from(*wrote) / if *wrote < 0 { 32_768.0 } else { 32_767.0 };
+            assert!((f64::from(*got) - exact).abs() <= 1e-7, "{wrote}: {got}");
         }
+    }
+
+    #[test]
+    fn samples_of_8_bits_and_floats_come_back() {
+        let with = |format: u16, bits: u16, data: &[u8]| {
+            let mut file = wav(&vec![[0; 2]; data.len() / 4]);
+            file[20..22].copy_from_slice(&format.to_le_bytes());
+            file[28..32].copy_from_slice(&(44_100 * 2 * u32::from(bits / 8)).to_le_bytes());
+            file[32..34].copy_from_slice(&(2 * bits / 8).to_le_bytes());
+            file[34..36].copy_from_slice(&bits.to_le_bytes());
+            let start = file.len() - data.len();
+            file[start..].copy_from_slice(data);
+            read(&file).unwrap().frames
+        };
+        assert_eq!(with(1, 8, &[0, 255, 128, 64]), [[-1.0, 1.0], [0.0, -0.5]]);
+        let floats: Vec<u8> = [0.25f32, -0.25, 1.0, 0.75].iter().flat_map(|x| x.to_le_bytes()).collect();
+        assert_eq!(with(3, 32, &floats), [[0.25, -0.25], [1.0, 0.75]]);
     }
 
     /// The header says another rate, so the sound is resampled: a 440 Hz sine stays one, and its opposite on the right too.

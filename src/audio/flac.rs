@@ -44,7 +44,8 @@ mod tests {
         assert!(file.starts_with(b"fLaC") && file.len() < frames.len() * 4);
         let sound = decode(file.into(), Some("flac"), &Limits::default()).unwrap();
         assert_eq!(sound.frames.len(), frames.len());
-        let back = sound.frames.iter().map(|frame| frame.map(|sample| (sample * 32768.0) as i16));
+        let whole = |sample: f32| (sample * if sample > 0.0 { 32767.0 } else { 32768.0 }).round() as i16;
+        let back = sound.frames.iter().map(|frame| frame.map(whole));
         assert!(back.eq(frames.iter().copied()));
     }
 }
