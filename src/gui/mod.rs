@@ -69,6 +69,7 @@ mod transport;
 mod ui_output;
 mod uniform_row;
 mod uses;
+mod value_range;
 mod viewport;
 mod window_identity;
 

@@ -5,13 +5,14 @@ use super::{
     icons::{self, Icon},
     theme,
     ui_output::UiOutput,
+    value_range,
 };
 use crate::{
     debugger::trace::Number,
     engine::{Paint, Pixels},
     session::{
         Command, Session,
-        probe::{ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
+        probe::{ProbePlace, ProbeView, ProbedValue, Statistics},
     },
 };
 use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Role, Ui, vec2};
@@ -103,33 +104,11 @@ fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutp
                 }
             }
         }
-        range(ui, view, &mut look, out);
+        let extent = view.numbers.map_or((0.0, 1.0), |numbers| numbers.statistics.extent(look.channel));
+        value_range::show(ui, "probe", extent, extent, &mut look.range, out);
     });
     if look != view.look {
         out.ask(Command::LookAtProbe(look));
-    }
-}
-
-fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut UiOutput) {
-    let whole = view.numbers.map_or((0.0, 1.0), |numbers| numbers.statistics.extent(look.channel));
-    let (mut low, mut high) = look.range.unwrap_or(whole);
-    let speed = f64::from((high - low).abs()).max(1e-6) / 200.0;
-    let mut field = |ui: &mut Ui, place: &str, name: &str, number: &mut f32| {
-        let response = ui.add(DragValue::new(number).speed(speed).max_decimals(6));
-        accessible::name(&response, Role::SpinButton, format!("{name}: {number}"));
-        out.place(place, response.rect);
-        response.on_hover_text(name).changed()
-    };
-    let is_low = field(ui, "probe:low", "Start of the range", &mut low);
-    let is_high = field(ui, "probe:high", "End of the range", &mut high);
-    let is_typed = is_low || is_high;
-    if is_typed {
-        look.range = Some((low, high));
-    }
-    let auto =
-        ui.selectable_label(look.range.is_none(), "Auto").on_hover_text("From the smallest to the largest value");
-    if out.clicked("probe:auto", &auto) {
-        look.range = if look.range.is_none() { Some((low, high)) } else { None };
     }
 }
 

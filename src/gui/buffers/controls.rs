@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     engine::Paint,
-    gui::{accessible, ui_output::UiOutput},
+    gui::{accessible, ui_output::UiOutput, value_range},
 };
 use egui::{DragValue, RichText, Ui};
 
@@ -87,29 +87,12 @@ fn channels(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
 }
 
 fn range(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
-    let whole = state.seen.as_ref().map_or((0.0, 1.0), |seen| {
+    let extent = state.seen.as_ref().map_or((0.0, 1.0), |seen| {
         let plain = seen.read.statistics.extremes.iter().take(3).flatten();
         let joined = plain.copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         state.look.channel.map_or(joined.unwrap_or((0.0, 1.0)), |one| seen.read.statistics.extent(Some(one)))
     });
-    let (mut low, mut high) = state.look.range.unwrap_or(whole);
-    let speed = f64::from((high - low).abs()).max(1e-6) / 200.0;
-    let mut field = |ui: &mut Ui, place: &str, name: &str, number: &mut f32| {
-        let response = ui.add(DragValue::new(number).speed(speed).max_decimals(4));
-        accessible::name(&response, egui::Role::SpinButton, format!("{name}: {number}"));
-        out.place(place, response.rect);
-        response.on_hover_text(name).changed()
-    };
-    let is_low = field(ui, "buffers:low", "Start of the range", &mut low);
-    let is_high = field(ui, "buffers:high", "End of the range", &mut high);
-    if is_low || is_high {
-        state.look.range = Some((low, high));
-    }
-    let auto =
-        ui.selectable_label(state.look.range.is_none(), "Auto").on_hover_text("From the smallest to the largest value");
-    if out.clicked("buffers:auto", &auto) {
-        state.look.range = if state.look.range.is_none() { Some((0.0, 1.0)) } else { None };
-    }
+    value_range::show(ui, "buffers", extent, (0.0, 1.0), &mut state.look.range, out);
 }
 
 fn exposure(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
