@@ -18,7 +18,8 @@
 //   cells), each step is shortened to that, time in the fluid goes slower, and Image hatches the foot of the picture. A
 //   lid of speed 2 without viscosity at ten times the speed else made the fluid five times as fast as itself; now nothing
 //   is faster than 1.1 times the lid. Left alone at its defaults, the preset never gets there.
-// - Viscosity: the heat equation's own weights (heat.glsl), so that no viscosity and no step is too much.
+// - Viscosity: the heat equation solved exactly in time and to fourth order in space (heat.glsl), so that no viscosity and
+//   no step is too much.
 // - Pressure: div grad q = div u, then u -= grad q, which on this grid leaves exactly the residual of q as divergence.
 //   One V(2,2)-cycle (A. Brandt, "Multi-Level Adaptive Solutions to Boundary-Value Problems", Math. Comp. 31, 1977;
 //   weighted Jacobi 0.8) a frame: ten grids, each half of the one before, so that the coarsest has a handful of cells

@@ -1,9 +1,14 @@
-// Viscosity along one direction: u_t = nu u_xx on the grid, solved exactly and not in steps. What is in one face has
-// after a time t gone to the n-th face from it by e^(-2a) I_n(2a), where a = nu t in cells squared and I_n are Bessel
-// functions. All weights are positive and their sum is 1, so that no viscosity is too much. They come from the far end
-// inwards by J. C. P. Miller's recurrence, I_(n-1) = I_(n+1) + (2 n / x) I_n (M. Abramowitz, I. Stegun, "Handbook of
-// Mathematical Functions", 9.12), and their sum as found makes them whole. Both directions one after the other are the
-// heat equation in the plane.
+// Viscosity along one direction: u_t = nu u_xx, solved exactly in time, so that no viscosity and no step is too much. With
+// a = nu t in cells squared, a wave k has e^(-a k^2) left of it. Both directions one after the other are the heat equation
+// in the plane.
+//
+// From a = 2 on the weights are the heat kernel's own, e^(-n^2 / 4a): sampled a cell apart it errs by e^(-a pi^2). Below,
+// they begin as the exact solution with second differences, whose Laplacian is s = 4 sin^2(k/2) in place of k^2: what is
+// in one face has gone to the n-th from it by w_n = e^(-2a) I_n(2a), I_n being Bessel functions, from the far end inwards
+// by J. C. P. Miller's recurrence, I_(n-1) = I_(n+1) + (2 n / x) I_n (M. Abramowitz, I. Stegun, "Handbook of Mathematical
+// Functions", 9.12). k^2 is s + s^2 / 12 and a rest of sixth order, so fourth differences of the weights, times -a / 12,
+// make them e^(-a s) (1 - a s^2 / 12). That is of fourth order, and never more than 1 in size, as s is at most 4.
+// Divided by their sum as found the weights make 1.
 //
 // The weights multiply differences from the face in the middle. Summed as they are, they make 1 only up to rounding,
 // which is to the same side in every frame: a uniform wind gained
@@ -20,16 +25,20 @@ vec2 spreadAlong(sampler2D field, ivec2 p, ivec2 direction, float amount) {
     if (amount < 1e-7) return centre;
     // Five standard deviations, and some for a so small that the weights are no Gaussian.
     int reach = int(ceil(5.0 * sqrt(2.0 * amount))) + 3;
-    float further = 0.0, weight = 1e-30, total = 0.0;
+    // w of n + 2, n + 1, n, n - 1 and n - 2.
+    float w2 = 0.0, w1 = 0.0, w = 1e-30, v1 = float(reach) / amount * w, v2 = w + float(reach - 1) / amount * v1;
+    float total = 0.0;
     vec2 sum = vec2(0.0);
     for (int n = reach; n > 0; n--) {
+        float weight = w - amount / 12.0 * (w2 - 4.0 * w1 + 6.0 * w - 4.0 * v1 + v2);
+        if (amount >= 2.0) weight = exp(-float(n * n) / (4.0 * amount));
         sum += weight * ((facesOf(field, p - n * direction) - centre) + (facesOf(field, p + n * direction) - centre));
         total += 2.0 * weight;
-        float nearer = further + float(n) / amount * weight;
-        further = weight;
-        weight = nearer;
+        float nearer = v1 + float(n - 2) / amount * v2;
+        w2 = w1, w1 = w, w = v1, v1 = v2, v2 = nearer;
     }
-    vec2 spread = centre + sum / (total + weight);
+    float middle = amount >= 2.0 ? 1.0 : w - amount / 12.0 * (2.0 * w2 - 8.0 * w1 + 6.0 * w);
+    vec2 spread = centre + sum / (total + middle);
     if (walls != PERIODIC) spread *= vec2(greaterThan(p, ivec2(0))); // the walls' own faces
     return spread;
 }
