@@ -35,7 +35,11 @@ vec2 spreadAlong(sampler2D field, ivec2 p, ivec2 direction, float amount) {
         sum += weight * ((facesOf(field, p - n * direction) - centre) + (facesOf(field, p + n * direction) - centre));
         total += 2.0 * weight;
         float nearer = v1 + float(n - 2) / amount * v2;
-        w2 = w1, w1 = w, w = v1, v1 = v2, v2 = nearer;
+        w2 = w1;
+        w1 = w;
+        w = v1;
+        v1 = v2;
+        v2 = nearer;
     }
     float middle = amount >= 2.0 ? 1.0 : w - amount / 12.0 * (2.0 * w2 - 8.0 * w1 + 6.0 * w);
     vec2 spread = centre + sum / (total + middle);

@@ -162,7 +162,8 @@ pub static STUDY: Study = Study {
            is the stiffness, and .55 the stiffest that is stable at rest. Strang's splitting and \
            advection-reflection (Zehnder, Narain and Thomaszewski 2018) put second-order steps around the same \
            bilinear MacCormack advection: they carry by the velocity in the middle of the step (Narain, \
-           Zehnder and Thomaszewski 2019), and viscosity is exact on the grid. The lattice by cumulants (Geier, \
+           Zehnder and Thomaszewski 2019), and viscosity is exact on the grid; that of fluid-accurate is of \
+           fourth order. The lattice by cumulants (Geier, \
            Schönherr, Pasquali and Krafczyk 2015) relaxes all but the shear stress at once. The presets run as they ship, \
            without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
            one wave. Mach is the greatest speed that was met over that of sound; growth/theory compares the growth of sound in the \
@@ -175,8 +176,8 @@ pub static STUDY: Study = Study {
     error: "of the velocity",
     methods: METHODS,
     grids: [[16, 32, MAIN_GRIDS[0]], [32, 64, MAIN_GRIDS[1]]],
-    // Too much energy is left where steps are short, as the grid's viscosity falls short of the fluid's, and too
-    // little where they are long.
+    // Too much energy is left where steps are short, as a viscosity of second differences falls short of the fluid's,
+    // and too little where they are long.
     signed: Some("energy_error"),
     race: Some(Race {
         method: "fluid-accurate",
