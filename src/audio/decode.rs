@@ -111,7 +111,7 @@ fn decode_packets(
         return Err(AudioError::Channels(channels, limits.channels));
     }
     let mut format = open(file, extension)?;
-    let (track, bits, mut decoder) = decoder(&*format)?;
+    let mut track = Track::of(&*format)?;
     let mut stereo = Stereo::new(limits);
     // Of a damaged file some readers give the same error for ever.
     let mut silent = 0;
@@ -128,10 +128,10 @@ fn decode_packets(
             Err(Error::DecodeError(_)) => continue,
             Err(error) => return Err(AudioError::Damaged(error.to_string())),
         };
-        if packet.track_id != track {
+        if packet.track_id != track.id {
             continue;
         }
-        match decoder.decode(&packet) {
+        match track.decoder.decode(&packet) {
             Ok(audio) => {
                 let (rate, channels) = (audio.spec().rate(), audio.spec().channels().count());
                 let mut samples = Vec::new();
@@ -140,7 +140,7 @@ fn decode_packets(
                     silent = 0;
                 }
                 audio.copy_to_vec_interleaved::<f32>(&mut samples);
-                let scale = scale_above_zero(&audio, bits);
+                let scale = scale_above_zero(&audio, track.bits);
                 samples.iter_mut().filter(|sample| **sample > 0.0).for_each(|sample| *sample *= scale);
                 if !stereo.push(&samples) {
                     break;
@@ -183,14 +183,23 @@ fn open(file: Arc<[u8]>, extension: Option<&str>) -> Result<Box<dyn FormatReader
         .map_err(|error| AudioError::Unknown(error.to_string()))
 }
 
-/// The track to play, the bits that a sample has in the file where it says so, and what decodes it.
-fn decoder(format: &dyn FormatReader) -> Result<(u32, Option<u32>, Box<dyn AudioDecoder>), AudioError> {
-    let track = format.default_track(TrackType::Audio).ok_or(AudioError::NoTrack)?;
-    let parameters = track.codec_params.as_ref().and_then(|p| p.audio()).ok_or(AudioError::NoTrack)?;
-    let decoder = symphonia::default::get_codecs()
-        .make_audio_decoder(parameters, &AudioDecoderOptions::default())
-        .map_err(|error| AudioError::Unknown(error.to_string()))?;
-    Ok((track.id, parameters.bits_per_sample, decoder))
+/// The track to play.
+struct Track {
+    id: u32,
+    /// Bits of a sample in the file, where it says so.
+    bits: Option<u32>,
+    decoder: Box<dyn AudioDecoder>,
+}
+
+impl Track {
+    fn of(format: &dyn FormatReader) -> Result<Track, AudioError> {
+        let track = format.default_track(TrackType::Audio).ok_or(AudioError::NoTrack)?;
+        let parameters = track.codec_params.as_ref().and_then(|p| p.audio()).ok_or(AudioError::NoTrack)?;
+        let decoder = symphonia::default::get_codecs()
+            .make_audio_decoder(parameters, &AudioDecoderOptions::default())
+            .map_err(|error| AudioError::Unknown(error.to_string()))?;
+        Ok(Track { id: track.id, bits: parameters.bits_per_sample, decoder })
+    }
 }
 
 /// The factor of samples above zero. In Chromium the least integer becomes -1 and the largest 1

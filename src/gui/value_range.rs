@@ -18,7 +18,7 @@ pub fn show(
     let mut field = |ui: &mut Ui, end: &str, name: &str, number: &mut f32| {
         let response = ui.add(DragValue::new(number).speed(speed).max_decimals(6));
         accessible::name(&response, Role::SpinButton, format!("{name}: {number}"));
-        out.place(&format!("{owner}:{end}"), response.rect);
+        out.place(format!("{owner}:{end}"), response.rect);
         response.on_hover_text(name).changed()
     };
     let is_low_new = field(ui, "low", "Start of the range", &mut low);
