@@ -19,7 +19,6 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
     );
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
-    window.wait_until("the new size", "layout", |e| e["window"] == serde_json::json!([1000, 700]));
     // One processor draws both.
     window.pause();
 

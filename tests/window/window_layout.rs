@@ -138,7 +138,6 @@ fn the_window_comes_back_as_it_was_closed() {
         let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
         window.compiled();
         window.resize(940, 620);
-        window.wait_until("the new size", "layout", |e| size(e) == Some((940, 620)));
         window.wait_for("some time", |e| e["event"] == "frame" && e["time"].as_f64() > Some(0.3));
         window.keys(&["F5"]);
         let paused = window.wait_until("the pause", "frame", |e| e["playing"] == false);
@@ -316,7 +315,6 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
         if turn == 0 {
             window.keys(&["F5"]);
             window.resize(940, 620);
-            window.wait_until("a size of one's own", "layout", |e| size(e) == Some((940, 620)));
             window.keys(&["super+m"]);
         }
         window.wait_until("the screen's size", "layout", is_large);

@@ -152,7 +152,7 @@ fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[Strin
         }
         _ => {
             let size = (320 + random.below(SCREEN.0 - 320) as u32, 240 + random.below(SCREEN.1 - 240) as u32);
-            window.resize(size.0, size.1);
+            window.ask_size(size.0, size.1);
             format!("size {size:?}")
         }
     }

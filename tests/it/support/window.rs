@@ -310,8 +310,18 @@ impl<'a> Window<'a> {
     }
 
     /// Gives the window a size at once, without waiting for it to follow.
-    pub fn resize(&self, width: u32, height: u32) {
+    pub fn ask_size(&self, width: u32, height: u32) {
         self.display.tool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
+    }
+
+    /// Gives it a size in pixels, and waits until it is laid out anew: a click on what is about to move would miss it.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        self.ask_size(width, height);
+        let is = |e: &Value, i: usize, pixels: u32| {
+            let points = e["window"][i].as_f64().zip(e["pixels_per_point"].as_f64());
+            points.is_some_and(|(points, scale)| (points * scale - f64::from(pixels)).abs() < 2.0)
+        };
+        self.wait_until("the new size", "layout", |e| is(e, 0, width) && is(e, 1, height));
     }
 
     /// Ends the process at once, as a power cut does (SIGKILL).
