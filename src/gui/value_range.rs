@@ -3,7 +3,7 @@
 use super::{accessible, ui_output::UiOutput};
 use egui::{DragValue, Role, Ui};
 
-/// Shows them, by the names of `owner`. `extent`: the smallest and the largest value. `fixed`: the range when Auto is
+/// Shows them; names of widgets begin with `owner`. `extent`: the smallest and the largest value. `fixed`: the range when Auto is
 /// switched off. `range`: what is set, none for Auto.
 pub fn show(
     ui: &mut Ui,
