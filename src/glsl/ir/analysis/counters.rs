@@ -186,7 +186,7 @@ impl Walk<'_> {
         if self.is_loaded(left, var, number) {
             return Some((op, right));
         }
-        let mirrored = mirrored(op)?;
+        let mirrored = mirrored(op).filter(|op| *op != Binary::NotEqual)?;
         self.is_loaded(right, var, number).then_some((mirrored, left))
     }
 
