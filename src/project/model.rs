@@ -423,4 +423,14 @@ impl Project {
         tabs.extend(self.readable_includes().map(|s| Tab::Included(s.name.clone())));
         tabs
     }
+
+    /// Returns the tab that an editor begins with: Image, or the file of an ISF project, as the texts of its passes are made.
+    pub fn main_tab(&self) -> Tab {
+        let file = match (&self.origin, self.dialect) {
+            (Origin::File(path), Dialect::Isf) => path.file_name(),
+            _ => None,
+        };
+        let own = self.readable_includes().find(|s| file.is_some_and(|name| name == s.name.as_str()));
+        own.map_or(Tab::Pass(PassId::Image), |s| Tab::Included(s.name.clone()))
+    }
 }

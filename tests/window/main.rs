@@ -14,6 +14,7 @@ mod window_controls;
 mod window_costs;
 mod window_devices;
 mod window_editor;
+mod window_elsewhere;
 mod window_endurance;
 mod window_fields;
 mod window_first;

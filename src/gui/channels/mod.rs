@@ -10,7 +10,7 @@ pub use live::Live;
 
 use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
 use crate::{
-    project::{self, Channel, Pass, Tab},
+    project::{self, Channel, Pass, PassId, Tab},
     session::Session,
 };
 use egui::{
@@ -38,6 +38,8 @@ pub fn title(session: &Session, tab: &Tab) -> String {
 fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
+        // What Image is made of, where an editor begins with it.
+        Tab::Included(_) if *tab == session.project().main_tab() => session.project().pass(&PassId::Image),
         Tab::Common | Tab::Included(_) => None,
     }
 }

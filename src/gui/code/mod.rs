@@ -247,14 +247,15 @@ impl CodePanel {
         if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {
             let moved = self.project.1 == Origin::Unsaved || self.project.0 != project.name;
             // Saving under a new name keeps the texts, and so their undo.
-            let kept = moved && self.editors.iter().all(|(tab, e)| session.text(tab) == e.buffer().text());
+            let is_same = |(tab, e): (&Tab, &CodeEditor)| session.text(tab) == e.buffer().text();
+            let kept = moved && !self.editors.is_empty() && self.editors.iter().all(is_same);
             if !kept {
                 self.editors.clear();
                 self.files.clear();
                 self.problem = None;
                 self.uses = None;
                 (self.rename, self.fixes) = (None, None);
-                self.current = Tab::Pass(PassId::Image);
+                self.bring(project.main_tab());
             }
             self.project = (project.name.clone(), project.origin.clone());
         }

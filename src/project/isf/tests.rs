@@ -122,6 +122,7 @@ fn a_vertex_shader_beside_it_is_included_too() {
     let mut included: Vec<&str> = project.includes.iter().map(|i| &*i.source.name).collect();
     included.sort_unstable();
     assert_eq!(included, ["a.fs", "a.vs"]);
+    assert_eq!(project.main_tab(), Tab::Included("a.fs".into()));
 }
 
 #[test]
