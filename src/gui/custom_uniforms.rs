@@ -2,7 +2,7 @@
 
 use super::{dock::COLLAPSED, theme, ui_output::UiOutput, uniform_row};
 use crate::{
-    project::CustomUniform,
+    project::{CustomUniform, Dialect},
     session::{Command, Session},
 };
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, Vec2};
@@ -46,14 +46,26 @@ pub fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
 }
 
+/// Returns how a project without sliders gets one: a sentence, and a line of code if there is one to write.
+fn how_to_declare(dialect: Dialect) -> (&'static str, &'static str) {
+    match dialect {
+        Dialect::Shadertoy => ("Add a line like this to get a slider:", "#iUniform float speed = 1.0 in { 0.0, 4.0 }"),
+        Dialect::Ghostty => ("Ghostty gives a shader its own uniforms and no others.", ""),
+        Dialect::Isf => (
+            "Add a line like this to INPUTS, and save, to get a slider:",
+            r#"{ "NAME": "speed", "TYPE": "float", "DEFAULT": 1.0, "MIN": 0.0, "MAX": 4.0 }"#,
+        ),
+    }
+}
+
 pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("uniforms", ui);
     let custom_uniforms = session.custom_uniforms();
     ui.spacing_mut().item_spacing.y = 3.0;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         if custom_uniforms.is_empty() {
-            ui.colored_label(theme::of(ui).weak, "Add a line like this to get a slider:");
-            let line = "#iUniform float speed = 1.0 in { 0.0, 4.0 }";
+            let (text, line) = how_to_declare(session.project().dialect);
+            ui.colored_label(theme::of(ui).weak, text);
             ui.add(egui::Label::new(RichText::new(line).monospace()).selectable(true));
         }
         for (name, members) in groups(custom_uniforms) {

@@ -257,6 +257,28 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
 }
 
 #[test]
+fn where_sliders_come_from_is_said_for_each_dialect() {
+    let Some(mut stage) = open(false) else { return };
+    let folder = stage.state().folder.path().to_owned();
+    let draws = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
+    std::fs::write(folder.join("plain.glsl"), draws).unwrap();
+    std::fs::write(folder.join("plain.fs"), "/*{ \"ISFVSN\": \"2\" }*/ void main() { gl_FragColor = vec4(1.0); }")
+        .unwrap();
+    stage.state_mut().shell.set_open(Panel::Uniforms, true);
+    let path = |name: &str| folder.join(name).display().to_string();
+    for (spec, expected) in [
+        (path("plain.glsl"), "#iUniform float speed = 1.0 in { 0.0, 4.0 }"),
+        (format!("ghostty:{}", path("plain.glsl")), "Ghostty gives a shader its own uniforms and no others."),
+        (path("plain.fs"), "Add a line like this to INPUTS, and save, to get a slider:"),
+    ] {
+        stage.state_mut().session.apply(Command::Open(spec.clone()));
+        settle(&mut stage);
+        assert!(texts(&stage).iter().any(|text| text == expected), "{spec}: {:?}", texts(&stage));
+        assert_eq!(texts(&stage).iter().any(|text| text.starts_with("#iUniform")), expected.starts_with('#'), "{spec}");
+    }
+}
+
+#[test]
 fn the_sliders_of_a_text_are_there_before_its_first_program() {
     let Some(mut stage) = open(false) else { return };
     let folder = stage.state().folder.path().join("broken");
