@@ -123,6 +123,17 @@ impl Session {
                 self.ask(Question::Overwrite { folder: home, files: paths });
                 false
             }
+            // Code is written where it can be, whatever else is not.
+            Err(ProjectError::CannotHold { what, .. })
+                if self.dialog.after_save.is_none() && self.save_texts(&home) =>
+            {
+                let place = home.display();
+                let text = format!(
+                    "saved the code of {place}; it cannot store {what}. Save again to put the project into a folder"
+                );
+                self.notice_about(About::Saving, Level::Warning, text);
+                false
+            }
             Err(e @ ProjectError::CannotHold { .. }) => {
                 self.notice_about(About::Saving, Level::Warning, e.to_string());
                 self.request_save_as();
@@ -185,6 +196,17 @@ impl Session {
         let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
         let text = format!("{files} kept in {}{time}", kept.display());
         self.notice_with_path(About::Saving, Level::Info, text, kept);
+    }
+
+    /// Writes the edited texts alone. False: there are none, or they have no place there either.
+    fn save_texts(&mut self, home: &Path) -> bool {
+        let Some(project) = self.documents.edited_texts() else { return false };
+        if project::save(&project, home, Overwrite::Refuse).is_err() {
+            return false;
+        }
+        self.read_disk();
+        self.compile.saved();
+        true
     }
 
     fn request_save_as(&mut self) {

@@ -9,7 +9,7 @@ use eddy::{
         offline::Offline,
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
-    project::{self, Channel, Input, PassEdit, PassId, Tab},
+    project::{self, Channel, CustomUniformValue, Input, PassEdit, PassId, Tab},
     session::{
         Answer, Command, Level, Meanwhile, Outcome, PendingAction, Question, Request, Session, SessionOptions,
         TabDiagnostic,
@@ -394,6 +394,43 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     assert_eq!((d.tab(), line(d)), (Some(&IMAGE), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));
     assert!(channels(&stage)[1].is_none());
+}
+
+/// A lone file has no place for a slider's value. Its code is written all the same, and once nothing but the value is left
+/// a place is asked for that can hold it.
+#[test]
+fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
+    let Some(gpu) = support::gpu() else { return };
+    let isf = "/*{ \"ISFVSN\": \"2\", \"INPUTS\": [\n{ \"NAME\": \"level\", \"TYPE\": \"float\", \"MAX\": 1.0 }\n] }*/\n\
+               void main() { gl_FragColor = vec4(level); }\n";
+    let lone =
+        "#iUniform float level = 0.0 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(level); }\n";
+    for (name, text, tab) in [("lone.glsl", lone, IMAGE), ("lone.fs", isf, Tab::Included("lone.fs".into()))] {
+        let mut stage = Stage::bare(gpu.clone());
+        stage.write(name, text);
+        stage.session.apply(Command::Open(stage.path(name).to_str().unwrap().into()));
+        stage.session.apply(Command::Pause);
+        stage.until_compiled();
+        let half = Some(CustomUniformValue::Float(0.5));
+        stage.session.apply(Command::SetCustomUniform { name: "level".into(), value: half });
+        let edited = text.replace("vec4(level)", "vec4(level + 0.25)");
+        stage.session.apply(Command::EditText { tab: tab.clone(), text: edited.clone() });
+        stage.session.apply(Command::Save);
+        assert_eq!(stage.read(name), edited);
+        assert!(!stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
+        let said = stage.session.notices().last().unwrap().text.clone();
+        assert!(said.contains("saved the code of") && said.contains("sliders"), "{said}");
+        assert_eq!(stage.session.take_request(), None);
+        stage.session.apply(Command::Save);
+        let suggested_name = "lone".to_owned();
+        assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
+        // Where the project is about to be left, all of it is to be kept.
+        stage.session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
+        stage.session.apply(Command::Close);
+        stage.session.apply(Command::Answer(Answer::Save));
+        assert!(matches!(stage.session.take_request(), Some(Request::SaveAs { .. })));
+        assert_eq!(stage.read(name), edited);
+    }
 }
 
 /// Everything that `eddy check` warns of is in the window's list of problems.

@@ -232,6 +232,9 @@ fn saving_writes_the_file_as_it_was_edited() {
     assert_eq!(fs::read_to_string(&file).unwrap(), edited);
     assert_eq!(saved.source(&tab).map(|s| &*s.text), Some(&*edited));
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    let mut other = project.clone();
+    other.source_mut(&Tab::Common).unwrap().text = "// mine".into();
+    assert!(matches!(save(&other, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
     project.custom_uniform_values.insert("decay".into(), crate::CustomUniformValue::Float(0.5));
     assert!(matches!(save(&project, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
     // As a folder it is a project like others, with the file in it.

@@ -31,6 +31,13 @@ impl Session {
         }
     }
 
+    /// Takes what lies on disk after texts alone were written.
+    pub(crate) fn read_disk(&mut self) {
+        if let Some(OnDisk::Project(project)) = DiskSync::read(&self.documents, true) {
+            self.merge(*project);
+        }
+    }
+
     fn merge(&mut self, disk: Loaded) {
         let merge = self.documents.merge(disk.project);
         self.note_reading(&disk.warnings, &disk.sources);

@@ -155,6 +155,21 @@ impl Documents {
         *self = Self { revision: self.revision + 1, ..Self::new(project) };
     }
 
+    /// Returns the project on disk with the texts as they are edited, if there are such and each is of a file of it: what
+    /// can be written where the rest cannot.
+    pub fn edited_texts(&self) -> Option<Project> {
+        let tabs = self.dirty_tabs();
+        let mut project = self.saved.clone();
+        for tab in &tabs {
+            let source = project.source_mut(tab).filter(|source| source.path.is_some())?;
+            source.text = self.current.source(tab)?.text.clone();
+        }
+        for included in &mut project.includes {
+            included.is_edited = tabs.contains(&Tab::Included(included.source.name.clone()));
+        }
+        (!tabs.is_empty()).then_some(project)
+    }
+
     pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
         match self.current.source(tab) {
             None => false,
