@@ -121,6 +121,8 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     window.click_on("tab:Image");
     window.click_on("problem:0");
     window.keys(&["ctrl+End", "shift+Home", "BackSpace"]);
+    // For this moment the text is the file's.
+    window.wait_until("its tab as saved", "dirty", |e| e["dirty"] == false);
     window.type_text("// end");
     let text = saved(&mut window, home.path(), "lib/tone.glsl");
     assert_eq!(text, format!("// by hand\n{TONE}// end"));
