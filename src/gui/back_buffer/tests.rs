@@ -110,54 +110,71 @@ fn events(random: &mut Random, size: [f32; 2], places: &[Pos2]) -> Vec<Event> {
     }
 }
 
+/// A test each, so that cores share them.
 #[test]
 fn painting_the_damage_is_painting_the_whole() {
+    paint_both((1.0, [900, 600], 1));
+}
+
+#[test]
+fn painting_the_damage_is_painting_the_whole_at_a_fractional_scale() {
+    paint_both((1.25, [903, 601], 2));
+}
+
+#[test]
+fn painting_the_damage_is_painting_the_whole_at_a_double_scale() {
+    paint_both((2.0, [1000, 700], 3));
+}
+
+fn paint_both((scale, size, seed): (f32, [u32; 2], u32)) {
     let Some(gpu) = testing::gpu() else { return };
-    for (scale, size, seed) in [(1.0, [900, 600], 1), (1.25, [903, 601], 2), (2.0, [1000, 700], 3)] {
-        let folder = tempfile::tempdir().unwrap();
-        let moving = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, sin(iTime), 1); }";
-        std::fs::write(folder.path().join("image.glsl"), moving).unwrap();
-        let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
-        session.apply(Command::Open(folder.path().display().to_string()));
-        let renderer = Renderer::new(&gpu.device, FORMAT, Default::default());
-        let mut painter = Painter {
-            gpu: gpu.clone(),
-            renderer,
-            back_buffer: BackBuffer::default(),
-            readback: Readback::default(),
-            painted: [0; 2],
+    let folder = tempfile::tempdir().unwrap();
+    let moving = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, sin(iTime), 1); }";
+    std::fs::write(folder.path().join("image.glsl"), moving).unwrap();
+    let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
+    session.apply(Command::Open(folder.path().display().to_string()));
+    let renderer = Renderer::new(&gpu.device, FORMAT, Default::default());
+    let mut painter = Painter {
+        gpu: gpu.clone(),
+        renderer,
+        back_buffer: BackBuffer::default(),
+        readback: Readback::default(),
+        painted: [0; 2],
+    };
+    let mut shell = Shell::new(gpu.clone(), Arc::new(|| ()), false);
+    let ctx = egui::Context::default();
+    theme::apply(&ctx);
+    let mut random = Random(seed);
+    let points = size.map(|pixels| pixels as f32 / scale);
+    for turn in 0..60 {
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(points[0], points[1]))),
+            // Animations go on at a rate of their own.
+            time: Some(f64::from(turn) / 30.0),
+            ..RawInput::default()
         };
-        let mut shell = Shell::new(gpu.clone(), Arc::new(|| ()), false);
-        let ctx = egui::Context::default();
-        theme::apply(&ctx);
-        let mut random = Random(seed);
-        let points = size.map(|pixels| pixels as f32 / scale);
-        for turn in 0..60 {
-            let mut input = RawInput {
-                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(points[0], points[1]))),
-                // Animations go on at a rate of their own.
-                time: Some(f64::from(turn) / 30.0),
-                ..RawInput::default()
-            };
-            input.viewports.get_mut(&ViewportId::ROOT).unwrap().native_pixels_per_point = Some(scale);
-            let places: Vec<Pos2> = ["code", "viewport", "play"]
-                .iter()
-                .filter_map(|widget| Some(shell.place(widget)?.center()))
-                .chain([pos2(5.0, 5.0)])
-                .collect();
-            input.events = events(&mut random, points, &places);
-            let output =
-                frame::run(&ctx, &mut shell, &mut session, &mut painter.renderer, input, Instant::now()).output;
-            if let Some(texture) = shell.take_new_texels(&session) {
-                painter.back_buffer.touch(texture);
-            }
-            let [parts, whole] = painter.paint(&ctx, output, size);
-            let first = parts.iter().zip(&whole).position(|(a, b)| a != b).map(|at| at / 4);
-            let first = first.map(|pixel| (pixel as u32 % size[0], pixel as u32 / size[0]));
-            assert_eq!(first, None, "frame {turn}, scale {scale}: the first pixel that differs");
+        input.viewports.get_mut(&ViewportId::ROOT).unwrap().native_pixels_per_point = Some(scale);
+        let places: Vec<Pos2> = ["code", "viewport", "play"]
+            .iter()
+            .filter_map(|widget| Some(shell.place(widget)?.center()))
+            .chain([pos2(5.0, 5.0)])
+            .collect();
+        input.events = events(&mut random, points, &places);
+        let output = frame::run(&ctx, &mut shell, &mut session, &mut painter.renderer, input, Instant::now()).output;
+        if let Some(texture) = shell.take_new_texels(&session) {
+            painter.back_buffer.touch(texture);
         }
-        let [parts, whole] = painter.painted;
-        // The picture plays, and a list over everything comes and goes.
-        assert!(parts * 4 < whole * 3, "{parts} of {whole} pixels were painted");
+        let [parts, whole] = painter.paint(&ctx, output, size);
+        if parts != whole {
+            let first = parts.iter().zip(&whole).position(|(a, b)| a != b).map_or(0, |at| at as u32 / 4);
+            panic!(
+                "frame {turn}, scale {scale}: ({}, {}) is the first pixel that differs",
+                first % size[0],
+                first / size[0]
+            );
+        }
     }
+    let [parts, whole] = painter.painted;
+    // The picture plays, and a list over everything comes and goes.
+    assert!(parts * 4 < whole * 3, "{parts} of {whole} pixels were painted");
 }
