@@ -9,27 +9,48 @@ use crate::{
     project::InputKind,
     session::{CameraState, Command, Session},
 };
-use egui::{Button, RichText, Ui, vec2};
+use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 
-/// The width that [`light`] takes at most.
+/// The width of a light of the camera or the network.
 const WIDTH: f32 = 112.0;
+/// The width of the shortest text of a light, and the gap behind it.
+pub const LEAST: f32 = 32.0 + 4.0;
+
+/// Adds a button of the width `wide` if there is so much room, otherwise a narrower one. It has the first of `texts` that
+/// fits, or the last with less space around it.
+pub fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32, f32)) -> Response {
+    let font = FontId::proportional(12.0);
+    let padding = 2.0 * ui.spacing().button_padding.x;
+    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), color).size().x + padding;
+    let fits = texts.iter().find(|text| width(text) <= room);
+    let text = fits.or(texts.last()).map_or("", |text| *text);
+    let least = if wide <= room { wide } else { 0.0 };
+    ui.scope(|ui| {
+        if fits.is_none() {
+            ui.spacing_mut().button_padding.x = 4.0;
+        }
+        ui.add(Button::new(RichText::new(text).font(font).color(color)).min_size(vec2(least, 24.0)))
+    })
+    .inner
+}
 
 /// Shows the light of a camera that is on, which turns it off; where a channel reads one that is off, a button to use it.
-pub fn light(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
     let state = session.device_state(kind);
     if state == CameraState::Off && !session.reads_device(kind) {
         return;
     }
     let p = theme::of(ui);
-    let (text, tip) = match state {
+    let (texts, color, tip): (&[&str], _, _) = match state {
         CameraState::Off => {
-            (RichText::new("Use the camera"), "A channel reads the webcam; it is black until you turn the camera on")
+            let tip = "A channel reads the webcam; it is black until you turn the camera on";
+            (&["Use the camera", "Camera", "Cam"], p.text, tip)
         }
-        CameraState::Starting => (RichText::new("● Camera…").color(p.warning), "The camera starts; click to stop it"),
-        CameraState::On => (RichText::new("● Camera on").color(p.error), "Click to turn the camera off"),
+        CameraState::Starting => (&["● Camera…", "●"], p.warning, "The camera starts; click to stop it"),
+        CameraState::On => (&["● Camera on", "● Camera", "●"], p.error, "Click to turn the camera off"),
     };
-    let button = ui.add(Button::new(text.size(12.0)).min_size(vec2(WIDTH.min(ui.available_width()), 24.0)));
+    let button = indicator(ui, texts, color, (WIDTH, room));
     let name = if state == CameraState::Off { "Use the camera" } else { "Turn the camera off" };
     accessible::name(&button, egui::Role::Button, name);
     let place = match state {
@@ -62,12 +83,18 @@ pub fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
+/// Returns the least room that [`network_light`] takes.
+pub fn network_least(session: &Session) -> f32 {
+    let view = session.controls_view();
+    let is_shown = view.is_osc_public && matches!(view.osc, Some(OscState::Listening(_)));
+    if is_shown { LEAST } else { 0.0 }
+}
+
 /// Shows that OSC comes in from the network, and not from this computer alone; a click turns it off.
-pub fn network_light(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub fn network_light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let view = session.controls_view();
     let Some(OscState::Listening(at)) = view.osc.filter(|_| view.is_osc_public) else { return };
-    let text = RichText::new("● OSC open").color(theme::of(ui).error).size(12.0);
-    let button = ui.add(Button::new(text).min_size(vec2(WIDTH.min(ui.available_width()), 24.0)));
+    let button = indicator(ui, &["● OSC open", "● OSC", "●"], theme::of(ui).error, (WIDTH, room));
     accessible::name(&button, egui::Role::Button, "Turn OSC off");
     let tip = format!("OSC is heard from the network at {at}; click to turn it off");
     if out.clicked("light:osc", &button.on_hover_text(tip)) {

@@ -3,23 +3,27 @@
 use super::{
     accessible,
     actions::Action,
+    devices,
     icons::{self, Icon},
     settings::Change,
     theme,
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::session::{Command, DeviceState, MicrophoneView, OutputView, Session};
-use egui::{Button, Id, RichText, Slider, Ui, vec2};
+use egui::{Id, Slider, Ui};
 
 /// Points of the slider.
 const SLIDER: f32 = 64.0;
+/// Points of the switch of mute, and the gap behind it.
+const MUTE: f32 = 28.0 + 4.0;
 /// Points of the microphone's button.
 const MICROPHONE: f32 = 116.0;
 
 /// Shows the parts that the project has a use for. `room`: what may be taken in all; the switch of mute is always there.
 pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
-    let microphone = session.microphone_view().filter(|view| view.is_read || view.is_on);
+    let microphone = microphone(session);
     let left = microphone.as_ref().map_or(room, |_| room - MICROPHONE);
+    let end = ui.cursor().min.x + room;
     if let Some(sound) = session.output_view().filter(|view| view.has_sound) {
         mute(ui, &sound, out);
         if left >= SLIDER + 40.0 {
@@ -27,8 +31,19 @@ pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
         }
     }
     if let Some(view) = microphone {
-        light(ui, &view, out);
+        light(ui, &view, end - ui.cursor().min.x, out);
     }
+}
+
+/// Returns the least room that [`show`] takes.
+pub fn least(session: &Session) -> f32 {
+    let mute = session.output_view().filter(|view| view.has_sound).map_or(0.0, |_| MUTE);
+    mute + microphone(session).map_or(0.0, |_| devices::LEAST)
+}
+
+/// The microphone, if the bar has its light.
+fn microphone(session: &Session) -> Option<MicrophoneView> {
+    session.microphone_view().filter(|view| view.is_read || view.is_on)
 }
 
 fn mute(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
@@ -69,17 +84,19 @@ fn volume(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     slider.on_hover_text(format!("Volume: {percent:.0} %"));
 }
 
-fn light(ui: &mut Ui, view: &MicrophoneView, out: &mut UiOutput) {
+fn light(ui: &mut Ui, view: &MicrophoneView, room: f32, out: &mut UiOutput) {
     let p = theme::of(ui);
-    let (text, color, tip) = match (view.is_on, &view.device) {
+    let (texts, color, tip): (&[&str], _, _) = match (view.is_on, &view.device) {
         (false, _) => {
-            ("Use microphone", p.text, "A channel reads the microphone; it shows a made-up spectrum until then")
+            let tip = "A channel reads the microphone; it shows a made-up spectrum until then";
+            (&["Use microphone", "Microphone", "Mic"], p.text, tip)
         }
-        (true, DeviceState::Missing(_)) => ("● No microphone", p.warning, "Click to stop looking for a microphone"),
-        (true, _) => ("● Microphone on", p.error, "Click to turn the microphone off"),
+        (true, DeviceState::Missing(_)) => {
+            (&["● No microphone", "● No mic", "●"], p.warning, "Click to stop looking for a microphone")
+        }
+        (true, _) => (&["● Microphone on", "● Mic on", "●"], p.error, "Click to turn the microphone off"),
     };
-    let text = RichText::new(text).size(12.0).color(color);
-    let button = ui.add(Button::new(text).min_size(vec2(MICROPHONE, 24.0)));
+    let button = devices::indicator(ui, texts, color, (MICROPHONE, room));
     let name = if view.is_on { "Turn the microphone off" } else { "Use the microphone" };
     accessible::name(&button, egui::Role::Button, name);
     if out.clicked("button:microphone", &button.on_hover_text(out.keys.tip(tip, Action::Microphone))) {

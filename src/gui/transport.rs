@@ -51,8 +51,10 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) ->
         button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
         recording(ui, session, out);
         film(ui, session, out);
-        devices::light(ui, session, out);
-        devices::network_light(ui, session, out);
+        // What stands behind leaves room for itself: of the lights, at least the dots.
+        let sound = sound_bar::least(session);
+        devices::light(ui, session, ui.available_width() - BEHIND - devices::network_least(session) - sound, out);
+        devices::network_light(ui, session, ui.available_width() - BEHIND - sound, out);
         sound_bar::show(ui, session, ui.available_width() - BEHIND, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
         let played = session.replay();

@@ -1,13 +1,16 @@
 //! Places of widgets: they keep to their order and grid, and what there is no room for can still be reached. Numbers of
 //! a paused picture are not shown as if they were of now.
 
-use super::harness::{CTRL_SHIFT, Stage, choose, click, open, press, texts};
+use super::harness::{CTRL_SHIFT, Stage, choose, click, open, open_with, press, texts, until};
 use crate::{
+    audio::fake::FakeHost,
     gui::theme::{DARK, LIGHT},
-    session::Command,
+    project::{PassId, Tab},
+    session::{Command, SessionOptions},
 };
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::NodeT as _;
+use std::sync::Arc;
 
 fn place(stage: &Stage, name: &str) -> egui::Rect {
     stage.state().shell.place(name).unwrap_or_else(|| panic!("no {name}"))
@@ -49,6 +52,30 @@ fn the_resolution_is_reached_in_a_small_window() {
     stage.set_size(vec2(1366.0, 800.0));
     stage.run_steps(4);
     assert!(place(&stage, "combo:size").width() > 60.0);
+}
+
+#[test]
+fn lights_of_devices_take_what_room_the_bar_has() {
+    let options = SessionOptions { audio: Some(Arc::new(FakeHost::default())), ..SessionOptions::default() };
+    let Some(mut stage) = open_with(false, options) else { return };
+    let text = "#iChannel0 \"webcam\"\n#iChannel1 \"microphone\"\n\
+                void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
+    stage.state_mut().session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: text.into() });
+    until(&mut stage, "a camera that is asked for", |stage| stage.state().shell.place("button:camera").is_some());
+    let names = ["play", "reset", "step-back", "step", "screenshot", "camera", "microphone", "options"];
+    let names: Vec<String> = names.iter().map(|name| format!("button:{name}")).chain(["combo:pass".into()]).collect();
+    for width in [760.0, 800.0, 900.0, 1100.0, 1600.0] {
+        stage.set_size(vec2(width, 600.0));
+        stage.run_steps(4);
+        let places: Vec<_> = names.iter().map(|name| (name, place(&stage, name))).collect();
+        for (n, (name, rect)) in places.iter().enumerate() {
+            for (other, beside) in &places[n + 1..] {
+                assert!(!rect.shrink(0.5).intersects(*beside), "{width}: {name} {rect} and {other} {beside}");
+            }
+        }
+        let is_wide = place(&stage, "button:camera").width() >= 112.0;
+        assert_eq!(is_wide, width > 1000.0, "{width}: {}", place(&stage, "button:camera"));
+    }
 }
 
 #[test]
