@@ -433,6 +433,30 @@ fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
     }
 }
 
+/// A buffer that is added to a shader of Ghostty has no place in its file: saving asks for a folder.
+#[test]
+fn what_is_added_to_a_shader_of_ghostty_is_not_lost_by_saving() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0); }\n";
+    stage.write("glow.glsl", text);
+    stage.session.apply(Command::Open(format!("ghostty:{}", stage.path("glow.glsl").display())));
+    stage.session.apply(Command::Pause);
+    stage.until_compiled();
+    let tab = Tab::Pass(PassId::Buffer("B".into()));
+    stage.session.apply(Command::AddTab(tab.clone()));
+    stage.session.apply(Command::EditText { tab: tab.clone(), text: text.replace("0.0", "0.5") });
+    stage.session.apply(Command::Save);
+    let suggested_name = "glow".to_owned();
+    assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
+    assert!(stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
+    assert_eq!(stage.read("glow.glsl"), text);
+    stage.session.apply(Command::SaveAs(stage.path("folder")));
+    assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
+    assert!(stage.read("folder/eddy.toml").contains("ghostty"));
+    assert!(stage.read("folder/buffer_b.glsl").contains("0.5"));
+}
+
 /// Everything that `eddy check` warns of is in the window's list of problems.
 #[test]
 fn what_check_warns_of_is_in_the_list_of_problems() {

@@ -3,7 +3,8 @@ use super::{
     script::{self, Grid, SPANS, Style},
     uniforms, values,
 };
-use crate::{Dialect, Input, Origin, PassId, Project, load, manifest};
+use crate::{Dialect, Input, Origin, Overwrite, Pass, PassId, Project, ProjectError, Source, load, manifest, save};
+use std::fs;
 
 #[test]
 fn the_font_has_every_character_of_the_script() {
@@ -66,7 +67,7 @@ fn a_cursor_is_given_by_its_left_and_upper_edge() {
 fn project(text: &str) -> Project {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("glow.glsl");
-    std::fs::write(&file, text).unwrap();
+    fs::write(&file, text).unwrap();
     load(&format!("ghostty:{}", file.display())).unwrap().project
 }
 
@@ -86,4 +87,52 @@ fn a_file_becomes_image_with_the_terminal_in_its_channel() {
 fn eddy_toml_keeps_the_dialect() {
     let text = manifest::write(&project("void mainImage(out vec4 c, in vec2 p) {}"), None, "glow", false);
     assert!(text.contains("dialect = \"ghostty\""), "{text}");
+}
+
+/// A change that a file of Ghostty has no place for is refused, as it would be lost; a folder has it all.
+#[test]
+fn a_file_is_saved_if_nothing_is_lost_by_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("glow.glsl");
+    let text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); }\n";
+    fs::write(&file, text).unwrap();
+    let project = load(&format!("ghostty:{}", file.display())).unwrap().project;
+    let edited = text.replace("0.0", "1.0");
+    let change = |change: &dyn Fn(&mut Project)| {
+        let mut changed = project.clone();
+        changed.pass_mut(&PassId::Image).unwrap().source.text = edited.clone().into();
+        change(&mut changed);
+        changed
+    };
+    let added = |project: &mut Project| {
+        let source = Source { name: "b".into(), path: None, text: "// mine".into() };
+        project.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
+    };
+    let refused: [(&str, &dyn Fn(&mut Project)); 7] = [
+        ("more passes", &added),
+        ("Common", &|project| project.common.as_mut().unwrap().text = "// mine".into()),
+        ("Common", &|project| project.common = None),
+        ("terminal", &|project| project.passes[0].source.text = "// mine".into()),
+        ("channels", &|project| {
+            let channels = &mut project.pass_mut(&PassId::Image).unwrap().channels;
+            channels[1] = channels[0].clone();
+        }),
+        ("sliders", &|project| {
+            project.custom_uniform_values.insert("x".into(), crate::CustomUniformValue::Float(0.5));
+        }),
+        ("description", &|project| project.info.author = "me".into()),
+    ];
+    for (word, edit) in refused {
+        match save(&change(edit), &file, Overwrite::Refuse) {
+            Err(ProjectError::CannotHold { what, .. }) => assert!(what.contains(word), "{word}: {what}"),
+            other => panic!("{word}: {other:?}"),
+        }
+        assert_eq!(fs::read_to_string(&file).unwrap(), text, "{word}");
+    }
+    let folder = dir.path().join("folder");
+    save(&change(&added), &folder, Overwrite::Refuse).unwrap();
+    let again = load(folder.to_str().unwrap()).unwrap().project;
+    assert_eq!((again.dialect, again.passes.len()), (Dialect::Ghostty, 3));
+    let saved = save(&change(&|_| ()), &file, Overwrite::Refuse).unwrap();
+    assert_eq!((fs::read_to_string(&file).unwrap(), saved.dialect), (edited, Dialect::Ghostty));
 }

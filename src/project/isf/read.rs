@@ -273,9 +273,13 @@ pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -
     let passes = project.passes.len() == fresh.passes.len()
         && project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b) && a.channels == b.channels);
     let text = |project: &Project| project.common.as_ref().map(|common| common.text.clone());
-    let others = text(project) == text(&fresh) && project.custom_uniform_values == fresh.custom_uniform_values;
+    let others = text(project) == text(&fresh)
+        && project.info == fresh.info
+        && project.custom_uniform_values == fresh.custom_uniform_values;
     if !passes || !others || !project.controls.is_empty() {
-        let what = "more than the text of an ISF file, such as values of sliders, Common or further passes".into();
+        let what =
+            "more than the text of an ISF file, such as values of sliders, a description, Common or further passes"
+                .into();
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
     let edited: Vec<_> = project.includes.iter().filter(|included| included.is_edited).collect();

@@ -235,6 +235,9 @@ fn saving_writes_the_file_as_it_was_edited() {
     let mut other = project.clone();
     other.source_mut(&Tab::Common).unwrap().text = "// mine".into();
     assert!(matches!(save(&other, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
+    let mut other = project.clone();
+    other.info.description = "mine".into();
+    assert!(matches!(save(&other, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
     project.custom_uniform_values.insert("decay".into(), crate::CustomUniformValue::Float(0.5));
     assert!(matches!(save(&project, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
     // As a folder it is a project like others, with the file in it.

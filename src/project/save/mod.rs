@@ -7,7 +7,7 @@ use super::{
     atomic::Content,
     confine, file_names,
     files::{Files, MANIFEST},
-    files_beside, folder, isf, json, limits,
+    files_beside, folder, ghostty, isf, json, limits,
     load::folder_name,
     manifest, picked,
     writes::{self, Overwrite, Writes},
@@ -100,22 +100,13 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     if project.common.is_some() {
         return cannot("anything but Image");
     }
-    if project.info != super::Info::default() {
-        return cannot("a description, an author or tags");
+    if let Some(what) = beside_texts(project, &project.passes) {
+        return cannot(what);
     }
     let mut saved = project.clone();
     folder::declare_channels(&mut saved);
     if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.channels != pass.channels) {
         return cannot("channels that its code does not declare in #iChannel lines");
-    }
-    if project.passes.iter().any(|p| p.settings != Default::default()) {
-        return cannot("how its pass is drawn");
-    }
-    if !project.custom_uniform_values.is_empty() {
-        return cannot("values of sliders that are not their defaults");
-    }
-    if !project.controls.is_empty() {
-        return cannot("controls of sliders");
     }
     let has_moved = project.origin.base_dir() != target.parent();
     if has_moved && !project.includes.is_empty() {
@@ -147,16 +138,47 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     Ok(saved)
 }
 
-/// Writes a custom shader of Ghostty: what stands around it is not the author's.
+/// Returns what a file of code alone has no place for, if the project has it: what is set for these passes, or beside all.
+fn beside_texts<'a>(project: &Project, passes: impl IntoIterator<Item = &'a Pass>) -> Option<&'static str> {
+    if project.info != super::Info::default() {
+        return Some("a description, an author or tags");
+    }
+    if passes.into_iter().any(|pass| pass.settings != Default::default()) {
+        return Some("how its pass is drawn");
+    }
+    if !project.custom_uniform_values.is_empty() {
+        return Some("values of sliders that are not their defaults");
+    }
+    (!project.controls.is_empty()).then_some("controls of sliders")
+}
+
+/// Writes a custom shader of Ghostty: what stands around it is not the author's, and must be as Eddy makes it.
 fn save_ghostty(
     project: &Project,
     target: &Path,
     own: bool,
     overwrite: Overwrite<'_>,
 ) -> Result<Project, ProjectError> {
-    let Some(image) = project.pass(&PassId::Image) else {
-        return Err(ProjectError::CannotHold { path: target.to_owned(), what: "anything but Image".into() });
-    };
+    let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
+    let Some(image) = project.pass(&PassId::Image) else { return cannot("anything but Image") };
+    let mut fresh = project.clone();
+    ghostty::dress(&mut fresh);
+    if project.passes.iter().map(|pass| &pass.id).ne(fresh.passes.iter().map(|pass| &pass.id)) {
+        return cannot("more passes than Image");
+    }
+    let text = |source: Option<&Source>| source.map(|source| source.text.clone());
+    let is_same =
+        |a: &Pass, b: &Pass| a.id == PassId::Image || a.source.text == b.source.text && a.settings == b.settings;
+    let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
+    if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
+        return cannot("changes of the terminal's picture or of Common");
+    }
+    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.channels != b.channels) {
+        return cannot("other channels than the terminal's picture in iChannel0");
+    }
+    if let Some(what) = beside_texts(project, [image]) {
+        return cannot(what);
+    }
     write_one(target, image.source.text.as_bytes().to_vec(), own, overwrite)?;
     let mut saved = project.clone();
     saved.name = name_at(target);
