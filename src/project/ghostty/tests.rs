@@ -98,7 +98,8 @@ fn a_file_is_saved_if_nothing_is_lost_by_it() {
     fs::write(&file, text).unwrap();
     let project = load(&format!("ghostty:{}", file.display())).unwrap().project;
     let edited = text.replace("0.0", "1.0");
-    let change = |change: &dyn Fn(&mut Project)| {
+    type Change<'a> = &'a dyn Fn(&mut Project);
+    let change = |change: Change<'_>| {
         let mut changed = project.clone();
         changed.pass_mut(&PassId::Image).unwrap().source.text = edited.clone().into();
         change(&mut changed);
@@ -108,7 +109,7 @@ fn a_file_is_saved_if_nothing_is_lost_by_it() {
         let source = Source { name: "b".into(), path: None, text: "// mine".into() };
         project.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
     };
-    let refused: [(&str, &dyn Fn(&mut Project)); 7] = [
+    let refused: [(&str, Change<'_>); 7] = [
         ("more passes", &added),
         ("Common", &|project| project.common.as_mut().unwrap().text = "// mine".into()),
         ("Common", &|project| project.common = None),
