@@ -22,9 +22,12 @@ pub enum Icon {
     Muted,
 }
 
+/// Points of a button.
+pub const WIDTH: f32 = 28.0;
+
 /// A button with a sign; `label` is what it is called to those who do not see it.
 pub fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 24.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     let visuals = ui.style().interact(&response);
     ui.painter().rect(rect, visuals.corner_radius, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);

@@ -15,7 +15,7 @@ use egui::{Id, Slider, Ui};
 /// Points of the slider.
 const SLIDER: f32 = 64.0;
 /// Points of the switch of mute, and the gap behind it.
-const MUTE: f32 = 28.0 + 4.0;
+const MUTE: f32 = icons::WIDTH + 4.0;
 /// Points of the microphone's button.
 const MICROPHONE: f32 = 116.0;
 

@@ -46,9 +46,18 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) ->
             }
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
-        button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
-        button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
-        button(ui, "button:screenshot", Icon::Camera, "Save screenshot of the shown pass (PNG)", Action::Screenshot);
+        // In a narrow bar they give way to what says that something is recorded or a device is on: keys do the same.
+        if ui.available_width() >= BEHIND + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
+            button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
+            button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
+            button(
+                ui,
+                "button:screenshot",
+                Icon::Camera,
+                "Save screenshot of the shown pass (PNG)",
+                Action::Screenshot,
+            );
+        }
         recording(ui, session, out);
         film(ui, session, out);
         // What stands behind leaves room for itself: of the lights, at least the dots.
@@ -100,6 +109,13 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) ->
         });
     });
     handle.drag_started()
+}
+
+/// Returns the least room of the marks of recordings and the lights of devices.
+fn least_of_lights(session: &Session) -> f32 {
+    let marks = [session.recorded_frames().is_some(), session.film().is_some_and(|film| film.is_busy())];
+    let marks = marks.into_iter().filter(|is_there| *is_there).count() as f32 * (RECORDING + 4.0);
+    marks + devices::least(session) + devices::network_least(session) + sound_bar::least(session)
 }
 
 /// Returns a number with so many digits behind the point, or as many as there is room for: it must not touch the one
