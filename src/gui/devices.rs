@@ -34,20 +34,23 @@ pub fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32
     .inner
 }
 
+/// Whether the camera is on, or a channel reads it.
+fn is_used(session: &Session) -> bool {
+    session.device_state(InputKind::Webcam) != CameraState::Off || session.reads_device(InputKind::Webcam)
+}
+
 /// Returns the least room that [`light`] takes.
 pub fn least(session: &Session) -> f32 {
-    let kind = InputKind::Webcam;
-    let is_shown = session.device_state(kind) != CameraState::Off || session.reads_device(kind);
-    if is_shown { LEAST } else { 0.0 }
+    if is_used(session) { LEAST } else { 0.0 }
 }
 
 /// Shows the light of a camera that is on, which turns it off; where a channel reads one that is off, a button to use it.
 pub fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
-    let kind = InputKind::Webcam;
-    let state = session.device_state(kind);
-    if least(session) == 0.0 {
+    if !is_used(session) {
         return;
     }
+    let kind = InputKind::Webcam;
+    let state = session.device_state(kind);
     let p = theme::of(ui);
     let (texts, color, tip): (&[&str], _, _) = match state {
         CameraState::Off => {
