@@ -34,7 +34,7 @@ pub fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32
     .inner
 }
 
-/// Whether the camera is on, or a channel reads it.
+/// Returns whether the camera is on, or a channel reads it.
 fn is_used(session: &Session) -> bool {
     session.device_state(InputKind::Webcam) != CameraState::Off || session.reads_device(InputKind::Webcam)
 }

@@ -41,7 +41,7 @@ pub fn least(session: &Session) -> f32 {
     mute + microphone(session).map_or(0.0, |_| devices::LEAST)
 }
 
-/// The microphone, if the bar has its light.
+/// Returns the microphone if the bar has its light.
 fn microphone(session: &Session) -> Option<MicrophoneView> {
     session.microphone_view().filter(|view| view.is_read || view.is_on)
 }
