@@ -6,7 +6,7 @@
 mod support;
 
 use eddy::{
-    engine::{BuildOptions, CostClock, FrameInputs, PassRole, When},
+    engine::{BuildOptions, CostClock, FrameInputs, PassRole, ReadTiming},
     gpu::GpuOptions,
     media::MediaSet,
     project::{PassSize, Project, TexelFormat},
@@ -60,9 +60,9 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
     // What each reads, also of the pass that is not drawn.
     let reads =
         |i: usize| costs[i].reads.iter().map(|r| (r.channel, r.pass.key(), r.when, r.is_used)).collect::<Vec<_>>();
-    assert_eq!(reads(0), [(0, name("buffer_a"), When::LastFrame, true)]);
-    assert_eq!(reads(1), [(0, name("buffer_a"), When::ThisFrame, true)]);
-    assert_eq!(reads(3), [(0, name("buffer_c"), When::LastFrame, false)]);
+    assert_eq!(reads(0), [(0, name("buffer_a"), ReadTiming::LastFrame, true)]);
+    assert_eq!(reads(1), [(0, name("buffer_a"), ReadTiming::ThisFrame, true)]);
+    assert_eq!(reads(3), [(0, name("buffer_c"), ReadTiming::LastFrame, false)]);
     let plan = engine.program().unwrap().plan();
     assert_eq!(plan.traffic(SIZE).bytes, costs.iter().map(|c| c.moved_bytes).sum::<u64>());
     assert_eq!(plan.target_bytes(SIZE), costs.iter().map(|c| c.held_bytes).sum::<u64>());

@@ -7,7 +7,7 @@ mod support;
 use eddy::{
     gpu::Gpu,
     project::{PassId, Tab},
-    session::{Command, Halt, Level, Meanwhile, Outcome, Session, SessionOptions},
+    session::{Command, FallbackPicture, Halt, Level, Outcome, Session, SessionOptions},
 };
 use std::{
     env, fs, process,
@@ -90,7 +90,7 @@ fn halted(session: &Session) -> bool {
 
 /// The picture is of the last good code, which is drawn instead of the newest.
 fn is_last_good(session: &Session) -> bool {
-    let failed = Outcome::Failed { errors: 1, meanwhile: Meanwhile::LastGood };
+    let failed = Outcome::Failed { errors: 1, meanwhile: FallbackPicture::LastGood };
     !halted(session) && session.compile_state().last == Some(failed)
 }
 

@@ -65,7 +65,8 @@ impl AudioOut for Machine {
         let long = StreamConfig { buffer_size: BufferSize::Fixed(long), ..config };
         let mut open = |config| {
             let fill = held_back(fill(format), format);
-            let stream = output(&device, supported.sample_format(), config, format, fill, teller(events.clone()));
+            let stream =
+                output(&device, supported.sample_format(), config, format, fill, report_errors(events.clone()));
             opened(&device, stream?, format)
         };
         open(long).or_else(|_| open(config))
@@ -79,18 +80,18 @@ fn output(
     config: StreamConfig,
     format: Format,
     fill: Fill,
-    told: impl FnMut(cpal::Error) + Send + 'static,
+    on_error: impl FnMut(cpal::Error) + Send + 'static,
 ) -> Result<Result<cpal::Stream, cpal::Error>, DeviceError> {
     Ok(match samples {
-        SampleFormat::F32 => played::<f32>(device, config, format, fill, told),
-        SampleFormat::F64 => played::<f64>(device, config, format, fill, told),
-        SampleFormat::I8 => played::<i8>(device, config, format, fill, told),
-        SampleFormat::I16 => played::<i16>(device, config, format, fill, told),
-        SampleFormat::I24 => played::<cpal::I24>(device, config, format, fill, told),
-        SampleFormat::I32 => played::<i32>(device, config, format, fill, told),
-        SampleFormat::U8 => played::<u8>(device, config, format, fill, told),
-        SampleFormat::U16 => played::<u16>(device, config, format, fill, told),
-        SampleFormat::U32 => played::<u32>(device, config, format, fill, told),
+        SampleFormat::F32 => played::<f32>(device, config, format, fill, on_error),
+        SampleFormat::F64 => played::<f64>(device, config, format, fill, on_error),
+        SampleFormat::I8 => played::<i8>(device, config, format, fill, on_error),
+        SampleFormat::I16 => played::<i16>(device, config, format, fill, on_error),
+        SampleFormat::I24 => played::<cpal::I24>(device, config, format, fill, on_error),
+        SampleFormat::I32 => played::<i32>(device, config, format, fill, on_error),
+        SampleFormat::U8 => played::<u8>(device, config, format, fill, on_error),
+        SampleFormat::U16 => played::<u16>(device, config, format, fill, on_error),
+        SampleFormat::U32 => played::<u32>(device, config, format, fill, on_error),
         other => return Err(unsupported(device, other)),
     })
 }
@@ -121,17 +122,17 @@ impl AudioIn for Machine {
         let supported = ours.unwrap_or(usual);
         let (format, config) = format(&supported);
         let take = take(format);
-        let told = teller(events);
+        let on_error = report_errors(events);
         let stream = match supported.sample_format() {
-            SampleFormat::F32 => recorded::<f32>(&device, config, take, told),
-            SampleFormat::F64 => recorded::<f64>(&device, config, take, told),
-            SampleFormat::I8 => recorded::<i8>(&device, config, take, told),
-            SampleFormat::I16 => recorded::<i16>(&device, config, take, told),
-            SampleFormat::I24 => recorded::<cpal::I24>(&device, config, take, told),
-            SampleFormat::I32 => recorded::<i32>(&device, config, take, told),
-            SampleFormat::U8 => recorded::<u8>(&device, config, take, told),
-            SampleFormat::U16 => recorded::<u16>(&device, config, take, told),
-            SampleFormat::U32 => recorded::<u32>(&device, config, take, told),
+            SampleFormat::F32 => recorded::<f32>(&device, config, take, on_error),
+            SampleFormat::F64 => recorded::<f64>(&device, config, take, on_error),
+            SampleFormat::I8 => recorded::<i8>(&device, config, take, on_error),
+            SampleFormat::I16 => recorded::<i16>(&device, config, take, on_error),
+            SampleFormat::I24 => recorded::<cpal::I24>(&device, config, take, on_error),
+            SampleFormat::I32 => recorded::<i32>(&device, config, take, on_error),
+            SampleFormat::U8 => recorded::<u8>(&device, config, take, on_error),
+            SampleFormat::U16 => recorded::<u16>(&device, config, take, on_error),
+            SampleFormat::U32 => recorded::<u32>(&device, config, take, on_error),
             other => return Err(unsupported(&device, other)),
         };
         opened(&device, stream, format)
@@ -204,7 +205,7 @@ fn opened(
 ///
 /// ALSA's plugin for PulseAudio fails with EIO until the server has told it of its delay, and plays on. So an error ends a
 /// stream only where it says so, or where errors follow each other for [`TROUBLE`].
-fn teller(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
+fn report_errors(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
     let mut is_gone = false;
     let mut trouble: Option<(Instant, Instant)> = None;
     move |error| {
@@ -250,9 +251,9 @@ fn held_back(mut fill: Fill, format: Format) -> Fill {
 struct StreamClock {
     /// Moments of both that belong together, but for the wait.
     base: Option<(Instant, StreamInstant)>,
-    /// Seconds of the shortest wait, and when it was told last.
+    /// Seconds of the shortest wait, and the time of the newest callback by the stream's clock.
     wait: f64,
-    told: f64,
+    callback_secs: f64,
 }
 
 impl StreamClock {
@@ -261,12 +262,12 @@ impl StreamClock {
 
     fn heard_at(&mut self, times: OutputStreamTimestamp, now: Instant) -> Instant {
         let (ours, theirs) = *self.base.get_or_insert((now, times.callback));
-        let told = times.callback.duration_since(theirs).as_secs_f64();
-        let wait = now.duration_since(ours).as_secs_f64() - told;
-        self.wait = wait.min(self.wait + Self::DRIFT * (told - self.told).max(0.0));
-        self.told = told;
+        let callback_secs = times.callback.duration_since(theirs).as_secs_f64();
+        let wait = now.duration_since(ours).as_secs_f64() - callback_secs;
+        self.wait = wait.min(self.wait + Self::DRIFT * (callback_secs - self.callback_secs).max(0.0));
+        self.callback_secs = callback_secs;
         let delay = times.playback.duration_since(times.callback).as_secs_f64();
-        let secs = told + self.wait + delay;
+        let secs = callback_secs + self.wait + delay;
         ours.checked_add(Duration::try_from_secs_f64(secs.max(0.0)).unwrap_or_default()).unwrap_or(now)
     }
 }
@@ -276,7 +277,7 @@ fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
     config: StreamConfig,
     format: Format,
     mut fill: Fill,
-    told: impl FnMut(cpal::Error) + Send + 'static,
+    on_error: impl FnMut(cpal::Error) + Send + 'static,
 ) -> Result<cpal::Stream, cpal::Error> {
     // Whole frames.
     let mut scratch = vec![0.0_f32; (CONVERTED / format.channels).max(1) * format.channels];
@@ -294,14 +295,14 @@ fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
             heard_at += Duration::from_secs_f64((part.len() / format.channels) as f64 / f64::from(format.rate));
         }
     };
-    device.build_output_stream_raw(config, T::FORMAT, callback, told, None)
+    device.build_output_stream_raw(config, T::FORMAT, callback, on_error, None)
 }
 
 fn recorded<T: SizedSample + Send + 'static>(
     device: &cpal::Device,
     config: StreamConfig,
     mut take: Take,
-    told: impl FnMut(cpal::Error) + Send + 'static,
+    on_error: impl FnMut(cpal::Error) + Send + 'static,
 ) -> Result<cpal::Stream, cpal::Error>
 where
     f32: FromSample<T>,
@@ -319,7 +320,7 @@ where
             take(taken);
         }
     };
-    device.build_input_stream_raw(config, T::FORMAT, callback, told, None)
+    device.build_input_stream_raw(config, T::FORMAT, callback, on_error, None)
 }
 
 #[cfg(test)]

@@ -134,9 +134,9 @@ impl FakeOut {
 }
 
 /// Closes a device of a test when it is dropped.
-struct Closer(Arc<Mutex<Out>>, u64);
+struct CloseOnDrop(Arc<Mutex<Out>>, u64);
 
-impl Drop for Closer {
+impl Drop for CloseOnDrop {
     fn drop(&mut self) {
         let mut out = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if out.attempts as u64 == self.1 {
@@ -165,7 +165,7 @@ impl AudioOut for FakeOut {
         };
         let format = out.format;
         out.open = Some(Playing { fill: fill(format), events, since: None, frames: 0 });
-        let closer = Closer(self.0.clone(), out.attempts as u64);
+        let closer = CloseOnDrop(self.0.clone(), out.attempts as u64);
         Ok(Opened { name: known, format, stream: Box::new(closer) })
     }
 }
@@ -208,9 +208,9 @@ impl FakeIn {
     }
 }
 
-struct Unplug(Arc<Mutex<In>>);
+struct UnplugOnDrop(Arc<Mutex<In>>);
 
-impl Drop for Unplug {
+impl Drop for UnplugOnDrop {
     fn drop(&mut self) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take = None;
     }
@@ -233,6 +233,6 @@ impl AudioIn for FakeIn {
         }
         let format = Format { rate: crate::SAMPLE_RATE, channels: 1 };
         input.take = Some(take(format));
-        Ok(Opened { name: "microphone".into(), format, stream: Box::new(Unplug(self.0.clone())) })
+        Ok(Opened { name: "microphone".into(), format, stream: Box::new(UnplugOnDrop(self.0.clone())) })
     }
 }

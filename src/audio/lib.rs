@@ -32,7 +32,7 @@ pub use decode::{AudioError, Limits, decode};
 pub use flac::flac;
 pub use keeper::DeviceState;
 pub use peaks::{Peak, Peaks};
-pub use scene::{Desired, Line, MOST_SOURCES, Resampler, Scene, Source};
+pub use scene::{MOST_SOURCES, OutputState, Resampler, Scene, Source, Timeline};
 pub use spectrum::TrackSpectrum;
 pub use synthetic::synthetic;
 pub use track::Track;

@@ -21,37 +21,37 @@ const KEPT: usize = 10 * SAMPLE_RATE as usize;
 const CALLS: usize = 64;
 
 /// Samples that come from the device, mono, at its own rate.
-struct Line {
+struct InputStream {
     rate: u32,
     samples: Consumer<f32>,
 }
 
-type Shared = Arc<Mutex<Option<Line>>>;
+type Shared = Arc<Mutex<Option<InputStream>>>;
 
 /// Records while it is switched on.
 pub struct Microphone {
     keeper: Keeper<Recording>,
     line: Shared,
-    heard: Heard,
+    heard: RecordedSamples,
 }
 
 impl Microphone {
     /// `wake` is called from another thread when the state of the device has changed. Nothing is recorded yet.
     pub fn on_thread(host: &dyn AudioHost, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let (recording, line) = Recording::new(host);
-        Ok(Self { keeper: Keeper::on_thread("microphone", recording, wake)?, line, heard: Heard::default() })
+        Ok(Self { keeper: Keeper::on_thread("microphone", recording, wake)?, line, heard: RecordedSamples::default() })
     }
 
     /// Without a thread: the device is opened by [`Microphone::step`].
     pub fn here(host: &dyn AudioHost) -> Self {
         let (recording, line) = Recording::new(host);
-        Self { keeper: Keeper::here(recording), line, heard: Heard::default() }
+        Self { keeper: Keeper::here(recording), line, heard: RecordedSamples::default() }
     }
 
     /// Switches it on or off. What was recorded is forgotten.
     pub fn switch(&mut self, on: bool) {
         self.keeper.order(on);
-        self.heard = Heard::default();
+        self.heard = RecordedSamples::default();
     }
 
     /// Asks for a device by its name, or for the system's default one.
@@ -97,7 +97,7 @@ impl Microphone {
 
 /// Samples that were recorded, and the frames that looked at them.
 #[derive(Default)]
-pub struct Heard {
+pub struct RecordedSamples {
     kernel: Kernel,
     /// Samples of the device that are not brought to our rate yet, and the position of the next sample of ours among them.
     raw: VecDeque<f32>,
@@ -111,7 +111,7 @@ pub struct Heard {
     newest: Option<Arc<Spectrum>>,
 }
 
-impl Heard {
+impl RecordedSamples {
     /// Adds a sample of a device that has `ratio` samples for each of ours.
     pub fn add(&mut self, sample: f32, ratio: f64) {
         let sample = if sample.is_finite() { sample } else { 0.0 };
@@ -181,7 +181,7 @@ impl Recording {
         (Self { input: host.input(), is_on: false, line: line.clone() }, line)
     }
 
-    fn set_line(&self, line: Option<Line>) {
+    fn set_line(&self, line: Option<InputStream>) {
         *self.line.lock().unwrap_or_else(PoisonError::into_inner) = line;
     }
 }
@@ -218,7 +218,7 @@ impl Work for Recording {
         let mut made = None;
         let mut take = |format: Format| -> Take {
             let (to, samples) = RingBuffer::new(WAITING_SECS * format.rate as usize);
-            made = Some(Line { rate: format.rate, samples });
+            made = Some(InputStream { rate: format.rate, samples });
             into_ring(to, format.channels)
         };
         let opened = self.input.open(name, &mut take, events)?;
@@ -246,7 +246,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn heard(hertz: f64, rate: f64) -> Spectrum {
-        let mut heard = Heard::default();
+        let mut heard = RecordedSamples::default();
         let mut newest = None;
         for n in 0..(rate as usize) {
             heard.add((0.05 * (TAU * hertz * n as f64 / rate).sin()) as f32, rate / f64::from(SAMPLE_RATE));
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn the_analyser_is_called_once_for_each_frame_with_something_new() {
-        let mut heard = Heard::default();
+        let mut heard = RecordedSamples::default();
         assert_eq!(heard.frame(), None);
         (0..3000).for_each(|n| heard.add((n as f32 * 0.3).sin() * 0.1, 1.0));
         let first = heard.frame().unwrap();

@@ -4,7 +4,7 @@ use crate::{
     host::{AudioHost, AudioOut, DeviceError, Events, Opened},
     keeper::{DeviceState, Keeper, Work},
     mixer::{MixerState, Remote, mixer},
-    scene::Desired,
+    scene::OutputState,
 };
 use std::{
     sync::{Arc, Mutex, PoisonError},
@@ -31,7 +31,7 @@ impl Player {
     }
 
     /// Says what is to be played from now on.
-    pub fn play(&mut self, desired: Desired) {
+    pub fn play(&mut self, desired: OutputState) {
         self.keeper.order(desired);
     }
 
@@ -75,7 +75,7 @@ type Mixed = Arc<Mutex<Option<Arc<MixerState>>>>;
 
 struct Playing {
     out: Box<dyn AudioOut>,
-    desired: Desired,
+    desired: OutputState,
     remote: Option<Remote>,
     mixed: Mixed,
 }
@@ -83,7 +83,7 @@ struct Playing {
 impl Playing {
     fn new(host: &dyn AudioHost) -> (Self, Mixed) {
         let mixed = Mixed::default();
-        (Self { out: host.output(), desired: Desired::default(), remote: None, mixed: Arc::clone(&mixed) }, mixed)
+        (Self { out: host.output(), desired: OutputState::default(), remote: None, mixed: Arc::clone(&mixed) }, mixed)
     }
 
     fn set_mixed(&self) {
@@ -93,9 +93,9 @@ impl Playing {
 }
 
 impl Work for Playing {
-    type Order = Desired;
+    type Order = OutputState;
 
-    fn take(&mut self, desired: Desired) {
+    fn take(&mut self, desired: OutputState) {
         self.desired = desired;
     }
 

@@ -98,7 +98,7 @@ impl Resampler {
 
 /// Time that runs at a constant speed: `secs` at the moment `at`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
+pub struct Timeline {
     pub at: Instant,
     /// `iTime`, in seconds.
     pub secs: f64,
@@ -106,7 +106,7 @@ pub struct Line {
     pub speed: f64,
 }
 
-impl Line {
+impl Timeline {
     pub fn secs_at(&self, at: Instant) -> f64 {
         let since = at.saturating_duration_since(self.at).as_secs_f64();
         let before = self.at.saturating_duration_since(at).as_secs_f64();
@@ -121,21 +121,21 @@ impl Line {
 
 /// Everything that a device is to play.
 #[derive(Clone)]
-pub struct Desired {
+pub struct OutputState {
     pub scene: Arc<Scene>,
     /// Says how time runs; `None` while it stands.
-    pub line: Option<Line>,
+    pub line: Option<Timeline>,
     /// The factor of each sample: 0 for mute, 1 for the files' own loudness.
     pub gain: f32,
 }
 
-impl Default for Desired {
+impl Default for OutputState {
     fn default() -> Self {
         Self { scene: Arc::default(), line: None, gain: 1.0 }
     }
 }
 
-impl Desired {
+impl OutputState {
     /// Returns whether a device is needed for it.
     pub fn is_heard(&self) -> bool {
         self.line.is_some() && self.gain > 0.0 && !self.scene.sources.is_empty()

@@ -48,8 +48,8 @@ enum Input {
     #[default]
     None,
     Requested,
-    /// Somebody is at it.
-    Coming,
+    /// It is being made.
+    InProgress,
 }
 
 /// Work as a front end shows it.
@@ -167,14 +167,14 @@ where
     pub fn take_request(&mut self) -> bool {
         let is_requested = self.input == Input::Requested;
         if is_requested {
-            self.input = Input::Coming;
+            self.input = Input::InProgress;
         }
         is_requested
     }
 
     /// Requests the input again that was on its way and will not come.
     pub fn renew_request(&mut self) {
-        if self.input == Input::Coming {
+        if self.input == Input::InProgress {
             self.input = Input::Requested;
         }
     }
@@ -197,7 +197,7 @@ where
     }
 
     fn input_has_come(&mut self) {
-        if self.input == Input::Coming {
+        if self.input == Input::InProgress {
             self.input = Input::None;
         }
     }

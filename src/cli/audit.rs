@@ -2,7 +2,7 @@
 
 use super::{
     args::PrecisionArgs,
-    machine::{Machine, Trouble, open},
+    machine::{Machine, RunError, open},
     report::Report,
     source_excerpt::SourceExcerpt,
     targets,
@@ -35,9 +35,9 @@ pub struct Audited {
     largest: Number,
     /// Pixels that a screen of 8 bits would show otherwise.
     visible: usize,
-    worst: Vec<Worst>,
+    worst: Vec<LeastPrecise>,
     /// Baseline the walker; null where the pass stores fewer bits than it computes with.
-    walker: Option<Walked>,
+    walker: Option<WalkerComparison>,
     findings: Vec<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]
     written: Option<PathBuf>,
@@ -45,7 +45,7 @@ pub struct Audited {
 
 /// The device against the single precision of the walker: what is apart here is the device's own arithmetic.
 #[derive(Debug, Serialize)]
-struct Walked {
+struct WalkerComparison {
     /// Pixels of the same bits.
     same: usize,
     /// Numbers of single precision between the two, of a pixel's components that are furthest apart.
@@ -54,18 +54,18 @@ struct Walked {
     /// Pixels that differ by more than 1/255, of themselves where they are larger than 1.
     visible: usize,
     /// The pixel that is furthest apart, if any is.
-    furthest: Option<Furthest>,
+    furthest: Option<LargestDeviation>,
 }
 
 #[derive(Debug, Serialize)]
-struct Furthest {
+struct LargestDeviation {
     pixel: [u32; 2],
     device: [Number; 4],
     walker: [Number; 4],
 }
 
 #[derive(Debug, Serialize)]
-struct Worst {
+struct LeastPrecise {
     pixel: [u32; 2],
     device: [Number; 4],
     double: [Number; 4],
@@ -98,7 +98,7 @@ pub fn run(
     args: &PrecisionArgs,
     spec: &str,
     inputs: ScriptedInputs,
-) -> Result<Audited, Trouble> {
+) -> Result<Audited, RunError> {
     let wanted = &args.pass;
     let mut quiet = Report::new(spec);
     let (project, mut offline) = open(machine, &mut quiet, spec, &args.run, &wanted.pass, inputs)?;
@@ -112,7 +112,7 @@ pub fn run(
     let pixels = audit::grid(args.pixels, &project.passes[index].settings, read.size);
     let sources = Sources::new(&project);
     let audit = match audit::audit(&sources, index, &read, &pixels, args.max_statements) {
-        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
     summary(args, &project, (&audit, &pixels), &device)
@@ -123,7 +123,7 @@ fn summary(
     project: &Project,
     (audit, grid): (&Audit, &[(u32, u32)]),
     device: &Pixels,
-) -> Result<Audited, Trouble> {
+) -> Result<Audited, RunError> {
     let format = project.pass(&args.pass.pass).map_or_else(TexelFormat::default, |pass| pass.formats()[0]);
     let (stored, is_32_bit) = (format.components(), format.is_32_bit());
     let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
@@ -155,20 +155,20 @@ fn summary(
         largest: Number(order.first().map_or(0.0, |o| o.0)),
         visible: order.iter().filter(|(error, _)| *error > 1.0 / 255.0).count(),
         worst: worst
-            .map(|(error, pixel)| Worst {
+            .map(|(error, pixel)| LeastPrecise {
                 pixel: [pixel.pixel.0, pixel.pixel.1],
                 device: texel(pixel.pixel).map(|x| Number(x.into())),
                 double: pixel.double.map(Number),
                 error: Number(*error),
             })
             .collect(),
-        walker: is_32_bit.then(|| walked(audit, texel, stored)),
+        walker: is_32_bit.then(|| compare_with_walker(audit, texel, stored)),
         findings: audit.findings.iter().map(|finding| found(project, finding)).collect(),
         written: written.transpose()?,
     })
 }
 
-fn walked(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) -> Walked {
+fn compare_with_walker(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) -> WalkerComparison {
     let numbers = |values: [f32; 4]| values.map(|x| Number(x.into()));
     let apart = |audited: &AuditedPixel| {
         let device = texel(audited.pixel);
@@ -181,12 +181,12 @@ fn walked(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) 
         let mut apart = walker.apart(texel(audited.pixel), stored).into_iter().zip(walker.double);
         apart.any(|(apart, value)| apart > value.abs().max(1.0) / 255.0)
     };
-    Walked {
+    WalkerComparison {
         same: order.iter().filter(|(ulps, _)| *ulps == 0).count(),
         median_ulps: order.get(order.len() / 2).map_or(0, |o| o.0),
         largest_ulps: order.last().map_or(0, |o| o.0),
         visible: audit.pixels.iter().filter(|audited| is_visible(audited)).count(),
-        furthest: order.last().filter(|(ulps, _)| *ulps > 0).map(|(_, audited)| Furthest {
+        furthest: order.last().filter(|(ulps, _)| *ulps > 0).map(|(_, audited)| LargestDeviation {
             pixel: [audited.pixel.0, audited.pixel.1],
             device: numbers(texel(audited.pixel)),
             walker: numbers(audited.single),
@@ -224,17 +224,17 @@ pub fn words(audited: &Audited) -> String {
         median.0, largest.0
     );
     let list = |all: &[Number; 4]| all.iter().map(|n| format!("{:.6}", n.0)).collect::<Vec<_>>().join(", ");
-    for Worst { pixel: [x, y], device, double, error } in worst {
+    for LeastPrecise { pixel: [x, y], device, double, error } in worst {
         let _ =
             writeln!(out, "  {x},{y}: ({}) is ({}) in double precision: {:.1e}", list(device), list(double), error.0);
     }
-    if let Some(Walked { same, median_ulps, largest_ulps, visible, furthest }) = walker {
+    if let Some(WalkerComparison { same, median_ulps, largest_ulps, visible, furthest }) = walker {
         let _ = writeln!(
             out,
             "  against single precision on the CPU: {same} of {pixels} pixels are identical; difference in ULPs: \
              median {median_ulps}, largest {largest_ulps}; {visible} differ by more than 1/255"
         );
-        if let Some(Furthest { pixel: [x, y], device, walker }) = furthest {
+        if let Some(LargestDeviation { pixel: [x, y], device, walker }) = furthest {
             let _ = writeln!(out, "  {x},{y}: ({}) is ({}) on the CPU", list(device), list(walker));
         }
     }

@@ -3,7 +3,7 @@
 
 use super::{
     args::BenchArgs,
-    machine::{Machine, Trouble, open},
+    machine::{Machine, RunError, open},
     report::{Printer, Report},
 };
 use crate::{
@@ -110,7 +110,7 @@ fn measure(
     args: &BenchArgs,
     spec: &str,
     inputs: ScriptedInputs,
-) -> Result<Costs, Trouble> {
+) -> Result<Costs, RunError> {
     let (project, mut offline) = open(machine, report, spec, &args.run, &PassId::Image, inputs)?;
     // A recording is measured from its first frame on, once for each kind of time.
     let is_replay = args.run.replay.is_some();
@@ -191,7 +191,7 @@ fn measure(
 }
 
 /// Median time of each pass in the frames in which it was drawn.
-fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassId, f64>, Trouble> {
+fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassId, f64>, RunError> {
     let mut times: HashMap<PassId, Vec<f64>> = HashMap::new();
     for _ in 0..frames {
         for time in offline.draw_timed()? {

@@ -3,7 +3,7 @@
 
 use super::{
     args::{CheckArgs, Consumer},
-    machine::{Machine, Trouble, millis_since},
+    machine::{Machine, RunError, millis_since},
     report::{Printer, Report},
 };
 use crate::{
@@ -41,7 +41,7 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
     Ok(printer.exit_code())
 }
 
-fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String) -> Result<(), Trouble> {
+fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String) -> Result<(), RunError> {
     let consumed = args.consumer.map(|consumer| consumer.spec(spec));
     let loaded = project::load(consumed.as_deref().unwrap_or(spec))?;
     let project = &loaded.project;

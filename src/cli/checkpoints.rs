@@ -1,6 +1,6 @@
 //! States of a run on disk: written every so many frames by one call of `eddy render`, and gone on from by others.
 
-use super::{args::RenderArgs, machine::Trouble};
+use super::{args::RenderArgs, machine::RunError};
 use crate::{
     engine::BuildOptions,
     media::MediaSet,
@@ -31,7 +31,7 @@ impl<'a> Checkpoints<'a> {
         (project, media): (&Project, &MediaSet),
         offline: &Offline,
         inputs: &ScriptedInputs,
-    ) -> Result<Self, Trouble> {
+    ) -> Result<Self, RunError> {
         let mut stem = project::stem(spec);
         swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
         let moment = Moment {
@@ -53,7 +53,7 @@ impl<'a> Checkpoints<'a> {
 
     /// Goes on from the checkpoint of `--resume` from which the fewest frames are drawn before `first`. Returns the frame
     /// that is drawn next, and a remark.
-    pub fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), Trouble> {
+    pub fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), RunError> {
         let Some(place) = &self.args.resume else { return Ok((0, None)) };
         let file = match place.is_dir() {
             false => place.clone(),
@@ -72,7 +72,7 @@ impl<'a> Checkpoints<'a> {
             }
         };
         let refused =
-            |error: checkpoint::CheckpointError| Trouble::from(anyhow::anyhow!("--resume: {error}; {}", error.hint()));
+            |error: checkpoint::CheckpointError| RunError::from(anyhow::anyhow!("--resume: {error}; {}", error.hint()));
         let found = checkpoint::read(&file, &self.moment).map_err(refused)?;
         let frame = found.moment.frame;
         if frame > first {
@@ -97,7 +97,7 @@ impl<'a> Checkpoints<'a> {
         &self,
         offline: &mut Offline,
         (project, media): (&Project, &MediaSet),
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), RunError> {
         let run = &self.args.run;
         let mut passes = offline.engine()?.passes_with_state();
         passes.sort();
@@ -117,7 +117,7 @@ impl<'a> Checkpoints<'a> {
     }
 
     /// Writes a checkpoint if one is due before frame `next`.
-    pub fn write(&self, offline: &Offline, next: u32) -> Result<Option<PathBuf>, Trouble> {
+    pub fn write(&self, offline: &Offline, next: u32) -> Result<Option<PathBuf>, RunError> {
         let Some(every) = self.args.checkpoint_every.filter(|every| next.is_multiple_of(*every)) else {
             return Ok(None);
         };

@@ -5,7 +5,7 @@
 
 use super::{
     args::{CompareArgs, CompareView, RunArgs},
-    machine::{Machine, Trouble, open},
+    machine::{Machine, RunError, open},
     report::{Printer, Report},
     targets,
 };
@@ -94,7 +94,7 @@ fn compare(
     report: &mut Report,
     args: &CompareArgs,
     inputs: &ScriptedInputs,
-) -> Result<Compared, Trouble> {
+) -> Result<Compared, RunError> {
     let copy = args.revision.as_ref().map(|revision| revision::at(&args.project, revision));
     let copy = copy.transpose().map_err(anyhow::Error::from)?;
     for note in copy.iter().flat_map(Checkout::notes) {
@@ -175,8 +175,8 @@ fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &PictureDifference) -
     Pixels { width: width as u32, height: height as u32, texels }
 }
 
-fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time, Trouble> {
-    let turn = |offline: &mut Offline| -> Result<f64, Trouble> {
+fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time, RunError> {
+    let turn = |offline: &mut Offline| -> Result<f64, RunError> {
         let mut millis = Vec::new();
         for _ in 0..TURN {
             // Not beyond the end of a recording.

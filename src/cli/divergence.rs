@@ -1,6 +1,6 @@
 //! The first assignment of a traced pixel that the device makes otherwise than the walker.
 
-use super::{args::TraceArgs, machine::Trouble, source_excerpt::SourceExcerpt};
+use super::{args::TraceArgs, machine::RunError, source_excerpt::SourceExcerpt};
 use crate::{
     debugger::{
         divergence::{self, Probes, STEPS_KEPT, assignments},
@@ -46,7 +46,7 @@ pub fn find(
     (engine, before): (Engine, Snapshot),
     (index, read): (usize, &PassInputs),
     mut inputs: ScriptedInputs,
-) -> Result<DivergenceReport, Trouble> {
+) -> Result<DivergenceReport, RunError> {
     let (mut media, _) = media::gather(project, args.run.media.as_deref());
     media.set_camera_picture(engine.camera_picture());
     let pass = args.pass.pass.clone();
@@ -67,7 +67,7 @@ pub fn find(
     let sources = Sources::new(project);
     let extent = Extent { statements: args.max_statements, steps: STEPS_KEPT };
     let trace = match trace::trace(&sources, index, read, pixel, extent) {
-        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
     let mut probes = Probes::new((engine, before), (project, &media), options, pass, frame);

@@ -2,7 +2,7 @@
 
 use super::{
     args::{ExportArgs, ExportFormat, ImportArgs},
-    machine::{Machine, Trouble},
+    machine::{Machine, RunError},
     report::{Printer, Report},
 };
 use crate::{
@@ -79,7 +79,7 @@ fn export_html(args: &ExportArgs) -> io::Result<u8> {
         let project = read(report, &args.project)?;
         let page = match web::export(&project, args.media.as_deref()) {
             Ok(page) => page,
-            Err(errors) => return Err(Trouble::Diagnostics(errors, project.sources())),
+            Err(errors) => return Err(RunError::Diagnostics(errors, project.sources())),
         };
         report.diagnose(&page.diagnostics, &project.sources(), Some(&project));
         let kilobytes = |bytes: usize| bytes.div_ceil(1000);
@@ -89,7 +89,7 @@ fn export_html(args: &ExportArgs) -> io::Result<u8> {
         };
         let size = kilobytes(page.html.len());
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
-        project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(Trouble::from).map_err(mend)?;
+        project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
         Ok(format!("{}: exported to {to} ({size} kB{media})", args.project))
     })
 }
@@ -103,23 +103,23 @@ fn export_isf(args: &ExportArgs) -> io::Result<u8> {
         let project = read(report, &args.project)?;
         let file = match translate::isf(&project) {
             Ok(file) => file,
-            Err(errors) => return Err(Trouble::Diagnostics(errors, project.sources())),
+            Err(errors) => return Err(RunError::Diagnostics(errors, project.sources())),
         };
         report.diagnose(&file.diagnostics, &project.sources(), Some(&project));
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
-        project::write_named(&args.out, file.text.into_bytes(), overwrite).map_err(Trouble::from).map_err(mend)?;
+        project::write_named(&args.out, file.text.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
         Ok(format!("{}: exported to {to}", args.project))
     })
 }
 
 /// Refuses a project with a directive that cannot be obeyed.
-fn check_directives(project: &Project) -> Result<(), Trouble> {
+fn check_directives(project: &Project) -> Result<(), RunError> {
     let (found, sources) = session::directive_errors(project);
-    if found.is_empty() { Ok(()) } else { Err(Trouble::Diagnostics(found, sources)) }
+    if found.is_empty() { Ok(()) } else { Err(RunError::Diagnostics(found, sources)) }
 }
 
 /// Does the work of one project and prints what became of it.
-fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, Trouble>) -> io::Result<u8> {
+fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, RunError>) -> io::Result<u8> {
     let mut report = Report::new(spec);
     let words = Machine::default().attempt(&mut report, |_, report| work(report));
     let mut printer = Printer::new(false);
@@ -127,22 +127,22 @@ fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, Trouble>) ->
     Ok(printer.exit_code())
 }
 
-fn read(report: &mut Report, spec: &str) -> Result<Project, Trouble> {
+fn read(report: &mut Report, spec: &str) -> Result<Project, RunError> {
     let loaded = project::load(spec)?;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&loaded.project));
     Ok(loaded.project)
 }
 
-fn save(project: &Project, to: &Path, force: bool) -> Result<(), Trouble> {
+fn save(project: &Project, to: &Path, force: bool) -> Result<(), RunError> {
     let overwrite = if force { Overwrite::Allow } else { Overwrite::Refuse };
-    project::save(project, to, overwrite).map(drop).map_err(Trouble::from).map_err(mend)
+    project::save(project, to, overwrite).map(drop).map_err(RunError::from).map_err(mend)
 }
 
 /// Names the option that allows what was refused.
-pub(super) fn mend(trouble: Trouble) -> Trouble {
+pub(super) fn mend(trouble: RunError) -> RunError {
     match trouble {
-        Trouble::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {
-            Trouble::Other(anyhow::anyhow!("{error} with --force"))
+        RunError::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {
+            RunError::Other(anyhow::anyhow!("{error} with --force"))
         }
         other => other,
     }

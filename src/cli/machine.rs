@@ -6,7 +6,7 @@ use super::{
     failure::error_chain,
     memory,
     report::{Report, Status},
-    tiles::{self, Way},
+    tiles::{self, TilePolicy},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
@@ -31,54 +31,54 @@ use std::{
 };
 
 /// The reason why a project was not drawn.
-pub enum Trouble {
+pub enum RunError {
     Diagnostics(Vec<Diagnostic>, SourceMap),
     Unsupported(String),
     Other(anyhow::Error),
 }
 
-impl From<ProjectError> for Trouble {
+impl From<ProjectError> for RunError {
     fn from(error: ProjectError) -> Self {
         match error {
-            ProjectError::Invalid { diagnostics, sources, .. } => Trouble::Diagnostics(diagnostics, sources),
-            other => Trouble::Other(other.into()),
+            ProjectError::Invalid { diagnostics, sources, .. } => RunError::Diagnostics(diagnostics, sources),
+            other => RunError::Other(other.into()),
         }
     }
 }
 
-impl From<BuildError> for Trouble {
+impl From<BuildError> for RunError {
     fn from(error: BuildError) -> Self {
         match error {
-            BuildError::Diagnostics { diagnostics, sources } => Trouble::Diagnostics(diagnostics, sources),
+            BuildError::Diagnostics { diagnostics, sources } => RunError::Diagnostics(diagnostics, sources),
             BuildError::Engine(error) => error.into(),
         }
     }
 }
 
-impl From<EngineError> for Trouble {
+impl From<EngineError> for RunError {
     fn from(error: EngineError) -> Self {
-        Trouble::Other(error.into())
+        RunError::Other(error.into())
     }
 }
 
-impl From<OfflineError> for Trouble {
+impl From<OfflineError> for RunError {
     fn from(error: OfflineError) -> Self {
         match error {
             OfflineError::Engine(error) => error.into(),
-            other => Trouble::Other(other.into()),
+            other => RunError::Other(other.into()),
         }
     }
 }
 
-impl From<GpuError> for Trouble {
+impl From<GpuError> for RunError {
     fn from(error: GpuError) -> Self {
-        Trouble::Other(EngineError::from(error).into())
+        RunError::Other(EngineError::from(error).into())
     }
 }
 
-impl From<anyhow::Error> for Trouble {
+impl From<anyhow::Error> for RunError {
     fn from(error: anyhow::Error) -> Self {
-        Trouble::Other(error)
+        RunError::Other(error)
     }
 }
 
@@ -89,11 +89,11 @@ pub struct Machine {
     /// The reason why there is no device, which is asked for once.
     refusal: Option<String>,
     /// A device was lost, and no other has been opened since.
-    loss: Loss,
+    loss: DeviceLoss,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Loss {
+enum DeviceLoss {
     #[default]
     None,
     /// The driver may be resetting it.
@@ -110,17 +110,17 @@ impl Machine {
         if let Some(refusal) = &self.refusal {
             anyhow::bail!("{refusal}");
         }
-        let patience = if self.loss == Loss::New { loss::RESET } else { Duration::ZERO };
+        let patience = if self.loss == DeviceLoss::New { loss::RESET } else { Duration::ZERO };
         match loss::reopen(patience, || loss::open_in_time(|| Gpu::new(&GpuOptions::default()))) {
             Ok(gpu) => {
-                self.loss = Loss::None;
+                self.loss = DeviceLoss::None;
                 Ok(self.gpu.insert(gpu).clone())
             }
             Err(error) => {
                 match self.loss {
                     _ if matches!(error, GpuError::NoAnswer { .. }) => self.refusal = Some(error.to_string()),
-                    Loss::None => self.refusal = Some(error.to_string()),
-                    Loss::New | Loss::Lasting => self.loss = Loss::Lasting,
+                    DeviceLoss::None => self.refusal = Some(error.to_string()),
+                    DeviceLoss::New | DeviceLoss::Lasting => self.loss = DeviceLoss::Lasting,
                 }
                 Err(error.into())
             }
@@ -130,7 +130,7 @@ impl Machine {
     /// Lets go of the device: the next project gets another.
     fn drop_device(&mut self) {
         self.gpu = None;
-        self.loss = Loss::New;
+        self.loss = DeviceLoss::New;
     }
 
     /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
@@ -138,14 +138,14 @@ impl Machine {
     pub fn attempt<T>(
         &mut self,
         report: &mut Report,
-        work: impl FnOnce(&mut Machine, &mut Report) -> Result<T, Trouble>,
+        work: impl FnOnce(&mut Machine, &mut Report) -> Result<T, RunError>,
     ) -> Option<T> {
         let result = catch_unwind(AssertUnwindSafe(|| work(self, report)));
         match result {
             Ok(Ok(done)) => return Some(done),
-            Ok(Err(Trouble::Diagnostics(found, sources))) => report.diagnose(&found, &sources, None),
-            Ok(Err(Trouble::Unsupported(what))) => report.fail(Status::Unsupported, what),
-            Ok(Err(Trouble::Other(error))) => {
+            Ok(Err(RunError::Diagnostics(found, sources))) => report.diagnose(&found, &sources, None),
+            Ok(Err(RunError::Unsupported(what))) => report.fail(Status::Unsupported, what),
+            Ok(Err(RunError::Other(error))) => {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
                     self.drop_device();
                 }
@@ -188,7 +188,7 @@ pub fn open(
     run: &RunArgs,
     wanted: &PassId,
     inputs: ScriptedInputs,
-) -> Result<(Project, Offline), Trouble> {
+) -> Result<(Project, Offline), RunError> {
     is_picture(wanted)?;
     let (project, offline, _) = open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)?;
     Ok((project, offline))
@@ -201,7 +201,7 @@ pub fn open_sound(
     spec: &str,
     run: &RunArgs,
     inputs: ScriptedInputs,
-) -> Result<Offline, Trouble> {
+) -> Result<Offline, RunError> {
     let opened = open_with(machine, report, spec, run, (&PassId::Sound, &|_| Vec::new(), None), inputs);
     opened.map(|(_, offline, _)| offline)
 }
@@ -217,7 +217,7 @@ pub fn open_measured(
     run: &RunArgs,
     (wanted, beside): (&PassId, FindPasses<'_>),
     inputs: ScriptedInputs,
-) -> Result<(Project, Offline, MediaSet), Trouble> {
+) -> Result<(Project, Offline, MediaSet), RunError> {
     is_picture(wanted)?;
     open_with(machine, report, spec, run, (wanted, beside, None), inputs)
 }
@@ -233,7 +233,7 @@ pub fn open_probed(
     run: &RunArgs,
     (pass, probe): (&PassId, FindProbe<'_>),
     inputs: ScriptedInputs,
-) -> Result<Offline, Trouble> {
+) -> Result<Offline, RunError> {
     is_picture(pass)?;
     open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline, _)| offline)
 }
@@ -245,7 +245,7 @@ fn open_with(
     run: &RunArgs,
     (wanted, beside, probe): (&PassId, FindPasses<'_>, Option<FindProbe<'_>>),
     inputs: ScriptedInputs,
-) -> Result<(Project, Offline, MediaSet), Trouble> {
+) -> Result<(Project, Offline, MediaSet), RunError> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
@@ -263,28 +263,28 @@ fn open_with(
     let cameras = camera(&mut media, &project, run.webcam.as_ref());
     report.diagnose(&cameras, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
-    let way = tiles::way(run, &gpu, probe.is_some() || beside.contains(wanted))?;
+    let policy = tiles::policy(run, &gpu, probe.is_some() || beside.contains(wanted))?;
     let pass = wanted.title();
     let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
     // Nobody looks at the picture of a pass of which a value is asked for.
     let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
     let wanted = [wanted].into_iter().chain(beside).collect();
     let passes = (wanted, probe);
-    let mut offline = offline(&gpu, run, way, inputs.clone())?;
+    let mut offline = offline(&gpu, run, policy, inputs.clone())?;
     let mut built = build(&mut offline, (&project, &media), report, run, passes.clone());
-    if matches!(&built, Err(error) if error.is_undivided()) && matches!(way, Way::Rather(_)) {
-        offline = self::offline(&gpu, run, Way::Whole, inputs)?;
+    if matches!(&built, Err(error) if error.is_undivided()) && matches!(policy, TilePolicy::Preferred(_)) {
+        offline = self::offline(&gpu, run, TilePolicy::Never, inputs)?;
         built = build(&mut offline, (&project, &media), report, run, passes);
     }
     report.compile_ms = offline.build_millis();
-    built.map_err(|error| error.in_tiles(&pass, way, &gpu))?;
+    built.map_err(|error| error.in_tiles(&pass, policy, &gpu))?;
     Ok((project, offline, media))
 }
 
 /// Returns an engine for the pictures of a run.
-fn offline(gpu: &Gpu, run: &RunArgs, way: Way, inputs: ScriptedInputs) -> Result<Offline, Trouble> {
+fn offline(gpu: &Gpu, run: &RunArgs, policy: TilePolicy, inputs: ScriptedInputs) -> Result<Offline, RunError> {
     let available = memory::available();
-    let mut offline = match way.tiling() {
+    let mut offline = match policy.tiling() {
         Some(tiling) => Offline::tiled(gpu, run.size, tiling, inputs)?,
         None => {
             memory::check_whole(run.size, gpu.is_cpu(), available)?;
@@ -296,9 +296,9 @@ fn offline(gpu: &Gpu, run: &RunArgs, way: Way, inputs: ScriptedInputs) -> Result
     Ok(offline)
 }
 
-impl Trouble {
+impl RunError {
     fn engine_error(&self) -> Option<&EngineError> {
-        if let Trouble::Other(error) = self { error.downcast_ref() } else { None }
+        if let RunError::Other(error) = self { error.downcast_ref() } else { None }
     }
 
     /// A pass cannot be drawn in tiles.
@@ -307,19 +307,21 @@ impl Trouble {
     }
 
     /// Says why the picture of `pass` had to be drawn in tiles, or another one could not be.
-    fn in_tiles(self, pass: &str, way: Way, gpu: &Gpu) -> Trouble {
+    fn in_tiles(self, pass: &str, policy: TilePolicy, gpu: &Gpu) -> RunError {
         let limit = gpu.device.limits().max_texture_dimension_2d;
-        let told = match self.engine_error() {
+        let error = match self.engine_error() {
             Some(error @ EngineError::Undivided { .. }) => {
                 anyhow::anyhow!("{error} (this device draws at most {limit}x{limit} pixels in one piece)")
             }
-            Some(error @ EngineError::Gpu(GpuError::TooLarge { .. })) if way != Way::Whole => anyhow::anyhow!(
-                "{error}, and {pass} alone is drawn in tiles: give the pass a fixed size in eddy.toml, or choose a smaller \
+            Some(error @ EngineError::Gpu(GpuError::TooLarge { .. })) if policy != TilePolicy::Never => {
+                anyhow::anyhow!(
+                    "{error}, and {pass} alone is drawn in tiles: give the pass a fixed size in eddy.toml, or choose a smaller \
                  resolution"
-            ),
+                )
+            }
             _ => return self,
         };
-        told.into()
+        error.into()
     }
 }
 
@@ -330,7 +332,7 @@ fn build(
     report: &mut Report,
     run: &RunArgs,
     (wanted, probe): (Vec<PassId>, Option<(PassId, Probe)>),
-) -> Result<(), Trouble> {
+) -> Result<(), RunError> {
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
     let options = BuildOptions {
@@ -344,7 +346,7 @@ fn build(
     let (diagnostics, sources) = match offline.build(project, media, &options) {
         Err(BuildError::Diagnostics { diagnostics, sources }) => {
             report.diagnose(&diagnostics, &sources, Some(project));
-            return Err(Trouble::Diagnostics(Vec::new(), sources));
+            return Err(RunError::Diagnostics(Vec::new(), sources));
         }
         other => other?,
     };
@@ -359,7 +361,7 @@ pub fn open_sound_of(
     project: (&Project, &MediaSet),
     run: &RunArgs,
     inputs: ScriptedInputs,
-) -> Result<Offline, Trouble> {
+) -> Result<Offline, RunError> {
     let mut offline = Offline::new(&machine.gpu()?, run.size, inputs)?;
     offline.set_frame_limit(run.frame_timeout);
     build(&mut offline, project, report, run, (vec![PassId::Sound], None))?;
@@ -388,7 +390,7 @@ fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>
 const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
 
 /// Fails for a pass that the project does not have.
-fn is_there(project: &Project, pass: &PassId) -> Result<(), Trouble> {
+fn is_there(project: &Project, pass: &PassId) -> Result<(), RunError> {
     match project.pass(pass) {
         None => {
             let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
@@ -400,12 +402,12 @@ fn is_there(project: &Project, pass: &PassId) -> Result<(), Trouble> {
 }
 
 /// Fails for a pass that has no picture.
-fn is_picture(pass: &PassId) -> Result<(), Trouble> {
+fn is_picture(pass: &PassId) -> Result<(), RunError> {
     if pass.is_picture() {
         return Ok(());
     }
     let what = format!("{} makes no picture; `eddy render --pass sound --out x.wav` writes its samples", pass.title());
-    Err(Trouble::Unsupported(what))
+    Err(RunError::Unsupported(what))
 }
 
 pub fn millis_since(began: Instant) -> f64 {
@@ -420,7 +422,7 @@ mod tests {
     fn a_panic_is_one_projects_bug_and_the_next_goes_on() {
         let mut machine = Machine::default();
         let mut report = Report::new("x");
-        let done = machine.attempt(&mut report, |_, _| -> Result<(), Trouble> { panic!("by {}", "design") });
+        let done = machine.attempt(&mut report, |_, _| -> Result<(), RunError> { panic!("by {}", "design") });
         assert_eq!((done, report.status), (None, Status::Error));
         assert_eq!(report.diagnostics[0].message, "this is a bug in Eddy: by design");
         assert_eq!(machine.attempt(&mut Report::new("y"), |_, _| Ok(7)), Some(7));

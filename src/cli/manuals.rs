@@ -3,7 +3,7 @@
 use super::{
     args::{Cli, CompletionsArgs, ManArgs},
     library::mend,
-    machine::{Machine, Trouble},
+    machine::{Machine, RunError},
     report::{Printer, Report},
     written::write_all,
 };
@@ -26,7 +26,7 @@ pub fn man(args: &ManArgs) -> io::Result<u8> {
     let written = Machine::default().attempt(&mut report, |_, _| {
         let pages = pages().map_err(anyhow::Error::from)?;
         let files = pages.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]));
-        write_all(&args.out, files, args.force).map_err(Trouble::from).map_err(mend)?;
+        write_all(&args.out, files, args.force).map_err(RunError::from).map_err(mend)?;
         Ok(pages.len())
     });
     let words = written.map(|n| format!("{n} pages written to {}", args.out.display()));

@@ -2,7 +2,7 @@
 
 use super::{
     args::TraceArgs,
-    machine::{Machine, Trouble, open_measured},
+    machine::{Machine, RunError, open_measured},
     report::Report,
     source_excerpt::SourceExcerpt,
 };
@@ -29,11 +29,11 @@ pub struct Begin {
     texels: usize,
     /// The operation; none where nothing but the storage of the pass or a texel that it reads can have made it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    born: Option<Born>,
+    born: Option<NonfiniteOrigin>,
 }
 
 #[derive(Debug, Serialize)]
-struct Born {
+struct NonfiniteOrigin {
     message: &'static str,
     #[serde(flatten)]
     written: SourceExcerpt,
@@ -47,7 +47,7 @@ pub fn first(
     args: &TraceArgs,
     spec: &str,
     inputs: &ScriptedInputs,
-) -> Result<Option<Begin>, Trouble> {
+) -> Result<Option<Begin>, RunError> {
     let (project, mut offline) = start(machine, report, args, spec, inputs)?;
     let passes = nonfinite::drawn(&project);
     let mut found = None;
@@ -83,7 +83,7 @@ fn start(
     args: &TraceArgs,
     spec: &str,
     inputs: &ScriptedInputs,
-) -> Result<(Project, Offline), Trouble> {
+) -> Result<(Project, Offline), RunError> {
     let (project, offline, _) =
         open_measured(machine, report, spec, &args.run, (&PassId::Image, &nonfinite::drawn), inputs.clone())?;
     Ok((project, offline))
@@ -96,17 +96,17 @@ fn born(
     spec: &str,
     inputs: &ScriptedInputs,
     (pass, frame, texel): (&PassId, u32, (u32, u32)),
-) -> Result<Option<Born>, Trouble> {
+) -> Result<Option<NonfiniteOrigin>, RunError> {
     let (project, mut offline) = start(machine, &mut Report::new(spec), args, spec, inputs)?;
     for _ in 0..frame {
         offline.draw()?;
     }
     let read = offline.draw_inspected(pass)?;
     let born = match nonfinite::born(&project, pass, &read, texel, args.max_statements) {
-        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    Ok(born.map(|finding| Born {
+    Ok(born.map(|finding| NonfiniteOrigin {
         message: finding.kind.message(),
         written: SourceExcerpt::at(&project, finding.span),
         numbers: finding.numbers.clone(),
@@ -122,7 +122,7 @@ pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
     );
     let place = born.as_ref().and_then(|born| Some((born, born.written.place()?)));
     let _ = match place {
-        Some((Born { message, written, numbers }, place)) => {
+        Some((NonfiniteOrigin { message, written, numbers }, place)) => {
             writeln!(out, "  {place}: {message}\n      {}    of {numbers}", written.text)
         }
         None => {

@@ -3,7 +3,7 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    machine::{Machine, Trouble, millis_since, open_measured},
+    machine::{Machine, RunError, millis_since, open_measured},
     report::{Printer, Report},
     targets::Targets,
     tiles,
@@ -71,7 +71,7 @@ fn plan(
     args: &RenderArgs,
     targets: &Targets,
     inputs: &ScriptedInputs,
-) -> Result<Plan, Trouble> {
+) -> Result<Plan, RunError> {
     let (project, mut offline, media) =
         open_measured(machine, report, spec, &args.drawn(), (&args.pass.pass, &|_| Vec::new()), inputs.clone())?;
     let (at, tasks) = (&targets.at, targets.shard.count);
@@ -114,7 +114,7 @@ fn plan(
 }
 
 /// Returns the milliseconds of a frame, the first one left out.
-fn measure(offline: &mut Offline, report: &mut Report) -> Result<Option<f64>, Trouble> {
+fn measure(offline: &mut Offline, report: &mut Report) -> Result<Option<f64>, RunError> {
     let mut millis = Vec::new();
     for _ in 0..=MEASURED {
         offline.rewind_at_end()?;

@@ -4,7 +4,7 @@
 use super::{
     args::PrecisionArgs,
     audit::{self, Audited},
-    machine::{Machine, Trouble},
+    machine::{Machine, RunError},
     report::{Printer, Report},
 };
 use crate::{
@@ -74,7 +74,7 @@ fn compare(
     args: &PrecisionArgs,
     spec: &str,
     mut inputs: ScriptedInputs,
-) -> Result<Option<Compared>, Trouble> {
+) -> Result<Option<Compared>, RunError> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));

@@ -2,7 +2,7 @@
 
 use super::{
     args::ProbeArgs,
-    machine::{Machine, Trouble, open_probed},
+    machine::{Machine, RunError, open_probed},
     report::{Printer, Report},
     targets,
 };
@@ -64,7 +64,7 @@ fn probed(
     report: &mut Report,
     args: &ProbeArgs,
     inputs: ScriptedInputs,
-) -> Result<Probed, Trouble> {
+) -> Result<Probed, RunError> {
     let pass = args.pass();
     if !pass.is_picture() {
         return Err(anyhow::anyhow!("a sound pass has no pixels to probe").into());

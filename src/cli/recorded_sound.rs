@@ -2,7 +2,7 @@
 
 use super::{
     args::RunArgs,
-    machine::{Machine, Trouble, open_sound_of},
+    machine::{Machine, RunError, open_sound_of},
     render::note,
     report::Report,
 };
@@ -26,7 +26,7 @@ pub fn recorded_sound(
     (run, recording): (&RunArgs, &Recording),
     (frames, rate): (&[u32], Rate),
     inputs: &ScriptedInputs,
-) -> Result<Option<Vec<[i16; 2]>>, Trouble> {
+) -> Result<Option<Vec<[i16; 2]>>, RunError> {
     let mut values: Vec<&CustomUniformValues> = Vec::new();
     let mut moments = Vec::new();
     for frame in frames.iter().filter_map(|frame| recording.frames.get(*frame as usize)) {
@@ -46,9 +46,9 @@ pub fn recorded_sound(
     let samples = film::soundtrack_of(&moments, rate, |sound, secs| {
         let mut sources = music.clone();
         if let Some(pass) = &mut pass {
-            sources.push(Source::Track(pass.track(values[sound], secs, || Ok::<_, Trouble>(()))?));
+            sources.push(Source::Track(pass.track(values[sound], secs, || Ok::<_, RunError>(()))?));
         }
-        Ok::<_, Trouble>(Scene { sources })
+        Ok::<_, RunError>(Scene { sources })
     });
     samples.map(Some)
 }

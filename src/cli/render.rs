@@ -3,7 +3,7 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    machine::{Machine, Trouble, millis_since, open_measured, open_sound_of},
+    machine::{Machine, RunError, millis_since, open_measured, open_sound_of},
     measured::{self, Measured, Measures},
     progress::CallProgress,
     recorded_sound::recorded_sound,
@@ -114,7 +114,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn draw(&self, machine: &mut Machine, report: &mut Report, inputs: &ScriptedInputs) -> Result<Drawn, Trouble> {
+    fn draw(&self, machine: &mut Machine, report: &mut Report, inputs: &ScriptedInputs) -> Result<Drawn, RunError> {
         let Job { args, targets, .. } = self;
         let is_there = |frame: &&u32| {
             let path = targets.path(self.index, &report.sweep, **frame);
@@ -269,7 +269,7 @@ impl Job<'_> {
         opened: (&Project, &MediaSet),
         offline: &Offline,
         inputs: &ScriptedInputs,
-    ) -> Result<Option<Checkpoints<'_>>, Trouble> {
+    ) -> Result<Option<Checkpoints<'_>>, RunError> {
         let args = self.args;
         if args.checkpoint_every.is_none() && args.resume.is_none() {
             return Ok(None);
@@ -289,7 +289,7 @@ impl Job<'_> {
         project: &Project,
         offline: &Offline,
         inputs: &ScriptedInputs,
-    ) -> Result<Option<RunSource>, Trouble> {
+    ) -> Result<Option<RunSource>, RunError> {
         let Job { args, targets, .. } = self;
         let has_place = matches!(targets.encoding, Encoding::Still(Still::Png { .. } | Still::Exr));
         let is_plain = args.factor() == 1 && args.shutter.is_none() && args.looped.is_none();
@@ -315,7 +315,7 @@ impl Job<'_> {
         (offline, pixels): (&Offline, &Pixels),
         inputs: &ScriptedInputs,
         frames: &[u32],
-    ) -> Result<Writer, Trouble> {
+    ) -> Result<Writer, RunError> {
         let Job { args, targets, .. } = self;
         let texels = match &targets.encoding {
             Encoding::Film(_) => Default::default(),
@@ -351,7 +351,7 @@ impl Job<'_> {
         film: &FilmEncoding,
         frames: &[u32],
         inputs: &ScriptedInputs,
-    ) -> Result<Option<Vec<[i16; 2]>>, Trouble> {
+    ) -> Result<Option<Vec<[i16; 2]>>, RunError> {
         let Job { args, targets, .. } = self;
         if !film.holds_sound() || args.style.no_audio || !film::has_sound(project, media) {
             return Ok(None);
@@ -379,7 +379,7 @@ impl Job<'_> {
         secs: f64,
         frames: &[u32],
         inputs: &ScriptedInputs,
-    ) -> Result<Seam, Trouble> {
+    ) -> Result<Seam, RunError> {
         let args = self.args;
         let fade = Seam::fade_frames(secs, self.targets.rate, frames.len() as u32);
         let fade = fade.map_err(|why| anyhow::anyhow!("--loop {secs}: {why}"))?;
@@ -402,7 +402,7 @@ impl Job<'_> {
         offline: &mut Offline,
         parts: Option<&FrameInputs>,
         (still, frame, scene): (Still, u32, Option<Scene>),
-    ) -> Result<Option<PathBuf>, Trouble> {
+    ) -> Result<Option<PathBuf>, RunError> {
         let path = self.targets.path(self.index, &report.sweep, frame);
         let output = match &path {
             None => Output::Pipe(Box::new(io::stdout())),
@@ -422,7 +422,7 @@ impl Job<'_> {
         (frame, source): (u32, Option<&RunSource>),
         pixels: Pixels,
         written: &mut Vec<PathBuf>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), RunError> {
         let path = self.targets.path(self.index, &report.sweep, frame);
         let scene = match writer {
             Writer::Stills(_) => source.map(|source| source.scene(frame)),
@@ -438,8 +438,8 @@ impl Job<'_> {
 }
 
 /// Whoever reads standard output has seen enough.
-fn is_closed(error: &Trouble) -> bool {
-    matches!(error, Trouble::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
+fn is_closed(error: &RunError) -> bool {
+    matches!(error, RunError::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
 }
 
 /// Adds the time since a moment to that of the newest frame.
@@ -464,7 +464,7 @@ pub(super) fn note(report: &mut Report, what: String) {
 }
 
 /// Says why frames of a project with a state have no motion blur.
-fn blurred_state(project: &Project) -> Trouble {
+fn blurred_state(project: &Project) -> RunError {
     let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
     let which = match passes.is_empty() {
         true => String::new(),
@@ -476,6 +476,6 @@ fn blurred_state(project: &Project) -> Trouble {
     .into()
 }
 
-fn failed(error: FilmError) -> Trouble {
-    Trouble::Other(error.into())
+fn failed(error: FilmError) -> RunError {
+    RunError::Other(error.into())
 }

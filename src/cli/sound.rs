@@ -3,7 +3,7 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, Trouble, millis_since, open_sound},
+    machine::{Machine, RunError, millis_since, open_sound},
     progress::CallProgress,
     report::{Printer, Report},
     targets::{check_folder, check_within, stems, tells_case_apart},
@@ -148,11 +148,11 @@ struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(skip_serializing_if = "Option::is_none")]
-    sound: Option<&'a Made>,
+    sound: Option<&'a SoundReport>,
 }
 
 #[derive(Serialize)]
-struct Made {
+struct SoundReport {
     seconds: f64,
     samples: usize,
     /// Median of the blocks, 6 s of sound each.
@@ -181,7 +181,7 @@ pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::R
             frames.truncate(sounds.frames as usize);
             let file = sounds.write(index, &frames)?;
             let seconds = frames.len() as f64 / f64::from(SAMPLE_RATE);
-            Ok::<_, Trouble>(Made { seconds, samples: frames.len(), block_ms: median(millis), file })
+            Ok::<_, RunError>(SoundReport { seconds, samples: frames.len(), block_ms: median(millis), file })
         });
         progress.end(&report, blocks as usize);
         let words = made.as_ref().map_or(String::new(), |made| {

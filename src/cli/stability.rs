@@ -4,7 +4,7 @@ use super::{args::StabilityArgs, failure::trouble, machine::shard_and_device};
 use crate::lab::{
     Extent, LabError, Results, Shard,
     stability::{
-        self, Subject, presets,
+        self, CheckedProject, presets,
         run::{self, Options, Step},
     },
 };
@@ -21,7 +21,8 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
         [] => presets::NAMES.map(str::to_owned).into(),
         some => some.to_vec(),
     };
-    let subjects: Result<Vec<Subject>, LabError> = names.iter().map(|name| Subject::load(name, &args.bound)).collect();
+    let subjects: Result<Vec<CheckedProject>, LabError> =
+        names.iter().map(|name| CheckedProject::load(name, &args.bound)).collect();
     let subjects = match subjects {
         Ok(subjects) => subjects,
         Err(error) => return Ok(trouble(error)),
@@ -60,7 +61,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
 }
 
 /// The report of what stability there is among results.
-pub fn files(out: &Path, results: &Results, subjects: &[Subject]) -> Result<Vec<String>, LabError> {
+pub fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
     stability::write_of(out, results, subjects)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     args::{RenderArgs, RunArgs},
-    machine::Trouble,
+    machine::RunError,
     memory,
 };
 use crate::{
@@ -30,40 +30,41 @@ pub enum Tiles {
     Always(u32, u32),
 }
 
-/// The way in which a picture is drawn.
+/// Says whether a picture is drawn in tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    Whole,
+pub enum TilePolicy {
+    /// In one piece.
+    Never,
     /// In tiles, if that can be; otherwise in one piece.
-    Rather(Tiling),
+    Preferred(Tiling),
     /// In tiles alone.
-    Tiled(Tiling),
+    Required(Tiling),
 }
 
-impl Way {
+impl TilePolicy {
     pub fn tiling(self) -> Option<Tiling> {
         match self {
-            Way::Whole => None,
-            Way::Rather(tiling) | Way::Tiled(tiling) => Some(tiling),
+            TilePolicy::Never => None,
+            TilePolicy::Preferred(tiling) | TilePolicy::Required(tiling) => Some(tiling),
         }
     }
 }
 
 /// Decides how the pictures of a run are drawn. `is_measured`: somebody else reads all of the picture.
-pub fn way(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<Way, Trouble> {
+pub fn policy(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<TilePolicy, RunError> {
     let recorded = run.replay.iter().flat_map(|recording| recording.frames.iter().map(|frame| frame.size));
     let sides = recorded.chain([run.size]).fold((0, 0), |(w, h), size| (w.max(size.0), h.max(size.1)));
     let limit = gpu.device.limits().max_texture_dimension_2d;
     let (is_too_large, pixels) = (sides.0.max(sides.1) > limit, u64::from(sides.0) * u64::from(sides.1));
     let (side, factor) = match run.tiles {
-        Tiles::Never => return Ok(Way::Whole),
+        Tiles::Never => return Ok(TilePolicy::Never),
         Tiles::Large(factor) if is_too_large || pixels > WHOLE_PIXELS => (None, factor),
-        Tiles::Large(_) => return Ok(Way::Whole),
+        Tiles::Large(_) => return Ok(TilePolicy::Never),
         Tiles::Always(side, factor) => (Some(side), factor),
     };
-    let refused = |why: &str| -> Result<Way, Trouble> {
+    let refused = |why: &str| -> Result<TilePolicy, RunError> {
         if side.is_none() && !is_too_large {
-            return Ok(Way::Whole);
+            return Ok(TilePolicy::Never);
         }
         let what = match side {
             Some(_) => "--tile".into(),
@@ -83,11 +84,11 @@ pub fn way(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<Way, Trouble> 
         return Err(anyhow::anyhow!(what).into());
     }
     let tiling = Tiling::new(side, limit, factor);
-    Ok(if side.is_none() && !is_too_large { Way::Rather(tiling) } else { Way::Tiled(tiling) })
+    Ok(if side.is_none() && !is_too_large { TilePolicy::Preferred(tiling) } else { TilePolicy::Required(tiling) })
 }
 
 /// Returns the size of the written picture of a project that is drawn in tiles.
-pub fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), Trouble> {
+pub fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), RunError> {
     let (width, height) = offline.engine()?.tiles().map_or((0, 0), |(picture, _)| picture);
     Ok((width / args.factor(), height / args.factor()))
 }
@@ -98,7 +99,7 @@ fn strip(
     args: &RenderArgs,
     parts: Option<&FrameInputs>,
     rows: Range<u32>,
-) -> Result<Pixels, Trouble> {
+) -> Result<Pixels, RunError> {
     let drawn = match (parts, args.shutter) {
         (Some(inputs), Some(shutter)) => {
             let mut mean = Mean::default();
@@ -113,13 +114,13 @@ fn strip(
     Ok(if args.factor() == 1 { drawn } else { shrunk(&drawn, args.factor()) })
 }
 
-fn strips(offline: &Offline, top_first: bool) -> Result<Vec<Range<u32>>, Trouble> {
+fn strips(offline: &Offline, top_first: bool) -> Result<Vec<Range<u32>>, RunError> {
     let picture = offline.engine()?.tiles().map(|(picture, _)| picture);
     Ok(offline.tiling().zip(picture).map_or_else(Vec::new, |(tiling, picture)| tiling.strips(picture, top_first)))
 }
 
 /// Draws all of the newest frame's picture and drops it.
-pub fn draw_all(offline: &mut Offline) -> Result<(), Trouble> {
+pub fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
     for rows in strips(offline, true)? {
         offline.draw_strip(rows)?;
     }
@@ -127,7 +128,7 @@ pub fn draw_all(offline: &mut Offline) -> Result<(), Trouble> {
 }
 
 /// Returns the whole picture of the newest frame, whether or not it is drawn in tiles, as it is written.
-pub fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, Trouble> {
+pub fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, RunError> {
     if offline.tiling().is_none() {
         let pixels = offline.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
         return Ok(if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) });
@@ -158,13 +159,13 @@ pub fn write(
     still: Still,
     output: Output,
     scene: Option<Scene>,
-) -> Result<(), Trouble> {
+) -> Result<(), RunError> {
     let size = size(offline, args)?;
     if matches!(output, Output::Pipe(_)) && !still.is_for_pipes_in_strips() {
         return Err(anyhow::anyhow!("--out -: an exr picture that is drawn in tiles needs a file").into());
     }
     let texels = offline.engine()?.format(&args.pass.pass, args.pass.target).unwrap_or_default();
-    let failed = |error| Trouble::Other(anyhow::Error::from(error));
+    let failed = |error| RunError::Other(anyhow::Error::from(error));
     let mut writer = StripWriter::start(still, texels, size, output, scene).map_err(failed)?;
     for rows in strips(offline, still.is_top_first())? {
         writer.push(strip(offline, args, parts, rows)?).map_err(failed)?;

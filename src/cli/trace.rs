@@ -3,7 +3,7 @@
 use super::{
     args::TraceArgs,
     divergence::{self, DivergenceReport},
-    machine::{Machine, Trouble, open},
+    machine::{Machine, RunError, open},
     nonfinite::{self, Begin},
     printed::{self, Printed},
     report::{Printer, Report},
@@ -31,7 +31,7 @@ struct JsonLine<'a> {
 
 /// The report, and where the first number is that is not finite; null where all are.
 #[derive(Serialize)]
-struct Sought<'a> {
+struct NonfiniteReport<'a> {
     #[serde(flatten)]
     report: &'a Report,
     nonfinite: Option<Begin>,
@@ -47,7 +47,7 @@ struct Traced {
     frame: u32,
     /// The triangle whose fragment the texel holds, of a pass that draws meshes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    mesh: Option<MeshSaid>,
+    mesh: Option<MeshReport>,
     /// No triangle of a pass that draws meshes covers the pixel.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     clear: bool,
@@ -85,7 +85,7 @@ struct Traced {
 
 /// A triangle of a mesh. Draws of the pass and triangles of the mesh are counted from 0.
 #[derive(Serialize)]
-struct MeshSaid {
+struct MeshReport {
     draw: usize,
     name: String,
     triangle: usize,
@@ -121,7 +121,7 @@ pub fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
             let begin =
                 machine.attempt(&mut report, |machine, report| nonfinite::first(machine, report, args, spec, inputs));
             let words = begin.as_ref().map(|begin| nonfinite::words(spec, report.frames, begin.as_ref()));
-            let line = Sought { report: &report, nonfinite: begin.flatten() };
+            let line = NonfiniteReport { report: &report, nonfinite: begin.flatten() };
             printer.print_as(&line, &report, words.unwrap_or_default().trim_end())?;
             continue;
         }
@@ -139,13 +139,13 @@ fn traced(
     args: &TraceArgs,
     spec: &str,
     inputs: ScriptedInputs,
-) -> Result<Traced, Trouble> {
+) -> Result<Traced, RunError> {
     let pass = &args.pass.pass;
     let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs.clone())?;
     for _ in 0..args.frame {
         offline.draw()?;
     }
-    let before = (args.probes > 0).then(|| Ok::<_, Trouble>(offline.engine()?.snapshot()?)).transpose()?;
+    let before = (args.probes > 0).then(|| Ok::<_, RunError>(offline.engine()?.snapshot()?)).transpose()?;
     let face = args.face().map_err(anyhow::Error::msg)?;
     let read = PassInputs { face: face as u32, ..offline.draw_inspected(pass)? };
     report.frames = args.frame + 1;
@@ -155,7 +155,7 @@ fn traced(
     let extent = Extent { statements: args.max_statements, steps: args.max_steps.unwrap_or(usize::MAX) };
     let pixel = args.pixel.unwrap_or_default();
     let trace = match trace::trace(&texts, index, &read, pixel, extent) {
-        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
     let (x, y) = pixel;
@@ -194,14 +194,14 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         match step.event {
             Event::Enter(name) => (placed.kind, placed.name) = ("enter", Some(name)),
             Event::Leave => placed.kind = "leave",
-            Event::Turn(turn) => (placed.kind, placed.turn) = ("turn", Some(turn)),
+            Event::Iteration(turn) => (placed.kind, placed.turn) = ("turn", Some(turn)),
             Event::Set { name, value } => (placed.kind, placed.name, placed.value) = ("set", Some(name), value),
         }
         placed
     });
     let draws = project.pass(&args.pass.pass).and_then(|pass| pass.settings.meshes()).map_or(&[][..], |g| &g.draws);
     let mesh = match trace.origin {
-        Origin::Mesh(fragment) => draws.get(fragment.draw).map(|draw| MeshSaid {
+        Origin::Mesh(fragment) => draws.get(fragment.draw).map(|draw| MeshReport {
             draw: fragment.draw,
             name: draw.mesh.name(),
             triangle: fragment.triangle,
@@ -270,7 +270,7 @@ fn words(spec: &str, traced: &Traced) -> String {
     let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
     let face = traced.face.map_or_else(String::new, |face| format!(" {face}"));
     let _ = writeln!(out, "{spec}: {pass}{face} at {x},{y} in frame {frame}, {statements} statements");
-    if let Some(MeshSaid { draw, name, triangle, front }) = &traced.mesh {
+    if let Some(MeshReport { draw, name, triangle, front }) = &traced.mesh {
         let side = if *front { "front" } else { "back" };
         let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, {side} side");
     }

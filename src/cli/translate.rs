@@ -3,7 +3,7 @@
 use super::{
     args::TranslateArgs,
     library::mend,
-    machine::{Machine, Trouble},
+    machine::{Machine, RunError},
     report::{Printer, Report},
     written::write_all,
 };
@@ -16,7 +16,7 @@ use std::{io, path::PathBuf};
 
 /// A line of `--json`.
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     language: &'static str,
@@ -44,7 +44,7 @@ pub fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
         };
         report.diagnose(&done.diagnostics, &project.sources(), Some(project));
         let files = done.files.iter().map(|file| (file.name.as_str(), &file.bytes[..]));
-        write_all(&folder, files, args.force).map_err(Trouble::from).map_err(mend)?;
+        write_all(&folder, files, args.force).map_err(RunError::from).map_err(mend)?;
         Ok(done.files.into_iter().map(|file| file.name).collect())
     });
     let files = written.unwrap_or_default();
@@ -54,7 +54,7 @@ pub fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
     };
     let mut printer = Printer::new(args.json);
     let out = folder.display().to_string();
-    let line = Line { report: &report, language: language.key(), language_version: language.version(), out, files };
+    let line = JsonLine { report: &report, language: language.key(), language_version: language.version(), out, files };
     printer.print_as(&line, &report, &words)?;
     Ok(printer.exit_code())
 }

@@ -16,7 +16,7 @@ mod takeover;
 mod values;
 
 pub use queue::ControlQueue;
-pub use takeover::{Movement, Takeover, Waits};
+pub use takeover::{Movement, PickupSide, Takeover};
 pub use values::{Moved, OWN_UNITS, direct, moved, place_of};
 
 use eddy_project::ControlAddress;

@@ -6,7 +6,7 @@
 
 /// The side of the value on which a knob is that does not move it yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Waits {
+pub enum PickupSide {
     /// The knob is to be turned up.
     Below,
     /// The knob is to be turned down.
@@ -33,7 +33,7 @@ pub struct Takeover {
     knob: Option<f64>,
     /// The value that the knob has set. Another one by now: something else has moved it.
     held: Option<f64>,
-    waits: Option<Waits>,
+    waits: Option<PickupSide>,
     /// The next movement takes over wherever the knob is.
     is_learned: bool,
 }
@@ -49,7 +49,7 @@ impl Takeover {
     }
 
     /// Returns the side on which the knob waits, as its last movement left it. `None`: it moves the value.
-    pub fn waits(&self) -> Option<Waits> {
+    pub fn waits(&self) -> Option<PickupSide> {
         self.waits
     }
 
@@ -64,7 +64,7 @@ impl Takeover {
             (self.held, self.waits) = (Some(target), None);
             return true;
         }
-        (self.held, self.waits) = (None, Some(if knob < slider { Waits::Below } else { Waits::Above }));
+        (self.held, self.waits) = (None, Some(if knob < slider { PickupSide::Below } else { PickupSide::Above }));
         false
     }
 }
@@ -84,7 +84,7 @@ mod tests {
             Self { value, takeover: Takeover::default() }
         }
 
-        fn turn(&mut self, step: u8) -> (f64, Option<Waits>) {
+        fn turn(&mut self, step: u8) -> (f64, Option<PickupSide>) {
             let knob = f64::from(step) / 127.0;
             let movement = Movement { knob, slider: self.value, value: self.value, target: knob };
             if self.takeover.moves(movement) {
@@ -97,15 +97,15 @@ mod tests {
     #[test]
     fn a_knob_takes_over_where_it_passes_the_value() {
         let mut slider = Slider::at(0.5);
-        assert_eq!(slider.turn(10), (0.5, Some(Waits::Below)));
-        assert_eq!(slider.turn(40), (0.5, Some(Waits::Below)));
+        assert_eq!(slider.turn(10), (0.5, Some(PickupSide::Below)));
+        assert_eq!(slider.turn(40), (0.5, Some(PickupSide::Below)));
         assert_eq!(slider.turn(100), (100.0 / 127.0, None), "a fast turn over the value");
         assert_eq!(slider.turn(3), (3.0 / 127.0, None), "and from then on every movement");
         // From above, one step after the other.
         let mut slider = Slider::at(0.5);
-        assert_eq!(slider.turn(70), (0.5, Some(Waits::Above)));
+        assert_eq!(slider.turn(70), (0.5, Some(PickupSide::Above)));
         for step in (66..70).rev() {
-            assert_eq!(slider.turn(step), (0.5, Some(Waits::Above)), "{step}");
+            assert_eq!(slider.turn(step), (0.5, Some(PickupSide::Above)), "{step}");
         }
         assert_eq!(slider.turn(64), (64.0 / 127.0, None), "one step away");
     }
@@ -115,11 +115,11 @@ mod tests {
         let mut slider = Slider { value: 0.25, takeover: Takeover::learned() };
         assert_eq!(slider.turn(127), (1.0, None), "a hand has just chosen it");
         slider.value = 0.25;
-        assert_eq!(slider.turn(126), (0.25, Some(Waits::Above)));
+        assert_eq!(slider.turn(126), (0.25, Some(PickupSide::Above)));
         assert_eq!(slider.turn(0), (0.0, None));
         // An end of the range is reached.
         let mut slider = Slider::at(1.0);
-        assert_eq!(slider.turn(90).1, Some(Waits::Below));
+        assert_eq!(slider.turn(90).1, Some(PickupSide::Below));
         assert_eq!(slider.turn(127), (1.0, None));
         assert_eq!(slider.turn(100), (100.0 / 127.0, None));
     }

@@ -4,7 +4,7 @@ use super::{
     Sources,
     compile::PassOptions,
     sources,
-    stage_cache::{self, Missing, Outcome, StageCache},
+    stage_cache::{self, CacheMiss, Outcome, StageCache},
 };
 use eddy_glsl::{Link, PassSource};
 use eddy_project::{PassBody, Stage};
@@ -25,7 +25,7 @@ struct Job {
     text: usize,
     index: usize,
     options: PassOptions,
-    stage: Box<Missing>,
+    stage: Box<CacheMiss>,
 }
 
 impl Sources<'_> {

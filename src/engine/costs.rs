@@ -1,7 +1,7 @@
 //! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
-use eddy_graph::{Draw, FramePlan, PassFacts, Read, TexelSource, Traffic, When};
+use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, TexelSource, Traffic};
 use eddy_project::{Condition, PassId, Project};
 use eddy_texture::TexelFormat;
 
@@ -38,7 +38,7 @@ pub struct PassRead {
     pub pass: PassId,
     /// The target among those of that pass.
     pub index: usize,
-    pub when: When,
+    pub when: ReadTiming,
     /// The pass is drawn, and its code reads the channel.
     pub is_used: bool,
 }

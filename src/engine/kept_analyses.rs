@@ -3,7 +3,7 @@
 use super::{
     Sources,
     preamble::KeptPreamble,
-    stage_cache::{KeptStages, Missing},
+    stage_cache::{CacheMiss, KeptStages},
 };
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_glsl::{Driver, Link, services::Analysis};
@@ -22,7 +22,7 @@ pub struct StageAnalysis {
 /// Analyses of every stage of a project, for who asks again after each edit.
 #[derive(Default)]
 pub struct KeptAnalyses {
-    kept: Vec<(Missing, Arc<Analysis>)>,
+    kept: Vec<(CacheMiss, Arc<Analysis>)>,
     preamble: KeptPreamble,
     /// Stages of passes that draw meshes: what a vertex stage hands on is known when it is compiled.
     stages: KeptStages,
@@ -38,7 +38,7 @@ impl KeptAnalyses {
             let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
             for stage in [Stage::Own].into_iter().chain((0..files).map(Stage::File)) {
                 let key = texts.with_stage(index, stage, |source| {
-                    Missing::new(source, &Link::default(), |text| texts.shared(text))
+                    CacheMiss::new(source, &Link::default(), |text| texts.shared(text))
                 });
                 let known = before.iter().find(|(other, _)| *other == key).map(|(_, analysis)| analysis.clone());
                 let analysis = known.unwrap_or_else(|| Arc::new(texts.analyse_stage(index, stage)));

@@ -48,7 +48,7 @@ pub use build::{BuildOptions, BuildWork, Builder, Built};
 pub use compiled::{CompiledPass, CompiledProgram};
 pub use costs::{CostClock, PassCost, PassRead, PassRole};
 pub use eddy_gpu::{Paint, ValueLook};
-pub use eddy_graph::When;
+pub use eddy_graph::ReadTiming;
 pub use eddy_video::CameraFrame;
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;

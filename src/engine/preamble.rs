@@ -112,10 +112,10 @@ mod tests {
             let outcomes = Sources::new(&project).compile_all(Driver::default());
             let errors: Vec<_> = outcomes.into_iter().filter_map(Result::err).collect();
             assert!(errors.len() >= project.passes.len(), "each pass has the mistake");
-            let mut told = Vec::new();
-            errors.into_iter().for_each(|errors| diag::append(&mut told, errors));
-            let places: Vec<_> = told.iter().map(|d| d.span.map(|span| span.source)).collect();
-            assert_eq!(places, [Some(project::Project::COMMON_ID)], "{told:?}");
+            let mut all = Vec::new();
+            errors.into_iter().for_each(|errors| diag::append(&mut all, errors));
+            let places: Vec<_> = all.iter().map(|d| d.span.map(|span| span.source)).collect();
+            assert_eq!(places, [Some(project::Project::COMMON_ID)], "{all:?}");
         }
     }
 }

@@ -441,7 +441,7 @@ impl Engine {
         let places: Vec<(usize, u32)> = running.targets.iter().enumerate().filter(is_drawn).flat_map(layers).collect();
         let views: Vec<_> = places.iter().map(|(i, layer)| running.targets[*i].newest().layer(*layer)).collect();
         let texels = self.viewer.get_or_insert_with(|| Viewer::new(gpu)).texels(gpu, &views, at)?;
-        let told = places.iter().zip(texels).map(|((index, layer), value)| {
+        let values = places.iter().zip(texels).map(|((index, layer), value)| {
             let target = &running.targets[*index];
             let (width, height) = target.size();
             let texel = |part: f32, size: u32| ((part * size as f32) as u32).min(size.saturating_sub(1));
@@ -453,7 +453,7 @@ impl Engine {
                 value,
             }
         });
-        Ok(told.collect())
+        Ok(values.collect())
     }
 
     /// Returns the format of one of a pass's targets or of a face of its cubemap, while the running program has it.

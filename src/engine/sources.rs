@@ -162,7 +162,7 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn walkable(&self, index: usize, detail: Detail) -> Result<Walkable, Vec<Diagnostic>> {
-        self.walked(index, (Stage::Own, self.own_kind(index)), |source| {
+        self.lower_stage(index, (Stage::Own, self.own_kind(index)), |source| {
             Walkable::new(source, &Link::default(), self.preamble(), detail)
         })
     }
@@ -172,7 +172,7 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass or stage.
     pub fn walkable_vertices(&self, index: usize, stage: Stage) -> Result<Walkable, Vec<Diagnostic>> {
-        self.walked(index, (stage, PassKind::Vertex), |source| {
+        self.lower_stage(index, (stage, PassKind::Vertex), |source| {
             Walkable::new(source, &Link::default(), self.preamble(), Detail::Values)
         })
     }
@@ -189,7 +189,9 @@ impl<'p> Sources<'p> {
     ) -> Result<Walkable, Vec<Diagnostic>> {
         let targets = Some(self.pass(index).settings.formats().len());
         let link = Link { varyings: Some(varyings), targets };
-        self.walked(index, (stage, PassKind::Fragment), |source| Walkable::new(source, &link, self.preamble(), detail))
+        self.lower_stage(index, (stage, PassKind::Fragment), |source| {
+            Walkable::new(source, &link, self.preamble(), detail)
+        })
     }
 
     /// Lowers what stands in `project.passes[index]`, of one that draws meshes the fragment stage of a draw, and behind
@@ -204,7 +206,7 @@ impl<'p> Sources<'p> {
         (declarations, body): (&str, &str),
     ) -> Result<Walkable, Vec<Diagnostic>> {
         let Some(draw) = draw.and_then(|draw| self.pass(index).settings.meshes()?.draws.get(draw)) else {
-            return self.walked(index, (Stage::Own, self.own_kind(index)), |source| {
+            return self.lower_stage(index, (Stage::Own, self.own_kind(index)), |source| {
                 let text = format!(
                     "{}\n{declarations}void mainCubemap(out vec4 o, in vec2 p, in vec3 a, in vec3 b) {{ o = vec4(0.0); \
                      {body}}}\n",
@@ -217,7 +219,7 @@ impl<'p> Sources<'p> {
         };
         let vertices = self.walkable_vertices(index, draw.vertex)?;
         let link = Link { varyings: Some(&vertices.varyings), targets: None };
-        self.walked(index, (draw.fragment, PassKind::Fragment), |source| {
+        self.lower_stage(index, (draw.fragment, PassKind::Fragment), |source| {
             // The author's `main` stays as it is, by another name.
             let text = format!(
                 "#define main eddy_main\n{}\n#undef main\n{declarations}void main() {{ {body}}}\n",
@@ -246,7 +248,12 @@ impl<'p> Sources<'p> {
         pass_kind(&self.pass(index).id)
     }
 
-    fn walked<T>(&self, index: usize, (stage, kind): (Stage, PassKind), make: impl FnOnce(&PassSource<'_>) -> T) -> T {
+    fn lower_stage<T>(
+        &self,
+        index: usize,
+        (stage, kind): (Stage, PassKind),
+        make: impl FnOnce(&PassSource<'_>) -> T,
+    ) -> T {
         self.with_source(index, self.stage_id(index, stage), kind, make)
     }
 
@@ -257,7 +264,7 @@ impl<'p> Sources<'p> {
     pub fn probed(&self, index: usize, probe: &Probe) -> Option<ProbedExpression> {
         let is_probed = self.pass(index).settings.meshes().is_none();
         let own = (Stage::Own, self.own_kind(index));
-        is_probed.then(|| self.walked(index, own, |source| glsl::probed(source, self.preamble(), probe)))?
+        is_probed.then(|| self.lower_stage(index, own, |source| glsl::probed(source, self.preamble(), probe)))?
     }
 
     /// Returns for each of these parts of the texts of `project.passes[index]` a byte at which a probe means the
@@ -269,8 +276,9 @@ impl<'p> Sources<'p> {
     pub fn probe_places(&self, index: usize, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
         match self.pass(index).settings.meshes() {
             Some(_) => vec![None; spans.len()],
-            None => self
-                .walked(index, (Stage::Own, self.own_kind(index)), |s| glsl::probe_places(s, self.preamble(), spans)),
+            None => self.lower_stage(index, (Stage::Own, self.own_kind(index)), |s| {
+                glsl::probe_places(s, self.preamble(), spans)
+            }),
         }
     }
 

@@ -42,13 +42,13 @@ impl KeptStages {
 
 /// A stage that is not in the cache.
 #[derive(PartialEq)]
-pub(super) struct Missing {
+pub(super) struct CacheMiss {
     key: StageKey,
     /// Its texts, rising.
     ids: Vec<SourceId>,
 }
 
-impl Missing {
+impl CacheMiss {
     /// Everything that reading a stage reads. `shared` returns a text of `source` as it is kept.
     pub fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
         let ids = ids_of(source);
@@ -224,8 +224,8 @@ impl StageCache {
         source: &PassSource<'_>,
         link: &Link<'_>,
         shared: impl Fn(Text<'_>) -> Arc<str>,
-    ) -> Result<Found, Box<Missing>> {
-        let wanted = Missing::new(source, link, shared);
+    ) -> Result<Found, Box<CacheMiss>> {
+        let wanted = CacheMiss::new(source, link, shared);
         match self.stages.get(&wanted.key) {
             Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &wanted.ids))),
             None => Err(Box::new(wanted)),
@@ -233,7 +233,7 @@ impl StageCache {
     }
 
     /// Adds a stage that was compiled.
-    pub fn add(&mut self, missing: Box<Missing>, outcome: Outcome) -> Found {
+    pub fn add(&mut self, missing: Box<CacheMiss>, outcome: Outcome) -> Found {
         self.compiled += 1;
         let (stage, diagnostics) = match outcome {
             Ok(mut stage) => {
@@ -242,7 +242,7 @@ impl StageCache {
             }
             Err(errors) => (None, errors),
         };
-        let Missing { key, ids } = *missing;
+        let CacheMiss { key, ids } = *missing;
         let mut kept = Kept { stage, content: OnceCell::new(), diagnostics, ids };
         // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
         if self.joins

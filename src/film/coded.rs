@@ -241,11 +241,11 @@ pub struct CodedFilm {
     bytes: Vec<u8>,
     /// Kept until ffmpeg has read it.
     _sound: Option<Staged>,
-    later: Option<Later>,
+    later: Option<PendingMux>,
 }
 
 /// A film that gets its sound when all pictures are there.
-struct Later {
+struct PendingMux {
     coded: Coded,
     /// The pictures.
     film: Staged,
@@ -255,7 +255,7 @@ struct Later {
     stop: Stop,
 }
 
-impl Later {
+impl PendingMux {
     fn finish(self) -> Result<(), FilmError> {
         let sound = self.sound.map(|sound| stage_sound(&self.to, &sound)).transpose()?;
         let wav = sound.as_ref().map(|sound| named(sound.path())).transpose()?;
@@ -289,7 +289,7 @@ impl CodedFilm {
             FilmSound::Later => {
                 let film = Staged::new(to).map_err(FilmError::io(to))?;
                 let (tools, stop, to) = (tools.clone(), stop.clone(), to.to_owned());
-                Some(Later { coded, film, sound: None, to, tools, stop })
+                Some(PendingMux { coded, film, sound: None, to, tools, stop })
             }
             _ => None,
         };
@@ -321,6 +321,6 @@ impl Sink for CodedFilm {
 
     fn finish(&mut self) -> Result<(), FilmError> {
         self.encoder.take().map_or(Ok(()), |encoder| encoder.finish())?;
-        self.later.take().map_or(Ok(()), Later::finish)
+        self.later.take().map_or(Ok(()), PendingMux::finish)
     }
 }

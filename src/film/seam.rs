@@ -30,7 +30,7 @@ pub struct Seam {
 
 /// The picture of a run that a film shows.
 #[derive(Clone, Debug)]
-pub struct Shown {
+pub struct ShownPass {
     pub pass: PassId,
     /// The target of a pass that has several, or the face of a cubemap.
     pub layer: usize,
@@ -38,7 +38,7 @@ pub struct Shown {
     pub factor: u32,
 }
 
-impl Shown {
+impl ShownPass {
     /// Reads the newest frame's picture.
     pub fn read(&self, offline: &mut Offline) -> Result<Pixels, OfflineError> {
         let pixels = offline.read(&self.pass, self.layer)?;

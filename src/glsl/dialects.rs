@@ -240,7 +240,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => return None,
     };
     let first = found.iter().find(|d| d.is_error())?;
-    let words = Words::of(source.code.text);
+    let words = StrippedText::of(source.code.text);
     let span = |at: usize, len: usize| Span::new(source.code.id, at..at + len);
     let named = |is: &str, span: Span, mends: &[&str]| {
         let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
@@ -292,13 +292,13 @@ fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
 }
 
 /// A text without its comments.
-struct Words {
+struct StrippedText {
     text: String,
 }
 
-impl Words {
+impl StrippedText {
     /// Comments become blanks, so that places stay.
-    fn of(text: &str) -> Words {
+    fn of(text: &str) -> StrippedText {
         let mut out = text.as_bytes().to_vec();
         let mut at = 0;
         while at < out.len() {
@@ -314,7 +314,7 @@ impl Words {
             out[at..at + len].fill(b' ');
             at += len;
         }
-        Words { text: String::from_utf8(out).unwrap_or_default() }
+        StrippedText { text: String::from_utf8(out).unwrap_or_default() }
     }
 
     /// Returns where a word stands first, or a part of the text that is no word.

@@ -44,7 +44,7 @@ pub struct LocalVariable {
 
 /// The time for which a variable is asked for: before a statement, in its head, or behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum When {
+pub enum StatementPoint {
     Before,
     Within,
     After,
@@ -113,12 +113,12 @@ impl Statements {
     }
 
     /// The variables that can be named at a statement, the outermost first: of those of one name the last is meant.
-    pub fn visible(&self, index: u32, when: When) -> Vec<u32> {
+    pub fn visible(&self, index: u32, when: StatementPoint) -> Vec<u32> {
         let Some(statement) = self.get(index) else { return Vec::new() };
         let mut scope = match when {
-            When::Before => statement.before,
-            When::Within => statement.within,
-            When::After => statement.after,
+            StatementPoint::Before => statement.before,
+            StatementPoint::Within => statement.within,
+            StatementPoint::After => statement.after,
         };
         let mut found = Vec::new();
         while let Some((outer, local)) = scope.map(|scope| self.scopes[scope as usize]) {

@@ -1,7 +1,7 @@
 //! Owns the questions of what one frame leaves to the next, and which draw of a frame may be done in pieces, with
 //! anything between them.
 
-use super::{FramePlan, TexelSource, When};
+use super::{FramePlan, ReadTiming, TexelSource};
 use eddy_texture::Dimension;
 
 /// The part of a target that the frames to come depend on.
@@ -25,7 +25,8 @@ impl FramePlan {
         if draw.keeps_content && draw.region.is_none() && self.targets[target].doubled {
             return Carried::All;
         }
-        let is_read = |source: &TexelSource| *source == TexelSource::Target { index: target, when: When::LastFrame };
+        let is_read =
+            |source: &TexelSource| *source == TexelSource::Target { index: target, when: ReadTiming::LastFrame };
         let is_read = self.draws.iter().flat_map(|draw| draw.reads.iter().flatten()).any(|read| is_read(&read.source));
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
     }

@@ -9,11 +9,11 @@ pub struct Changes {
     /// The number of times that each target was drawn.
     drawn: Vec<u64>,
     /// Says what each draw read when it was done last. `None`: it must be done.
-    read: Vec<Option<WasRead>>,
+    read: Vec<Option<ReadVersions>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct WasRead {
+struct ReadVersions {
     /// The count of the target of each channel.
     targets: [u64; 4],
     inputs: Vec<u8>,
@@ -41,7 +41,7 @@ impl Changes {
             if self.read[index].as_ref().is_some_and(|r| r.targets == targets && r.inputs == inputs) {
                 return false;
             }
-            self.read[index] = Some(WasRead { targets, inputs: inputs.to_vec() });
+            self.read[index] = Some(ReadVersions { targets, inputs: inputs.to_vec() });
         }
         for target in draw.targets.clone() {
             self.drawn[target] += 1;

@@ -18,6 +18,6 @@ mod traffic;
 pub use carried::Carried;
 pub use changes::Changes;
 pub use plan::effective_sampler;
-pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Target, TexelSource, When};
+pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, ReadTiming, Run, Target, TexelSource};
 pub use tiles::{TiledDraw, Undivided};
 pub use traffic::Traffic;

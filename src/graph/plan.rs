@@ -30,7 +30,7 @@ impl PassFacts {
 
 /// The frame whose picture of a target a read sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum When {
+pub enum ReadTiming {
     /// The one that has been drawn in this frame already.
     ThisFrame,
     /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that
@@ -42,7 +42,7 @@ pub enum When {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TexelSource {
     /// An index into [`FramePlan::targets`].
-    Target { index: usize, when: When },
+    Target { index: usize, when: ReadTiming },
     /// A texture that something else than a pass fills.
     External,
     /// No input, or one that no texture can be had for: opaque black, of size 0.
@@ -288,14 +288,14 @@ impl FramePlan {
         }
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
         let Some(index) = self.targets(project, id).nth(index) else { return TexelSource::Nothing };
-        TexelSource::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
+        TexelSource::Target { index, when: if earlier { ReadTiming::ThisFrame } else { ReadTiming::LastFrame } }
     }
 
     /// Decides what each target needs, now that every read is known.
     fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
         for index in 0..self.targets.len() {
             let (id, own_index) = (self.targets[index].id.clone(), self.targets[index].index);
-            let reads_of = |when: Option<When>| {
+            let reads_of = |when: Option<ReadTiming>| {
                 self.draws
                     .iter()
                     .flat_map(|d| d.reads.iter().enumerate().map(move |(c, r)| (d.pass, c, r)))
@@ -312,7 +312,7 @@ impl FramePlan {
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before, and Sound its block before; only buffers take turns.
             let takes_turns = id.is_picture() && id != PassId::Image && drawn_by.is_some();
-            let doubled = takes_turns && (!skip || discards || !reads_of(Some(When::LastFrame)).is_empty());
+            let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
                 (0..4).any(|c| {

@@ -1,7 +1,7 @@
 //! The plan's rules, with no device.
 
 use super::{
-    Carried, Changes, ChannelFacts, FramePlan, PassFacts, Target, TexelSource, Undivided, When, effective_sampler,
+    Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, Undivided, effective_sampler,
 };
 use eddy_project::{
     Channel, Filter, Group, Input, Origin, Pass, PassBody, PassId, PassSize, Project, Region, Sampler, SamplerRules,
@@ -40,7 +40,7 @@ fn plan(project: &Project) -> FramePlan {
 }
 
 /// Returns what `reader`'s channel `c` sees in `plan`: the target's title and the frame.
-fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, When)> {
+fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, ReadTiming)> {
     let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
     match &draw.reads[c].as_ref()?.source {
         TexelSource::Target { index, when } => Some((plan.targets[*index].id.title(), *when)),
@@ -61,13 +61,13 @@ fn truth_table_of_reads() {
         for (place, &reader) in order.iter().enumerate() {
             for (source, letter) in LETTERS.iter().enumerate() {
                 let source_place = order.iter().position(|&i| i == source).unwrap();
-                let when = if source_place < place { When::ThisFrame } else { When::LastFrame };
+                let when = if source_place < place { ReadTiming::ThisFrame } else { ReadTiming::LastFrame };
                 let id = PassId::Buffer(LETTERS[reader].into());
                 assert_eq!(seen(&project, &plan, &id, source), Some((format!("Buffer {letter}"), when)), "{order:?}");
             }
         }
         for (source, letter) in LETTERS.iter().enumerate() {
-            let expected = Some((format!("Buffer {letter}"), When::ThisFrame));
+            let expected = Some((format!("Buffer {letter}"), ReadTiming::ThisFrame));
             assert_eq!(seen(&project, &plan, &PassId::Image, source), expected);
         }
     }
@@ -83,10 +83,10 @@ fn buffers_see_last_frames_cubemap_and_image_this_frames() {
     ]);
     let plan = plan(&project);
     let see = |id: PassId, c| seen(&project, &plan, &id, c).unwrap().1;
-    assert_eq!(see(PassId::Buffer("A".into()), 0), When::LastFrame);
-    assert_eq!(see(PassId::Cubemap, 0), When::ThisFrame);
-    assert_eq!(see(PassId::Cubemap, 1), When::LastFrame);
-    assert_eq!(see(PassId::Image, 0), When::ThisFrame);
+    assert_eq!(see(PassId::Buffer("A".into()), 0), ReadTiming::LastFrame);
+    assert_eq!(see(PassId::Cubemap, 0), ReadTiming::ThisFrame);
+    assert_eq!(see(PassId::Cubemap, 1), ReadTiming::LastFrame);
+    assert_eq!(see(PassId::Image, 0), ReadTiming::ThisFrame);
     assert_eq!(plan.targets.iter().find(|t| t.id == PassId::Cubemap).unwrap().dimension, Dimension::Cube);
 }
 
@@ -308,8 +308,8 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     assert_eq!(plan.draws[0].targets, 0..2);
     assert!(!plan.draws[0].keeps_content && plan.draws[0].is_cacheable);
     let read = |draw: usize, c: usize| plan.draws[draw].reads[c].as_ref().unwrap().source.clone();
-    assert_eq!(read(1, 0), TexelSource::Target { index: 1, when: When::ThisFrame });
-    assert_eq!(read(2, 0), TexelSource::Target { index: 0, when: When::ThisFrame });
+    assert_eq!(read(1, 0), TexelSource::Target { index: 1, when: ReadTiming::ThisFrame });
+    assert_eq!(read(2, 0), TexelSource::Target { index: 0, when: ReadTiming::ThisFrame });
     // Without skipping it is drawn each frame, and cleared all the same.
     let full = FramePlan::new(&project, &facts, &[], false);
     assert!(!full.draws[0].keeps_content && !full.draws[0].is_cacheable);

@@ -5,12 +5,12 @@
 
 use super::{
     GuiError, Options,
-    device_recovery::{self, Losses},
+    device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
-    settings::{Remembered, SettingsFile, UsualSizes, WindowFile, WindowPlace},
+    settings::{SettingsFile, UsualSizes, WindowFile, WindowPlace, WindowState},
     shell::Shell,
     surface::{Presented, Surface},
     system_theme, theme, window_identity,
@@ -38,7 +38,7 @@ use winit::{
 
 /// Sent to the event loop from other threads.
 #[derive(Debug)]
-pub enum Outside {
+pub enum AppEvent {
     /// There is something to show.
     Wake,
     /// A frame has been painted, and what happened meanwhile has been told of.
@@ -47,7 +47,7 @@ pub enum Outside {
     Assistive(accesskit_winit::Event),
 }
 
-impl From<accesskit_winit::Event> for Outside {
+impl From<accesskit_winit::Event> for AppEvent {
     fn from(event: accesskit_winit::Event) -> Self {
         Self::Assistive(event)
     }
@@ -55,7 +55,7 @@ impl From<accesskit_winit::Event> for Outside {
 
 /// Opens the window and returns when it is closed.
 pub fn run(options: Options) -> Result<(), GuiError> {
-    let event_loop = EventLoop::<Outside>::with_user_event().build().map_err(no_display)?;
+    let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(no_display)?;
     let mut app = App { proxy: event_loop.create_proxy(), options, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(no_display)?;
     let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
@@ -82,7 +82,7 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
 const FIRST_FRAME: Duration = Duration::from_millis(250);
 
 struct App {
-    proxy: EventLoopProxy<Outside>,
+    proxy: EventLoopProxy<AppEvent>,
     options: Options,
     running: Option<Running>,
     failed: Option<GuiError>,
@@ -94,10 +94,10 @@ struct Running {
     ctx: egui::Context,
     input: egui_winit::State,
     surface: Surface,
-    losses: Losses,
+    losses: DeviceLosses,
     /// A file that makes the device one that was lost, when it appears.
     lose_device: Option<PathBuf>,
-    proxy: EventLoopProxy<Outside>,
+    proxy: EventLoopProxy<AppEvent>,
     wake: Arc<dyn Fn() + Send + Sync>,
     session: Session,
     shell: Shell,
@@ -118,7 +118,7 @@ struct Running {
     usual: UsualSizes,
 }
 
-impl ApplicationHandler<Outside> for App {
+impl ApplicationHandler<AppEvent> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.running.is_some() {
             return;
@@ -132,19 +132,19 @@ impl ApplicationHandler<Outside> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: Outside) {
+    fn user_event(&mut self, _: &ActiveEventLoop, event: AppEvent) {
         let Some(running) = &mut self.running else { return };
         match event {
             // The picture is there, or something else is: at the screen's own rhythm.
-            Outside::Wake => {
+            AppEvent::Wake => {
                 let now = Instant::now();
                 running.session.attend(now);
                 running.paint_by(running.paced(running.after_first_frame(now)));
             }
             // What a hand has done goes before the next frame of the picture.
-            Outside::Painted if running.is_due() => {}
-            Outside::Painted => running.session.painted(Instant::now()),
-            Outside::Assistive(event) => running.assist(event.window_event),
+            AppEvent::Painted if running.is_due() => {}
+            AppEvent::Painted => running.session.painted(Instant::now()),
+            AppEvent::Assistive(event) => running.assist(event.window_event),
         }
     }
 
@@ -191,7 +191,7 @@ enum Next {
 impl Running {
     fn new(
         event_loop: &ActiveEventLoop,
-        proxy: &EventLoopProxy<Outside>,
+        proxy: &EventLoopProxy<AppEvent>,
         options: &Options,
     ) -> Result<Running, GuiError> {
         let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
@@ -204,7 +204,7 @@ impl Running {
             let proxy = proxy.clone();
             // The loop is gone when the window is: nobody is left to wake.
             Arc::new(move || {
-                let _ = proxy.send_event(Outside::Wake);
+                let _ = proxy.send_event(AppEvent::Wake);
             })
         };
         let ctx = egui::Context::default();
@@ -272,7 +272,7 @@ impl Running {
             ctx,
             input,
             surface,
-            losses: Losses::default(),
+            losses: DeviceLosses::default(),
             lose_device: options.lose_device.clone(),
             proxy: proxy.clone(),
             wake,
@@ -423,7 +423,7 @@ impl Running {
         }
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         // Events of the window go before it.
-        let _ = self.proxy.send_event(Outside::Painted);
+        let _ = self.proxy.send_event(AppEvent::Painted);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
         self.watch_device(began)?;
         self.follow_shell();
@@ -495,7 +495,7 @@ impl Running {
             true => (Some(dock.open_panels().clone()), dock.arrangement()),
             false => (self.window_file.known().open.clone(), self.window_file.known().layout.clone()),
         };
-        self.window_file.keep(Remembered { place, open, layout });
+        self.window_file.keep(WindowState { place, open, layout });
     }
 
     fn place(&self, is_maximized: bool) -> WindowPlace {

@@ -9,7 +9,7 @@ use std::{
 
 /// Names something in a file that cannot be done as it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
+pub struct ConfigError {
     /// The line, counted from 1.
     pub line: usize,
     /// Says what is wrong and how to mend it.
@@ -23,7 +23,7 @@ pub trait Content: Default {
     const STAYS: &str;
 
     /// Reads a text. Lines with mistakes mean nothing.
-    fn read(text: &str) -> (Self, Vec<Mistake>);
+    fn read(text: &str) -> (Self, Vec<ConfigError>);
 
     /// Returns a text that lists everything and changes nothing.
     fn template() -> String;
@@ -90,7 +90,11 @@ impl<T: Content> ConfigFile<T> {
 
     /// Changes the text of the file, or of the template where there is none. Err: why it stays as it was, with a
     /// sentence behind an error of the disk.
-    pub fn edit(&mut self, edit: impl FnOnce(&str) -> Result<String, Mistake>, otherwise: &str) -> Result<(), String> {
+    pub fn edit(
+        &mut self,
+        edit: impl FnOnce(&str) -> Result<String, ConfigError>,
+        otherwise: &str,
+    ) -> Result<(), String> {
         let Some(path) = &self.path else { return Ok(()) };
         let failed = |error: io::Error| format!("{}: {error}. {otherwise}", path.display());
         let there = read(path).map_err(failed)?;
@@ -142,7 +146,7 @@ fn read(path: &Path) -> io::Result<Option<String>> {
     }
 }
 
-fn with_place(path: &Path, mistake: &Mistake) -> String {
+fn with_place(path: &Path, mistake: &ConfigError) -> String {
     format!("{}:{}: {}", path.display(), mistake.line, mistake.text)
 }
 

@@ -30,15 +30,15 @@ pub struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
     /// Shows a dialog of the desktop's and waits for its end.
     desktop: fn(&Dialog) -> Outcome,
-    asked: Option<Asked>,
-    typing: Option<Typing>,
+    asked: Option<OpenDialog>,
+    typing: Option<PathField>,
     /// Holds what gets the keyboard in the next frame: a modal that closes still takes it from all below in its last
     /// one.
     gets_keyboard: Option<Id>,
 }
 
 /// A dialog of the desktop's that is open.
-struct Asked {
+struct OpenDialog {
     pick: Pick,
     start: Option<PathBuf>,
     since: Instant,
@@ -46,7 +46,7 @@ struct Asked {
 }
 
 /// Our own field for a path.
-struct Typing {
+struct PathField {
     pick: Pick,
     path: String,
     is_new: bool,
@@ -87,7 +87,7 @@ impl Files {
             wake();
         });
         match spawned {
-            Ok(_) => self.asked = Some(Asked { pick, start, since: Instant::now(), answer }),
+            Ok(_) => self.asked = Some(OpenDialog { pick, start, since: Instant::now(), answer }),
             Err(_) => self.type_path(pick, start),
         }
     }
@@ -105,7 +105,7 @@ impl Files {
         if let Pick::SaveAs(name) | Pick::Json(name) | Pick::Page(name) = &pick {
             path.push_str(name);
         }
-        self.typing = Some(Typing { pick, path, is_new: true, before: None });
+        self.typing = Some(PathField { pick, path, is_new: true, before: None });
     }
 
     /// Shows what is to be shown; a dialog's end.
@@ -196,7 +196,7 @@ impl Files {
     }
 }
 
-impl Asked {
+impl OpenDialog {
     /// While a dialog of the desktop's is open: one that hides, or hangs, can be done without.
     fn wants_to_type(&self, ui: &Ui, out: &mut UiOutput) -> bool {
         if let Some(wait) = PATIENCE.checked_sub(self.since.elapsed()) {

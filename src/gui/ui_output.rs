@@ -2,7 +2,7 @@
 //! things are.
 
 use super::{
-    actions::{Action, KeysHere},
+    actions::{Action, ActiveKeymap},
     dock::Panel,
     geometry::Area,
     settings::Change,
@@ -92,11 +92,11 @@ pub struct UiOutput {
     /// Says where F6 takes the keyboard.
     pub stops: Vec<FocusStop>,
     /// The keys of actions, for tips and menus.
-    pub keys: KeysHere,
+    pub keys: ActiveKeymap,
 }
 
 impl UiOutput {
-    pub fn new(keys: KeysHere) -> Self {
+    pub fn new(keys: ActiveKeymap) -> Self {
         Self { keys, ..Self::default() }
     }
 

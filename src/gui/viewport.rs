@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     project::Input,
-    session::{Command, Meanwhile, Outcome, Session},
+    session::{Command, FallbackPicture, Outcome, Session},
 };
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
 use egui_wgpu::Renderer;
@@ -262,7 +262,7 @@ fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
 }
 
 /// Returns what there is instead of the newest text's picture, and why.
-fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
+fn trouble(errors: usize, meanwhile: FallbackPicture) -> String {
     let why = match errors {
         // The compiler or the device gave up, which a notice tells of.
         0 => "Not compiled".to_owned(),
@@ -270,9 +270,9 @@ fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
         n => format!("{n} errors"),
     };
     let what = match meanwhile {
-        Meanwhile::Nothing => "nothing to draw yet",
-        Meanwhile::LastGood => "showing the last working version",
-        Meanwhile::Newest => "drawn anyway",
+        FallbackPicture::Nothing => "nothing to draw yet",
+        FallbackPicture::LastGood => "showing the last working version",
+        FallbackPicture::Newest => "drawn anyway",
     };
     format!("{why} – {what}")
 }
@@ -283,9 +283,9 @@ mod tests {
 
     #[test]
     fn a_picture_runs_on_only_where_there_is_one() {
-        assert_eq!(trouble(5, Meanwhile::Nothing), "5 errors – nothing to draw yet");
-        assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – showing the last working version");
-        assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn anyway");
-        assert_eq!(trouble(0, Meanwhile::Nothing), "Not compiled – nothing to draw yet");
+        assert_eq!(trouble(5, FallbackPicture::Nothing), "5 errors – nothing to draw yet");
+        assert_eq!(trouble(1, FallbackPicture::LastGood), "1 error – showing the last working version");
+        assert_eq!(trouble(2, FallbackPicture::Newest), "2 errors – drawn anyway");
+        assert_eq!(trouble(0, FallbackPicture::Nothing), "Not compiled – nothing to draw yet");
     }
 }

@@ -104,7 +104,7 @@ impl Cost {
 
 /// Says how carefully to measure.
 #[derive(Clone, Copy, Debug)]
-pub struct Care {
+pub struct MeasureSettings {
     /// At least [`MIN_REPEATS`].
     pub repeats: u32,
     /// Milliseconds that a turn shall take at least.
@@ -118,14 +118,14 @@ pub fn interleaved(
     rig: &Rig,
     setups: &[Setup],
     size: (u32, u32),
-    care: Care,
+    care: MeasureSettings,
     mut turned: impl FnMut(u32, u32, &[Cost]) -> Result<(), LabError>,
 ) -> Result<Vec<Cost>, LabError> {
     let clock = Clock::of(rig);
     let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
     let mut turns = Vec::new();
     for setup in floor.iter().chain(setups) {
-        turns.push(Turn::begin(rig, setup, care.turn_millis, clock)?);
+        turns.push(TimedBatch::begin(rig, setup, care.turn_millis, clock)?);
     }
     let repeats = care.repeats.max(MIN_REPEATS);
     let mut costs = Vec::new();
@@ -141,10 +141,10 @@ pub fn interleaved(
 }
 
 /// The costs by the turns that there have been. The first `floor` are the copying pass and the one of a texel.
-fn so_far(turns: &mut [Turn], floor: usize, size: (u32, u32), clock: Clock) -> Vec<Cost> {
+fn so_far(turns: &mut [TimedBatch], floor: usize, size: (u32, u32), clock: Clock) -> Vec<Cost> {
     let times: Vec<Times> = turns.iter().map(|t| Times::of(t.samples.clone())).collect();
     let canvas_texels = f64::from(size.0) * f64::from(size.1);
-    let cost = |(turn, frame): (&mut Turn, &Times)| {
+    let cost = |(turn, frame): (&mut TimedBatch, &Times)| {
         let traffic = turn.running.engine().traffic();
         Cost {
             frame: *frame,
@@ -165,24 +165,24 @@ fn so_far(turns: &mut [Turn], floor: usize, size: (u32, u32), clock: Clock) -> V
 /// turns.
 pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabError> {
     let clock = Clock::of(rig);
-    Turn::begin(rig, setup, turn_millis, clock)?.take(clock)
+    TimedBatch::begin(rig, setup, turn_millis, clock)?.take(clock)
 }
 
-struct Turn {
+struct TimedBatch {
     running: Running,
     batch: u32,
     samples: Vec<f64>,
 }
 
-impl Turn {
+impl TimedBatch {
     /// Opens a setup and warms it up.
-    fn begin(rig: &Rig, setup: &Setup, turn_millis: f64, clock: Clock) -> Result<Turn, LabError> {
+    fn begin(rig: &Rig, setup: &Setup, turn_millis: f64, clock: Clock) -> Result<TimedBatch, LabError> {
         let mut running = rig.open(setup)?;
         if clock == Clock::Timestamps {
             running.engine().set_timing(true);
         }
         let batch = warm_up(&mut running, turn_millis)?;
-        Ok(Turn { running, batch, samples: Vec::new() })
+        Ok(TimedBatch { running, batch, samples: Vec::new() })
     }
 
     /// Milliseconds a frame.

@@ -36,4 +36,4 @@ pub use results::{CostRecord, ErrorRecord, FILE as RESULTS_FILE, Provenance, Rec
 pub use rig::{Field, Rig, Running};
 pub use setup::Setup;
 pub use stop::Stop;
-pub use study::{Extent, HardCase, Measured, Method, Point, Race, Study, Unit, three_of};
+pub use study::{Extent, HardCase, Measured, Method, Point, SpeedComparison, Study, Unit, three_of};

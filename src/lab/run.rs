@@ -3,7 +3,7 @@
 
 use super::{
     Extent, LabError, Point, Provenance, Rig, Setup, Shard, Stop, Study,
-    cost::{self, Care, Cost},
+    cost::{self, Cost, MeasureSettings},
     results::{CostRecord, ErrorRecord, Journal, Record, Results},
 };
 use eddy_gpu::{Gpu, GpuOptions};
@@ -201,7 +201,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         let prints: Vec<Option<String>> = setups.iter().map(|setup| setup.fingerprint().ok()).collect();
         let record =
             |n: usize, cost: &Cost| CostRecord { point: missing[n].clone(), setup: prints[n].clone(), cost: *cost };
-        let care = Care { repeats: options.repeats, turn_millis: turn_millis(options.extent) };
+        let care = MeasureSettings { repeats: options.repeats, turn_millis: turn_millis(options.extent) };
         let Work { rig, journal, results, tell } = self;
         let costs = cost::interleaved(rig, &setups, (grid, grid), care, |done, all, costs| {
             for (n, cost) in costs.iter().enumerate() {

@@ -57,7 +57,7 @@ impl Kind {
 
 /// Outside of a bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Offence {
+pub struct Violation {
     /// The first frame after which a value was outside.
     pub frame: u32,
     pub pass: String,
@@ -79,8 +79,8 @@ pub enum Outcome {
     /// Everything stayed within its bounds.
     Held,
     /// A range was left that theory expects to be left in this case; all stayed finite.
-    LeftAsExpected(Offence),
-    Left(Offence),
+    LeftAsExpected(Violation),
+    Left(Violation),
 }
 
 /// Says how long it took, after what was done had ended, until everything was within its bounds and no livelier than it
@@ -129,7 +129,7 @@ impl StabilityRecord {
         matches!(self.outcome, Some(Outcome::Held | Outcome::LeftAsExpected(_)))
     }
 
-    pub fn offence(&self) -> Option<&Offence> {
+    pub fn offence(&self) -> Option<&Violation> {
         match self.outcome.as_ref()? {
             Outcome::Held => None,
             Outcome::LeftAsExpected(offence) | Outcome::Left(offence) => Some(offence),
@@ -137,7 +137,7 @@ impl StabilityRecord {
     }
 }
 
-impl Offence {
+impl Violation {
     /// In words: where, what, and what would have been right.
     pub fn describe(&self) -> String {
         let place = self.texel.map_or(String::new(), |(x, y)| format!(" texel ({x}, {y})"));

@@ -105,7 +105,7 @@ impl Measured {
 /// A comparison that the report makes in a sentence: how much sooner a method reaches an error of 1 % than the best of
 /// others.
 #[derive(Clone, Copy, Debug)]
-pub struct Race {
+pub struct SpeedComparison {
     pub method: &'static str,
     pub peers: &'static [&'static str],
     /// Says what the peers' points are called together.
@@ -142,7 +142,7 @@ pub struct Study {
     /// another beats is named.
     pub is_contest: bool,
     /// The report compares these by the time to an error of 1 %.
-    pub race: Option<Race>,
+    pub race: Option<SpeedComparison>,
     /// The project that draws the point, as it is at time 0.
     pub setup: fn(&Point) -> Setup,
     /// Runs the point and compares it with the reference.

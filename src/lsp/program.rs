@@ -61,7 +61,7 @@ pub(crate) struct Program {
     said: Vec<Diagnostic>,
     media: Media,
     /// Documents that have been told of diagnostics.
-    pub told: BTreeSet<String>,
+    pub published: BTreeSet<String>,
     kept: KeptAnalyses,
 }
 
@@ -86,7 +86,7 @@ impl Program {
             uniforms: Vec::new(),
             said: Vec::new(),
             media: Media::default(),
-            told: BTreeSet::new(),
+            published: BTreeSet::new(),
             kept: KeptAnalyses::default(),
         }
     }

@@ -101,10 +101,10 @@ pub(crate) fn publish(
     }
     lists.retain(|uri, _| !is_others(&super::documents::path_of(uri)));
     let with_some: BTreeSet<String> = lists.keys().cloned().collect();
-    for uri in &program.told {
+    for uri in &program.published {
         lists.entry(uri.clone()).or_default();
     }
-    program.told = with_some;
+    program.published = with_some;
     let version = |uri: &str| documents.iter().find(|document| document.uri == uri).map(|document| document.version);
     lists
         .into_iter()

@@ -23,7 +23,7 @@ use serde_json::Value;
 
 /// The abilities of an editor that not every editor has.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Abilities {
+pub(crate) struct ClientCapabilities {
     /// Parameters of a signature are said by where they stand in it.
     pub label_offsets: bool,
 }
@@ -69,13 +69,13 @@ fn read<T: DeserializeOwned>(params: Value) -> Result<T, lsp_server::ResponseErr
 }
 
 /// A text of a program that is asked about.
-struct Asked<'a> {
+struct QueriedText<'a> {
     program: &'a Program,
     places: Places<'a>,
     id: SourceId,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> QueriedText<'a> {
     fn lines(&mut self) -> Lines<'a> {
         self.places.lines(self.id).clone()
     }
@@ -91,7 +91,7 @@ fn ask(
     workspace: &mut Workspace,
     encoding: Encoding,
     document: &TextDocumentIdentifier,
-    work: impl FnOnce(Asked<'_>) -> Answer,
+    work: impl FnOnce(QueriedText<'_>) -> Answer,
 ) -> Answer {
     let path = path_of(&document.uri.0);
     if workspace.find(&path).is_err() {
@@ -102,27 +102,29 @@ fn ask(
     let Some((program, id)) = owner.and_then(|program| Some((program, program.id_of(&path)?))) else {
         return Ok(Value::Null);
     };
-    work(Asked { program, places: Places::new(program, &workspace.documents, encoding), id })
+    work(QueriedText { program, places: Places::new(program, &workspace.documents, encoding), id })
 }
 
 /// Answers a request; `None` for a method that Eddy does not know.
 pub(crate) fn request(
     workspace: &mut Workspace,
-    (encoding, abilities): (Encoding, Abilities),
+    (encoding, abilities): (Encoding, ClientCapabilities),
     method: &str,
     params: Value,
 ) -> Option<Answer> {
-    let about_place = |params: Value, workspace: &mut Workspace, work: &dyn Fn(Asked<'_>, usize) -> Answer| -> Answer {
-        let TextDocumentPositionParams { text_document, position } = read(params)?;
-        ask(workspace, encoding, &text_document, |mut asked| {
-            let at = asked.offset(position);
-            work(asked, at)
-        })
-    };
-    let about_document = |params: Value, workspace: &mut Workspace, work: &dyn Fn(Asked<'_>) -> Answer| -> Answer {
-        let OfDocument { text_document } = read(params)?;
-        ask(workspace, encoding, &text_document, work)
-    };
+    let about_place =
+        |params: Value, workspace: &mut Workspace, work: &dyn Fn(QueriedText<'_>, usize) -> Answer| -> Answer {
+            let TextDocumentPositionParams { text_document, position } = read(params)?;
+            ask(workspace, encoding, &text_document, |mut asked| {
+                let at = asked.offset(position);
+                work(asked, at)
+            })
+        };
+    let about_document =
+        |params: Value, workspace: &mut Workspace, work: &dyn Fn(QueriedText<'_>) -> Answer| -> Answer {
+            let OfDocument { text_document } = read(params)?;
+            ask(workspace, encoding, &text_document, work)
+        };
     Some(match method {
         "textDocument/hover" => about_place(params, workspace, &|mut asked, at| {
             let found = hover::hover(asked.program, asked.id, at);
@@ -202,7 +204,7 @@ fn about_range(
     workspace: &mut Workspace,
     encoding: Encoding,
     params: Value,
-    work: impl FnOnce(Asked<'_>, lsp::Range, Option<CodeActionContext>) -> Answer,
+    work: impl FnOnce(QueriedText<'_>, lsp::Range, Option<CodeActionContext>) -> Answer,
 ) -> Answer {
     let OfRange { text_document, range, context } = read(params)?;
     ask(workspace, encoding, &text_document, |asked| work(asked, range, context))

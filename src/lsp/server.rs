@@ -6,7 +6,7 @@ use super::{
     positions::Encoding,
     program::Root,
     published::publish,
-    requests::{self, Abilities},
+    requests::{self, ClientCapabilities},
     tokens, uris,
     workspace::Workspace,
 };
@@ -29,7 +29,7 @@ use std::{
 
 /// The state of a server.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Life {
+enum ServerState {
     #[default]
     Begun,
     Running,
@@ -40,9 +40,9 @@ enum Life {
 /// A language server without a stream.
 #[derive(Default)]
 pub struct Server {
-    life: Life,
+    life: ServerState,
     encoding: Encoding,
-    abilities: Abilities,
+    abilities: ClientCapabilities,
     /// The editor tells of files that change on disk where it is asked to.
     watches_files: bool,
     workspace: Workspace,
@@ -61,7 +61,7 @@ impl Server {
         match message {
             Message::Request(request) => self.request(request, out),
             Message::Notification(Notification { method, .. }) if method == "exit" => {
-                return Some(u8::from(self.life != Life::Ending));
+                return Some(u8::from(self.life != ServerState::Ending));
             }
             Message::Notification(notification) => {
                 self.guarded(|server| server.notified(notification, out));
@@ -75,7 +75,7 @@ impl Server {
     /// Does the next piece of work that nobody waits for: reads what has changed, tells of diagnostics, looks at pictures.
     /// Returns false when there is none.
     pub fn idle(&mut self, out: &mut Vec<Message>) -> bool {
-        if self.life != Life::Running {
+        if self.life != ServerState::Running {
             return false;
         }
         let mut did = false;
@@ -92,9 +92,9 @@ impl Server {
         let left = self.workspace.take_left(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
         for program in left {
             // Whoever has these documents now tells of them.
-            for uri in program.told {
+            for uri in program.published {
                 if self.owner_of(&uri).is_none() {
-                    out.push(told(&json!({"uri": uri, "diagnostics": []})));
+                    out.push(publish_diagnostics(&json!({"uri": uri, "diagnostics": []})));
                 }
             }
         }
@@ -123,7 +123,7 @@ impl Server {
         };
         let Workspace { documents, programs } = &mut self.workspace;
         for params in publish(&mut programs[index], documents, self.encoding, is_others) {
-            out.push(told(&params));
+            out.push(publish_diagnostics(&params));
         }
     }
 
@@ -144,18 +144,18 @@ impl Server {
 
     fn request(&mut self, Request { id, method, params }: Request, out: &mut Vec<Message>) {
         let answer = match (self.life, method.as_str()) {
-            (Life::Begun, "initialize") => {
-                self.life = Life::Running;
+            (ServerState::Begun, "initialize") => {
+                self.life = ServerState::Running;
                 Ok(self.initialize(&params))
             }
-            (Life::Begun, _) => Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first")),
+            (ServerState::Begun, _) => Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first")),
             (_, "initialize") => Err(error(ErrorCode::InvalidRequest, "\"initialize\" was sent before")),
-            (Life::Ending, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
-            (Life::Running, "shutdown") => {
-                self.life = Life::Ending;
+            (ServerState::Ending, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
+            (ServerState::Running, "shutdown") => {
+                self.life = ServerState::Ending;
                 Ok(Value::Null)
             }
-            (Life::Running, _) => {
+            (ServerState::Running, _) => {
                 let setting = (self.encoding, self.abilities);
                 let mut answer = None;
                 let is_done = self.guarded(|server| {
@@ -201,7 +201,7 @@ impl Server {
     }
 
     fn notified(&mut self, Notification { method, params }: Notification, out: &mut Vec<Message>) {
-        if self.life != Life::Running {
+        if self.life != ServerState::Running {
             return;
         }
         match method.as_str() {
@@ -247,7 +247,7 @@ fn read<T: DeserializeOwned>(method: &str, params: Value) -> Option<T> {
     serde_json::from_value(params).inspect_err(|why| log::warn!("{method}: {why}")).ok()
 }
 
-fn told(params: &impl serde::Serialize) -> Message {
+fn publish_diagnostics(params: &impl serde::Serialize) -> Message {
     Message::Notification(Notification::new("textDocument/publishDiagnostics".into(), params))
 }
 

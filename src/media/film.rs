@@ -3,7 +3,7 @@
 use super::{MediaError, Texels};
 use eddy_project::{FileError, Media, confine, limits};
 use eddy_texture::TexelFormat;
-use eddy_video::{Frame, FrameSource, Pace, Place, Pool, Tools, Video, VideoError, is_animation, next_numbered};
+use eddy_video::{FileLocation, Frame, FrameSource, Pace, Pool, Tools, Video, VideoError, is_animation, next_numbered};
 use std::{
     fs::File,
     io::Read,
@@ -50,7 +50,7 @@ pub(super) fn load(
     let bytes = read(&path)?;
     let is_numbered = next_numbered(&path).is_some_and(|next| read(&next).is_ok());
     if is_numbered && !is_animation(&bytes) {
-        let place = Place { path: &path, read: Arc::new(read) };
+        let place = FileLocation { path: &path, read: Arc::new(read) };
         return Video::of_sequence(&place, &bytes, pool).map_err(failed);
     }
     if matches!(

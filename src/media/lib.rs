@@ -220,12 +220,12 @@ impl MediaSet {
 
 /// The first draw of each model of the project, with its pass and its number there.
 fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
-    let mut told: HashSet<&MeshSource> = HashSet::new();
+    let mut seen: HashSet<&MeshSource> = HashSet::new();
     let all = project.passes.iter().flat_map(|pass| {
         let draws = pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate());
         draws.map(move |(n, draw)| (pass, n, draw))
     });
-    all.filter(move |(.., draw)| told.insert(&draw.mesh))
+    all.filter(move |(.., draw)| seen.insert(&draw.mesh))
 }
 
 /// The key that tells one loaded mesh from another.

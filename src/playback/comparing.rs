@@ -112,7 +112,7 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
     let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
     let side = |project: &Project, name: &str| {
         let media = || media::gather(project, media_dir.as_deref()).0;
-        let made = Side::new(&gpu, project, &pass, (media(), camera.clone()), frames[0].size, trial.clone());
+        let made = ComparedEngine::new(&gpu, project, &pass, (media(), camera.clone()), frames[0].size, trial.clone());
         made.map_err(|why| format!("{name}: {why}"))
     };
     let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
@@ -122,7 +122,7 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
         ours.draw(frame).and_then(|()| theirs.draw(frame)).map_err(|e| e.to_string())?;
     }
     control.report(Count { done: frames.len(), of: frames.len() });
-    let read = |side: &mut Side| side.engine.read(&pass).map_err(|e| e.to_string());
+    let read = |side: &mut ComparedEngine| side.engine.read(&pass).map_err(|e| e.to_string());
     let (a, b) = (read(&mut ours)?, read(&mut theirs)?);
     if (a.width, a.height) != (b.width, b.height) {
         return Err(format!(
@@ -146,11 +146,11 @@ fn load(spec: &str, name: &str) -> Result<Project, String> {
 }
 
 /// An engine that draws one of both.
-struct Side {
+struct ComparedEngine {
     engine: Engine,
 }
 
-impl Side {
+impl ComparedEngine {
     fn new(
         gpu: &Gpu,
         project: &Project,
@@ -196,8 +196,8 @@ impl Side {
 
 /// Times of both, in turns, so that a machine that is busy is busy for both.
 fn take_turns(
-    ours: &mut Side,
-    theirs: &mut Side,
+    ours: &mut ComparedEngine,
+    theirs: &mut ComparedEngine,
     last: &FrameInputs,
     control: &Control<Count>,
 ) -> Result<Vec<(f64, f64)>, EngineError> {

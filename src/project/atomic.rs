@@ -39,19 +39,19 @@ impl Content {
     }
 }
 
-pub enum OnDisk {
+pub enum FileComparison {
     Absent,
     Same,
     Different,
 }
 
 /// Returns what stands at a path now, against what shall.
-pub fn compare(path: &Path, content: &Content) -> Result<OnDisk, ProjectError> {
+pub fn compare(path: &Path, content: &Content) -> Result<FileComparison, ProjectError> {
     let content = content.read()?;
     match confine::read_own(path, confine::exactly(content.len())) {
-        Ok(bytes) => Ok(if *content == bytes { OnDisk::Same } else { OnDisk::Different }),
-        Err(e) if e.is_missing() => Ok(OnDisk::Absent),
-        Err(e) if matches!(e.reason, Reason::TooLarge(_)) => Ok(OnDisk::Different),
+        Ok(bytes) => Ok(if *content == bytes { FileComparison::Same } else { FileComparison::Different }),
+        Err(e) if e.is_missing() => Ok(FileComparison::Absent),
+        Err(e) if matches!(e.reason, Reason::TooLarge(_)) => Ok(FileComparison::Different),
         Err(e) => Err(e.into()),
     }
 }

@@ -17,7 +17,7 @@
 use super::{
     Channel, Input, Origin, Pass, PassId, Project, Source,
     advice::unread,
-    directives::{self, Around},
+    directives::{self, DirectiveScope},
     file_names::{Role, role_of_file},
     files::Files,
 };
@@ -69,7 +69,7 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut places = Vec::new();
     for (i, pass) in project.passes.iter_mut().enumerate() {
         let default = if pass.id.is_picture() { buffers.clone() } else { Default::default() };
-        let around = Around { id: &pass.id, file: &pass.source.name, passes: &passes };
+        let around = DirectiveScope { id: &pass.id, file: &pass.source.name, passes: &passes };
         let declared = directives::read(&pass.source.text, Project::pass_id(i), around, &default);
         diagnostics.extend(declared.diagnostics);
         pass.channels = declared.channels.unwrap_or(default);
@@ -83,8 +83,9 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
 pub(super) fn channels(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = directives::passes_beside(project, files);
     // A file that cannot be had was told of, with the reason.
-    let told: Vec<Option<Span>> = diagnostics.iter().map(|d| d.span).collect();
-    diagnostics.extend(declare_channels(project).into_iter().filter(|d| d.span.is_none() || !told.contains(&d.span)));
+    let declared_at: Vec<Option<Span>> = diagnostics.iter().map(|d| d.span).collect();
+    diagnostics
+        .extend(declare_channels(project).into_iter().filter(|d| d.span.is_none() || !declared_at.contains(&d.span)));
     diagnostics
 }
 

@@ -61,10 +61,10 @@ mod tests {
     #[test]
     fn what_is_asked_for_is_found_with_its_place() {
         let text = "float d = map(p); //@print d\n/* //@print x */\n  // @print  vec2(d, 1.) ;\r\n//@probe sum(a.x)\n";
-        let told: Vec<_> =
+        let listed: Vec<_> =
             inspect_comments(text).into_iter().map(|c| (c.kind, c.argument, c.line, &text[c.range], c.at)).collect();
         assert_eq!(
-            told,
+            listed,
             [
                 ("print", "d", 0, "d", 18),
                 ("print", "vec2(d, 1.)", 2, "vec2(d, 1.)", 48),

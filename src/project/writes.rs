@@ -128,9 +128,9 @@ impl Writes {
             let path = self.folder.join(&name);
             stays_within(&self.folder, &path)?;
             match atomic::compare(&path, &content)? {
-                atomic::OnDisk::Same => continue,
-                atomic::OnDisk::Different if !self.own.contains(&name) => foreign.push(name),
-                atomic::OnDisk::Different | atomic::OnDisk::Absent => {}
+                atomic::FileComparison::Same => continue,
+                atomic::FileComparison::Different if !self.own.contains(&name) => foreign.push(name),
+                atomic::FileComparison::Different | atomic::FileComparison::Absent => {}
             }
             changed.push((path, content));
         }

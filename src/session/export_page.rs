@@ -65,8 +65,8 @@ impl Session {
             }
             Err(errors) => {
                 let errors: Vec<Diagnostic> = errors.into_iter().filter(Diagnostic::is_error).collect();
-                let told = diag::render_all(&errors, &self.project().sources());
-                self.notice_about(About::Export, Level::Error, format!("not exported: {}", told.trim_end()));
+                let rendered = diag::render_all(&errors, &self.project().sources());
+                self.notice_about(About::Export, Level::Error, format!("not exported: {}", rendered.trim_end()));
                 None
             }
         }

@@ -69,7 +69,7 @@ pub use costs::{PassCosts, TimedPass};
 pub use devices::{CameraState, DeviceConsent};
 pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};
-pub use eddy_control::Waits;
+pub use eddy_control::PickupSide;
 pub use export::directive_errors;
 pub use films::{
     CheckedForm, FilmDone, FilmFacts, FilmField, FilmForm, FilmOrder, FilmPlace, FilmPreset, FilmProgress, FilmStage,
@@ -85,6 +85,6 @@ pub use sound::SoundView;
 pub use state::Session;
 pub use trace::TraceView;
 pub use view::{
-    About, CompileState, Halt, Level, Meanwhile, Notice, Outcome, TabDiagnostic, TabEdit, TabFix, TabLabel, Tick,
+    About, CompileState, FallbackPicture, Halt, Level, Notice, Outcome, TabDiagnostic, TabEdit, TabFix, TabLabel, Tick,
     Transport,
 };

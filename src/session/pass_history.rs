@@ -22,16 +22,16 @@ pub(super) struct PassHistory {
 
 /// The other side of a step.
 #[derive(Clone, Debug)]
-pub(super) enum Side {
+pub(super) enum UndoState {
     /// The project on the other side of the step.
     Passes(Box<Project>),
     /// The values of uniforms there, and what turned them.
-    Uniforms(CustomUniformValues, Turned),
+    Uniforms(CustomUniformValues, UniformChange),
 }
 
 /// The way in which uniforms were turned.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Turned {
+pub(super) enum UniformChange {
     /// One by hand.
     One(String),
     /// All of them at once.
@@ -45,7 +45,7 @@ pub(super) struct Step {
     pub serial: u64,
     /// The title that a menu says behind "Undo".
     pub title: String,
-    pub side: Side,
+    pub side: UndoState,
     /// A pass has another name here than on the other side: there, here.
     pub renamed: Option<(PassId, PassId)>,
     pub edit: Option<PassEdit>,
@@ -77,7 +77,7 @@ impl PassHistory {
             last.at = at;
             return;
         }
-        self.add(title, Side::Passes(Box::new(before)), renamed, edit, at);
+        self.add(title, UndoState::Passes(Box::new(before)), renamed, edit, at);
     }
 
     /// Notes that a uniform was turned, or several at once. One that is being dragged makes one step.
@@ -85,15 +85,15 @@ impl PassHistory {
         let at = Instant::now();
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
-            && matches!(&last.side, Side::Uniforms(_, Turned::One(turned)) if Some(turned.as_str()) == name)
+            && matches!(&last.side, UndoState::Uniforms(_, UniformChange::One(turned)) if Some(turned.as_str()) == name)
             && at.saturating_duration_since(last.at) < PAUSE
         {
             last.at = at;
             return;
         }
         let title = name.map_or_else(|| "reset all uniforms".to_owned(), turning);
-        let turned = name.map_or(Turned::All, |name| Turned::One(name.to_owned()));
-        self.add(title, Side::Uniforms(before, turned), None, None, at);
+        let turned = name.map_or(UniformChange::All, |name| UniformChange::One(name.to_owned()));
+        self.add(title, UndoState::Uniforms(before, turned), None, None, at);
     }
 
     /// Notes that controls of devices turned uniforms. What moves without a pause makes one step, however many controls.
@@ -101,34 +101,34 @@ impl PassHistory {
         let at = Instant::now();
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
-            && let Side::Uniforms(_, Turned::ByControls(turned)) = &mut last.side
+            && let UndoState::Uniforms(_, UniformChange::ByControls(turned)) = &mut last.side
             && at.saturating_duration_since(last.at) < PAUSE
         {
             turned.extend(names);
             (last.title, last.at) = (turning_all(turned), at);
             return;
         }
-        self.add(turning_all(&names), Side::Uniforms(before, Turned::ByControls(names)), None, None, at);
+        self.add(turning_all(&names), UndoState::Uniforms(before, UniformChange::ByControls(names)), None, None, at);
     }
 
     /// A uniform has another name from now on, on both sides of every step.
     pub fn rename_uniform(&mut self, from: &str, to: &str) {
         for step in self.undo.iter_mut().chain(&mut self.redo) {
             let values = match &mut step.side {
-                Side::Passes(project) => &mut project.custom_uniform_values,
-                Side::Uniforms(values, turned) => {
+                UndoState::Passes(project) => &mut project.custom_uniform_values,
+                UndoState::Uniforms(values, turned) => {
                     match turned {
-                        Turned::One(name) if name == from => {
+                        UniformChange::One(name) if name == from => {
                             to.clone_into(name);
                             step.title = turning(to);
                         }
-                        Turned::ByControls(names) => {
+                        UniformChange::ByControls(names) => {
                             if names.remove(from) {
                                 names.insert(to.to_owned());
                                 step.title = turning_all(names);
                             }
                         }
-                        Turned::One(_) | Turned::All => {}
+                        UniformChange::One(_) | UniformChange::All => {}
                     }
                     values
                 }
@@ -142,7 +142,7 @@ impl PassHistory {
     fn add(
         &mut self,
         title: String,
-        side: Side,
+        side: UndoState,
         renamed: Option<(PassId, PassId)>,
         edit: Option<PassEdit>,
         at: Instant,

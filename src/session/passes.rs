@@ -7,7 +7,7 @@
 use super::{
     Session,
     documents::Documents,
-    pass_history::{PassStep, Side, Step},
+    pass_history::{PassStep, Step, UndoState},
     template,
     view::{About, Level},
 };
@@ -98,8 +98,8 @@ impl Session {
     /// Goes to the other side of a step. Returns the way back.
     fn take_step(&mut self, step: Step) -> Step {
         let project = match step.side {
-            Side::Passes(project) => *project,
-            Side::Uniforms(values, name) => {
+            UndoState::Passes(project) => *project,
+            UndoState::Uniforms(values, name) => {
                 let here = std::mem::replace(&mut self.documents.current_mut().custom_uniform_values, values);
                 self.custom_uniforms_turned();
                 self.changed = true;
@@ -107,7 +107,7 @@ impl Session {
                 return Step {
                     serial,
                     title,
-                    side: Side::Uniforms(here, name),
+                    side: UndoState::Uniforms(here, name),
                     renamed,
                     edit: None,
                     at: Instant::now(),
@@ -124,7 +124,7 @@ impl Session {
         self.passes_changed();
         let renamed = there.map(|(there, here)| (here, there));
         let (serial, title) = (step.serial, step.title);
-        Step { serial, title, side: Side::Passes(Box::new(here)), renamed, edit: None, at: Instant::now() }
+        Step { serial, title, side: UndoState::Passes(Box::new(here)), renamed, edit: None, at: Instant::now() }
     }
 
     /// Lets what is known of a pass by its name go on under its new one.

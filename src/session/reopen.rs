@@ -10,7 +10,7 @@ use super::{
     canvas::CanvasSize,
     drawing::{RenderTask, Tasks},
     kept_files,
-    playback::{Goal, clock::Clock},
+    playback::{SeekTarget, clock::Clock},
     read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
     view::{About, Level},
@@ -157,7 +157,7 @@ impl Session {
         self.playback.clock = Clock::at(0.0, None, is_playing);
         let origin = &self.documents.current().origin;
         let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
-        self.playback.seeking.goal = frames.len().checked_sub(1).map(|last| Goal::Anew(last as u64));
+        self.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Anew(last as u64));
         (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
         self.drawing.wanted.run = Some(frames);
     }

@@ -5,7 +5,7 @@ use super::{
     command::PendingAction,
     documents::Documents,
     drawing::Renderer,
-    playback::{Goal, clock::Clock},
+    playback::{SeekTarget, clock::Clock},
     view::{About, Level},
 };
 use eddy_playback::{
@@ -88,7 +88,7 @@ impl Session {
         self.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
         self.playback.clock = Clock::at(0.0, None, false);
         if is_whole {
-            self.playback.seeking.goal = Some(Goal::Anew(frames.len() as u64 - 1));
+            self.playback.seeking.goal = Some(SeekTarget::Anew(frames.len() as u64 - 1));
             (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
             self.drawing.wanted.run = Some(frames);
             self.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));

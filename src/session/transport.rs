@@ -3,7 +3,7 @@
 
 use super::{
     Session,
-    drawing::{Job, Travelled},
+    drawing::{Job, SeekProgress},
     playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
     view::{About, Level},
 };
@@ -91,7 +91,7 @@ impl Session {
     }
 
     /// The engine shows another frame of the run, or cannot.
-    pub(super) fn travelled(&mut self, travelled: Option<Result<Travelled, EngineError>>) {
+    pub(super) fn travelled(&mut self, travelled: Option<Result<SeekProgress, EngineError>>) {
         self.changed = true;
         let reach = self.drawing.reach();
         match travelled {

@@ -199,12 +199,12 @@ pub enum Outcome {
     /// It draws. Milliseconds of compiling; how many warnings there are.
     Ok { millis: f64, warnings: usize },
     /// It has errors, at least one.
-    Failed { errors: usize, meanwhile: Meanwhile },
+    Failed { errors: usize, meanwhile: FallbackPicture },
 }
 
 /// The picture that is drawn while a text has errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Meanwhile {
+pub enum FallbackPicture {
     /// No text of this project has compiled yet.
     Nothing,
     /// The last good picture goes on.

@@ -14,7 +14,7 @@ pub struct BindingInfo {
     pub kind: BindingKind,
     /// The name in the text, as far as the language leaves it.
     pub name: String,
-    pub at: At,
+    pub at: BindingSlot,
     /// Bytes of a buffer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<u32>,
@@ -70,7 +70,7 @@ impl BindingKind {
 /// The number of a resource in the terms of the language.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
-pub enum At {
+pub enum BindingSlot {
     Wgsl {
         group: u32,
         binding: u32,
@@ -149,19 +149,19 @@ pub(crate) fn info(
     let kind = BindingKind::of(binding)?;
     let is_buffer = matches!(variable.space, AddressSpace::Uniform | AddressSpace::Storage { .. });
     let at = match language {
-        Language::Wgsl => At::Wgsl { group: binding.group, binding: binding.binding },
-        Language::Spirv => At::Spirv { set: binding.group, binding: binding.binding },
+        Language::Wgsl => BindingSlot::Wgsl { group: binding.group, binding: binding.binding },
+        Language::Spirv => BindingSlot::Spirv { set: binding.group, binding: binding.binding },
         Language::Hlsl => {
             let class = match kind {
                 BindingKind::Texture | BindingKind::StorageTable => 't',
                 BindingKind::Sampler => 's',
                 _ => 'b',
             };
-            At::Hlsl { register: format!("{class}{}", slot(binding)) }
+            BindingSlot::Hlsl { register: format!("{class}{}", slot(binding)) }
         }
         Language::Msl => {
             let number = slot(binding) as u8;
-            At::Msl(match kind {
+            BindingSlot::Msl(match kind {
                 BindingKind::Texture => MslSlot::Texture(number),
                 BindingKind::Sampler => MslSlot::Sampler(number),
                 _ => MslSlot::Buffer(number),
@@ -169,7 +169,7 @@ pub(crate) fn info(
         }
         Language::Glsl(version) => {
             let number = GlslVersion::has_bindings(version).then_some(slot(binding));
-            At::Glsl { name: glsl?.to_owned(), binding: number }
+            BindingSlot::Glsl { name: glsl?.to_owned(), binding: number }
         }
     };
     let (types, inner) = (&module.types, &module.types[variable.ty].inner);

@@ -18,7 +18,7 @@ mod tests;
 mod wgsl;
 mod write;
 
-pub use bindings::{At, BindingInfo, BindingKind, Member, MslSlot};
+pub use bindings::{BindingInfo, BindingKind, BindingSlot, Member, MslSlot};
 pub use isf::{IsfFile, isf};
 pub use language::{GlslVersion, Language};
 pub use manifest::{

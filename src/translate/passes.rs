@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use eddy_diag::{self as diag, Diagnostic, SourceId, SourceMap};
 use eddy_engine::{CompiledPass, CompiledProgram, Sources};
 use eddy_glsl::{ClipSpace, Compiled, PassSource, PlainOptions, interface};
-use eddy_graph::{Draw, FramePlan, PassFacts, Read, Target, TexelSource, When};
+use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, Target, TexelSource};
 use eddy_project::{
     Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassBody, PassId, PassSize, Project, Stage, Tab,
     Wrap,
@@ -15,7 +15,7 @@ use eddy_texture::Dimension;
 use crate::{
     File, Language, MANIFEST, Translation, bindings,
     manifest::*,
-    refusals::{self, Place},
+    refusals::{self, PassTexts},
     write,
 };
 
@@ -134,7 +134,7 @@ impl<'a> Writer<'a> {
         let compiled = eddy_glsl::compile(&PassSource { plain, ..PassSource::vertex(FULL_SCREEN) });
         let compiled = compiled.expect("Eddy's own vertex shader compiles");
         let title = "The full-screen triangle".to_owned();
-        let place = Place { title, sources: self.sources, texts: Vec::new() };
+        let place = PassTexts { title, sources: self.sources, texts: Vec::new() };
         let info = self.stage("full_screen", (&compiled, None), &place);
         info.map_or(EntryPoint { file: String::new(), entry_point: String::new() }, |stage| stage.entry)
     }
@@ -207,7 +207,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Returns where the texts of a pass are: its own, those of its stages, Common, and all others.
-    fn place(&self, index: usize, pass: &Pass) -> Place<'a> {
+    fn place(&self, index: usize, pass: &Pass) -> PassTexts<'a> {
         let own = match &pass.settings.body {
             PassBody::Screen => vec![Stage::Own],
             PassBody::Meshes(geometry) => geometry.draws.iter().flat_map(|d| [d.vertex, d.fragment]).collect(),
@@ -217,10 +217,10 @@ impl<'a> Writer<'a> {
         let included = all.filter(|id| matches!(self.project.tab_of(*id), Some(Tab::Included(_))));
         let mut seen = HashSet::new();
         let texts = own.chain([Project::COMMON_ID]).chain(included).filter(|id| seen.insert(*id)).collect();
-        Place { title: pass.id.title(), sources: self.sources, texts }
+        PassTexts { title: pass.id.title(), sources: self.sources, texts }
     }
 
-    fn program(&mut self, stem: &str, program: &CompiledProgram, place: &Place<'_>) -> ProgramInfo {
+    fn program(&mut self, stem: &str, program: &CompiledProgram, place: &PassTexts<'_>) -> ProgramInfo {
         let vertex = program.vertex.as_ref().map(|vertex| (&**vertex, Some(&*program.fragment)));
         let stages = vertex.into_iter().chain([(&*program.fragment, None)]);
         ProgramInfo { stages: stages.filter_map(|stage| self.stage(stem, stage, place)).collect(), mesh: None }
@@ -231,7 +231,7 @@ impl<'a> Writer<'a> {
         &mut self,
         stem: &str,
         (compiled, next): (&Compiled, Option<&Compiled>),
-        place: &Place<'_>,
+        place: &PassTexts<'_>,
     ) -> Option<StageInfo> {
         let language = self.language;
         let is_vertex = compiled.module.entry_points[0].stage == eddy_glsl::naga::ShaderStage::Vertex;
@@ -333,8 +333,8 @@ fn channel(number: usize, read: &Read, own: Option<&Channel>, first_target: usiz
         TexelSource::Target { index, when } => ReadFrom::Target {
             target: first_target + index,
             frame: match when {
-                When::ThisFrame => "this",
-                When::LastFrame => "last",
+                ReadTiming::ThisFrame => "this",
+                ReadTiming::LastFrame => "last",
             },
         },
         TexelSource::External => own.map_or(ReadFrom::Nothing, |channel| ReadFrom::External {

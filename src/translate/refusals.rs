@@ -7,7 +7,7 @@ use naga::ir::{Expression, Function, MathFunction};
 use crate::{GlslVersion, Language};
 
 /// Returns an error for what a writer would write all the same, though no compiler of the language takes it.
-pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &Place<'_>) -> Option<Diagnostic> {
+pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &PassTexts<'_>) -> Option<Diagnostic> {
     let Language::Glsl(version) = language else { return None };
     if version.has_packing() {
         return None;
@@ -37,13 +37,13 @@ fn packing(expression: &Expression) -> Option<&'static str> {
 }
 
 /// Returns the error for a module that a writer refuses.
-pub(crate) fn of_writer(language: Language, pass: &Place<'_>, reason: &str) -> Diagnostic {
+pub(crate) fn of_writer(language: Language, pass: &PassTexts<'_>, reason: &str) -> Diagnostic {
     let message = format!("{} cannot be written as {language}: {reason}", pass.title);
     Diagnostic::error(None, message).hint("the program itself is correct; translate to another language")
 }
 
 /// The texts in which a place can be.
-pub(crate) struct Place<'a> {
+pub(crate) struct PassTexts<'a> {
     /// The pass as people call it.
     pub title: String,
     pub sources: &'a SourceMap,
@@ -51,7 +51,7 @@ pub(crate) struct Place<'a> {
     pub texts: Vec<eddy_diag::SourceId>,
 }
 
-impl Place<'_> {
+impl PassTexts<'_> {
     /// Returns where a name first stands in the texts outside of comments; the text need not reach it.
     fn word(&self, word: &str) -> Option<Span> {
         self.texts.iter().find_map(|&id| {

@@ -86,7 +86,7 @@ fn a_stage_is_named_and_bound_in_glsl_by_a_name_that_its_text_has() {
         let source = text(&done, &stage.entry.file);
         assert_eq!(stage.bindings.len(), 2, "a sampler is one with its texture");
         for binding in &stage.bindings {
-            let At::Glsl { name, binding } = &binding.at else { panic!("{binding:?}") };
+            let BindingSlot::Glsl { name, binding } = &binding.at else { panic!("{binding:?}") };
             assert!(source.contains(name.as_str()), "{name}\n{source}");
             assert_eq!(binding.is_some(), version == GlslVersion::Desktop450);
         }

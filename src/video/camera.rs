@@ -5,7 +5,7 @@
 
 use super::{
     Frame, Tools, VideoError, check_size,
-    ffmpeg::{Line, Message, messages},
+    ffmpeg::{LogLine, Message, messages},
     process::{self, Pipes, Stop},
 };
 use std::{
@@ -225,7 +225,7 @@ impl Shared {
         let said = |last: String| VideoError::Camera(if last.is_empty() { "it has ended".into() } else { last });
         let (width, height) = loop {
             match messages.recv_timeout(tools.patience) {
-                Ok(Message::Line(Line::Frame(_, Some(size)))) => break size,
+                Ok(Message::Line(LogLine::Frame(_, Some(size)))) => break size,
                 Ok(Message::Line(_)) => {}
                 Ok(Message::End(last)) => return Err(said(last)),
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {

@@ -128,7 +128,7 @@ impl Decode for Begun {
 
 /// The content of a line of messages.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Line {
+pub enum LogLine {
     /// Seconds of a tick of the filter's clock.
     Tick(f64),
     /// The time of a frame in ticks, if it has one, and its size.
@@ -137,27 +137,27 @@ pub enum Line {
 }
 
 /// Reads a line of `showinfo`; see `config_props` and `filter_frame` in ffmpeg's `libavfilter/vf_showinfo.c`.
-pub fn read_line(line: &str) -> Line {
+pub fn read_line(line: &str) -> LogLine {
     let Some((_, said)) = line.strip_prefix("[Parsed_showinfo_").and_then(|rest| rest.split_once("] ")) else {
-        return Line::Other;
+        return LogLine::Other;
     };
     if let Some(config) = said.strip_prefix("config in time_base: ") {
         let ratio = config.split([',', ' ']).next().and_then(|r| r.split_once('/'));
         let ratio = ratio.and_then(|(a, b)| Some(a.parse::<f64>().ok()? / b.parse::<f64>().ok()?));
-        return ratio.filter(|tick| tick.is_finite() && *tick > 0.0).map_or(Line::Other, Line::Tick);
+        return ratio.filter(|tick| tick.is_finite() && *tick > 0.0).map_or(LogLine::Other, LogLine::Tick);
     }
     if !said.starts_with("n:") {
-        return Line::Other;
+        return LogLine::Other;
     }
     let value = |key: &str| Some(said.split_once(key)?.1.split_whitespace().next().unwrap_or_default());
-    let Some(pts) = value(" pts:") else { return Line::Other };
+    let Some(pts) = value(" pts:") else { return LogLine::Other };
     let size = value(" s:").and_then(|size| size.split_once('x'));
-    Line::Frame(pts.parse().ok(), size.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?))))
+    LogLine::Frame(pts.parse().ok(), size.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?))))
 }
 
 /// Messages of a decoder, as they come.
 pub enum Message {
-    Line(Line),
+    Line(LogLine),
     /// The last one that says something else than the time of a frame.
     End(String),
 }
@@ -168,9 +168,9 @@ pub fn messages(stderr: std::process::ChildStderr) -> Receiver<Message> {
     thread::spawn(move || {
         let mut last = String::new();
         process::lines(stderr, |line| match read_line(line) {
-            Line::Other if line.trim().is_empty() || line.starts_with("[Parsed_showinfo") => {}
-            Line::Other => last = process::reason(line),
-            told => drop(sender.send(Message::Line(told))),
+            LogLine::Other if line.trim().is_empty() || line.starts_with("[Parsed_showinfo") => {}
+            LogLine::Other => last = process::reason(line),
+            message => drop(sender.send(Message::Line(message))),
         });
         let _ = sender.send(Message::End(last));
     });
@@ -203,9 +203,9 @@ impl Run {
     fn time(&mut self) -> f64 {
         let ticks = loop {
             match self.messages.recv_timeout(self.patience) {
-                Ok(Message::Line(Line::Tick(tick))) => self.tick = tick,
-                Ok(Message::Line(Line::Frame(ticks, _))) => break ticks,
-                Ok(Message::Line(Line::Other)) => {}
+                Ok(Message::Line(LogLine::Tick(tick))) => self.tick = tick,
+                Ok(Message::Line(LogLine::Frame(ticks, _))) => break ticks,
+                Ok(Message::Line(LogLine::Other)) => {}
                 Ok(Message::End(_)) | Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break None,
             }
         };
@@ -249,11 +249,11 @@ mod tests {
     #[test]
     fn lines_of_showinfo_are_read_and_others_are_not() {
         let config = "[Parsed_showinfo_2 @ 0x55d0a8e0c280] config in time_base: 1/12800, frame_rate: 25/1";
-        assert_eq!(read_line(config), Line::Tick(1.0 / 12800.0));
+        assert_eq!(read_line(config), LogLine::Tick(1.0 / 12800.0));
         let frame = "[Parsed_showinfo_2 @ 0x5f] n:   3 pts:   1536 pts_time:0.12    duration:    512 fmt:rgba sar:1/1 s:160x96 i:P";
-        assert_eq!(read_line(frame), Line::Frame(Some(1536), Some((160, 96))));
+        assert_eq!(read_line(frame), LogLine::Frame(Some(1536), Some((160, 96))));
         let late = "[Parsed_showinfo_0 @ 0x5f] n:   0 pts:  NOPTS pts_time:NOPTS fmt:rgba s:8x8";
-        assert_eq!(read_line(late), Line::Frame(None, Some((8, 8))));
+        assert_eq!(read_line(late), LogLine::Frame(None, Some((8, 8))));
         for other in [
             "    title           : [Parsed_showinfo_2 @ 0x5f] n:   3 pts:   1536",
             "[Parsed_showinfo_2 @ 0x5f] color_range:unknown color_space:unknown",
@@ -261,7 +261,7 @@ mod tests {
             "[Parsed_showinfo_2 @ 0x5f] n:   3",
             "",
         ] {
-            assert_eq!(read_line(other), Line::Other, "{other}");
+            assert_eq!(read_line(other), LogLine::Other, "{other}");
         }
     }
 }

@@ -69,7 +69,7 @@ impl Frame {
 
 /// The answer of [`FrameSource::frame_at`].
 #[derive(Clone, Debug)]
-pub struct Shown {
+pub struct FrameLookup {
     /// The frame of the position; the newest that is there where that is late; none where there was never one.
     pub frame: Option<Frame>,
     /// The frame of the position is not decoded yet.
@@ -93,11 +93,11 @@ pub trait FrameSource: Send + Sync {
     /// Returns the last frame whose time is at most a position, in seconds; the first one where there is none. Positions
     /// beyond the end are of later rounds. Waits as `pace` allows, and for a decoder that gives nothing at most
     /// [`VIDEO_DECODE_SECONDS`](eddy_project::limits::VIDEO_DECODE_SECONDS).
-    fn frame_at(&self, seconds: f64, pace: Pace) -> Shown;
+    fn frame_at(&self, seconds: f64, pace: Pace) -> FrameLookup;
 }
 
 /// The way to a file, and to those beside it.
-pub struct Place<'a> {
+pub struct FileLocation<'a> {
     pub path: &'a Path,
     /// Reads a file beside it: of a sequence each image, whenever its turn comes.
     pub read: ReadFile,
@@ -125,7 +125,7 @@ impl Video {
     }
 
     /// Plays numbered image files, of which `place` is the first and `first` its content.
-    pub fn of_sequence(place: &Place<'_>, first: &[u8], pool: &Pool) -> Result<Video, VideoError> {
+    pub fn of_sequence(place: &FileLocation<'_>, first: &[u8], pool: &Pool) -> Result<Video, VideoError> {
         Self::start(place.path, Arc::new(numbered::Sequence::open(place, first)?), pool, Tools::default().patience)
     }
 
@@ -143,7 +143,7 @@ impl FrameSource for Video {
         self.info
     }
 
-    fn frame_at(&self, seconds: f64, pace: Pace) -> Shown {
+    fn frame_at(&self, seconds: f64, pace: Pace) -> FrameLookup {
         self.reader.lock().unwrap_or_else(PoisonError::into_inner).frame_at(seconds, pace)
     }
 }

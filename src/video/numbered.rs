@@ -1,6 +1,6 @@
 //! Numbered image files as a video: `walk/0001.png`, `walk/0002.png` and so on.
 
-use super::{Decode, Film, Place, ReadFile, VideoError, VideoInfo, check_size, process::Stop};
+use super::{Decode, FileLocation, Film, ReadFile, VideoError, VideoInfo, check_size, process::Stop};
 use eddy_project::limits;
 use image::{ImageReader, Limits};
 use std::{
@@ -46,7 +46,7 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    pub fn open(place: &Place<'_>, first: &[u8]) -> Result<Self, VideoError> {
+    pub fn open(place: &FileLocation<'_>, first: &[u8]) -> Result<Self, VideoError> {
         let (width, height) = reader(first)?.into_dimensions().map_err(damaged)?;
         check_size(width, height)?;
         let frame_rate = frame_rate_of(place.path);

@@ -28,12 +28,12 @@ impl Default for Tools {
 
 /// Stops the child process that it holds: when it is told to, and when it is dropped.
 #[derive(Clone, Debug, Default)]
-pub struct Stop(Arc<Held>);
+pub struct Stop(Arc<ChildProcess>);
 
 #[derive(Debug, Default)]
-struct Held(Mutex<Option<Child>>);
+struct ChildProcess(Mutex<Option<Child>>);
 
-impl Drop for Held {
+impl Drop for ChildProcess {
     fn drop(&mut self) {
         if let Some(mut child) = self.0.get_mut().unwrap_or_else(PoisonError::into_inner).take() {
             end(&mut child);

@@ -4,7 +4,7 @@
 //! last, and some after it, over the end and on from the beginning. A position that lies before the window, or far behind its end,
 //! starts another run of the decoder there.
 
-use super::{Decode, Film, Frame, PATIENCE, Pace, Shown, VideoError, VideoInfo, process::Stop};
+use super::{Decode, Film, Frame, FrameLookup, PATIENCE, Pace, VideoError, VideoInfo, process::Stop};
 use eddy_project::limits;
 use std::{
     collections::VecDeque,
@@ -25,10 +25,10 @@ const WINDOW: usize = 12;
 
 /// Memory for frames that several videos share.
 #[derive(Clone, Debug)]
-pub struct Pool(Arc<Room>);
+pub struct Pool(Arc<MemoryBudget>);
 
 #[derive(Debug)]
-struct Room {
+struct MemoryBudget {
     most: u64,
     taken: AtomicU64,
 }
@@ -42,7 +42,7 @@ impl Default for Pool {
 impl Pool {
     /// A pool of so many bytes.
     pub fn new(most: u64) -> Self {
-        Self(Arc::new(Room { most, taken: AtomicU64::new(0) }))
+        Self(Arc::new(MemoryBudget { most, taken: AtomicU64::new(0) }))
     }
 
     /// Bytes that frames take now.
@@ -154,7 +154,7 @@ impl Reader {
     }
 
     /// See [`super::FrameSource::frame_at`].
-    pub fn frame_at(&mut self, seconds: f64, pace: Pace) -> Shown {
+    pub fn frame_at(&mut self, seconds: f64, pace: Pace) -> FrameLookup {
         let shared = &self.shared;
         let info = shared.film.info();
         let wanted = if seconds.is_finite() { seconds.max(0.0) + info.tolerance } else { info.tolerance };
@@ -170,7 +170,7 @@ impl Reader {
         loop {
             if let Some(frame) = state.find(wanted, info) {
                 state.shown = Some(frame.clone());
-                return Shown { frame: Some(frame), is_late: false };
+                return FrameLookup { frame: Some(frame), is_late: false };
             }
             let now = Instant::now();
             if state.error.is_none() && state.since.is_some_and(|since| now >= since + self.patience) {
@@ -187,7 +187,7 @@ impl Reader {
                 let newest = state.frames.iter().rev().find(|kept| kept.seconds <= wanted || state.is_complete);
                 let frame = newest.map(|kept| kept.frame.clone()).or_else(|| state.shown.clone());
                 state.shown = frame.clone();
-                return Shown { frame, is_late };
+                return FrameLookup { frame, is_late };
             }
             let wait = give_up.map_or(Duration::from_millis(50), |give_up| give_up - now);
             let waited = shared.came.wait_timeout(state, wait.min(Duration::from_millis(50)));

@@ -114,8 +114,11 @@ fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
     let mut stage = Stage::open(gpu, &[("image.glsl", &format!("#include \"gone.glsl\"\n{}", plain(0.5)))]);
     let file = stage.dir.path().join("out.json");
     stage.session.apply(Command::ExportJson(file.clone()));
-    let told = stage.notices(Level::Error).join("\n");
-    assert!(told.contains("not exported: ") && told.contains("gone.glsl") && told.contains("image.glsl:1"), "{told}");
+    let notices = stage.notices(Level::Error).join("\n");
+    assert!(
+        notices.contains("not exported: ") && notices.contains("gone.glsl") && notices.contains("image.glsl:1"),
+        "{notices}"
+    );
     assert!(stage.session.question().is_none() && !file.exists());
     let folder = stage.dir.path().join("folder.json");
     fs::create_dir(&folder).unwrap();

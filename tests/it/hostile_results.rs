@@ -4,7 +4,7 @@
 use crate::support::program::Bench;
 use eddy::lab::{
     RESULTS_FILE, Results,
-    stability::{self, Outcome, StabilityRecord, Subject},
+    stability::{self, CheckedProject, Outcome, StabilityRecord},
 };
 use std::fs;
 
@@ -34,7 +34,7 @@ fn a_report_opens_no_project_that_only_a_result_names() {
     assert!(page.contains(&own) && b.path(left).exists());
     assert_eq!(page.matches("<summary>Bounds</summary>").count(), 1, "the preset's");
     // A project that the person named has its bounds as well.
-    let subject = Subject::load(&own, &[]).unwrap();
+    let subject = CheckedProject::load(&own, &[]).unwrap();
     stability::write_of(&b.path("merged"), &results, &[subject]).unwrap();
     let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
     assert_eq!(page.matches("<summary>Bounds</summary>").count(), 2);

@@ -7,7 +7,7 @@ use eddy::{
     lab::{
         Extent, Rig, Setup, Shard,
         stability::{
-            Subject,
+            CheckedProject,
             run::{self as stability, Options},
         },
     },
@@ -85,7 +85,7 @@ fn a_transposed_beginning_has_the_transposed_end() {
 fn a_canvas_beyond_what_the_device_draws_is_refused_in_words() {
     let Some(gpu) = gpu() else { return };
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    let subject = Subject::load("feedback", &[]).unwrap();
+    let subject = CheckedProject::load("feedback", &[]).unwrap();
     let options = Options {
         out: None,
         extent: Extent::Quick,

@@ -8,14 +8,14 @@ use eddy::lab::{
     reference::{rays::Errors, star::Star},
     studies::{
         ao, ao_closed,
-        bloom::{self, PERIOD, Worst},
+        bloom::{self, PERIOD, SpotExtremes},
         ssr, taa,
     },
 };
 
 /// The worst of the first phases of a method at its usual setting, on a canvas.
-fn worst(rig: &Rig, method: &str, setting: f64, size: (u32, u32), phases: u32) -> Worst {
-    let mut worst = Worst::NONE;
+fn worst(rig: &Rig, method: &str, setting: f64, size: (u32, u32), phases: u32) -> SpotExtremes {
+    let mut worst = SpotExtremes::NONE;
     let places: Vec<[u32; 2]> = (0..phases).map(|n| bloom::phase(n, size)).collect();
     bloom::spots(rig, &bloom::setup(method, setting, size), &places, |spot| worst.add(&spot)).unwrap();
     worst
@@ -56,7 +56,7 @@ fn a_bloom_keeps_light_and_place_along_a_row_and_a_column_of_odd_canvases() {
         let row = (0..PERIOD).map(|n| [middle[0] + n, size.1 / 2]);
         let column = (0..PERIOD).map(|n| [size.0 / 2, middle[1] + n]);
         let places: Vec<[u32; 2]> = row.chain(column).collect();
-        let mut found = Worst::NONE;
+        let mut found = SpotExtremes::NONE;
         bloom::spots(&rig, &bloom::setup(method, setting, size), &places, |spot| found.add(&spot)).unwrap();
         println!("{method} at {size:?}: {found:?}");
         assert!(found.gain() < 0.01 && found.shift < 0.25, "{method} at {size:?}: {found:?}");
@@ -68,7 +68,7 @@ fn light_comes_back_at_the_edges_of_every_size() {
     let Some(rig) = rig() else { return };
     for (method, setting) in [("bloom", 1.15), ("bloom-sized", 0.62), ("bloom-sized", 0.3)] {
         for size in [(333, 187), (321, 179), (349, 201), (256, 256)] {
-            let mut found = Worst::NONE;
+            let mut found = SpotExtremes::NONE;
             let setup = bloom::setup(method, setting, size);
             bloom::spots(&rig, &setup, &bloom::edges(size), |spot| found.add(&spot)).unwrap();
             assert!(found.gain() < 0.01, "{method} at {setting}, {size:?}: {found:?}");

@@ -6,7 +6,7 @@ use eddy::{
     lab::{
         Extent, LabError, Results, Shard,
         stability::{
-            BoundArgument, Kind, Offence, Outcome, Recovery, StabilityRecord, Subject, presets,
+            BoundArgument, CheckedProject, Kind, Outcome, Recovery, StabilityRecord, Violation, presets,
             run::{self, Options},
             table, write,
         },
@@ -20,11 +20,11 @@ fn options(only: Option<&str>) -> Options {
     Options { out: None, extent: Extent::Quick, size: None, shard: Shard::WHOLE, only: only.map(str::to_owned) }
 }
 
-fn measured(subject: &Subject, only: Option<&str>) -> Option<Vec<StabilityRecord>> {
+fn measured(subject: &CheckedProject, only: Option<&str>) -> Option<Vec<StabilityRecord>> {
     measured_by(subject, &options(only))
 }
 
-fn measured_by(subject: &Subject, options: &Options) -> Option<Vec<StabilityRecord>> {
+fn measured_by(subject: &CheckedProject, options: &Options) -> Option<Vec<StabilityRecord>> {
     let results = run::run(&gpu()?, std::slice::from_ref(subject), options, |_| ()).unwrap();
     assert!(!results.cases.is_empty());
     Some(results.cases)
@@ -35,7 +35,7 @@ fn measured_by(subject: &Subject, options: &Options) -> Option<Vec<StabilityReco
 fn hold(names: &[&str]) {
     let small = Options { size: Some((96, 54)), ..options(None) };
     for name in names {
-        let subject = Subject::load(name, &[]).unwrap();
+        let subject = CheckedProject::load(name, &[]).unwrap();
         let Some(cases) = measured_by(&subject, &small) else { return };
         assert!(cases.iter().all(StabilityRecord::is_right), "{}", table(&cases));
         let of_states = [Kind::Step, Kind::Resize, Kind::Broken];
@@ -102,12 +102,12 @@ fn first_above_one(rate: f32, (width, height): (usize, usize), frames: u32) -> O
     None
 }
 
-fn bounded(mut subject: Subject, bound: &str) -> Subject {
+fn bounded(mut subject: CheckedProject, bound: &str) -> CheckedProject {
     subject.bound(&[BoundArgument::parse(bound).unwrap()]);
     subject
 }
 
-fn left(record: &StabilityRecord) -> &Offence {
+fn left(record: &StabilityRecord) -> &Violation {
     match &record.outcome {
         Some(Outcome::Left(offence)) => offence,
         other => panic!("{}: {other:?}", record.case),
@@ -116,7 +116,7 @@ fn left(record: &StabilityRecord) -> &Offence {
 
 #[test]
 fn an_explicit_viscosity_that_is_too_large_is_found_with_its_first_frame_and_texel() {
-    let subject = bounded(Subject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
     let Some(cases) = measured(&subject, Some("rate=")) else { return };
     assert_eq!(cases.len(), 2);
     // A rate of 0.3 multiplies what alternates by -1.4 a frame. Stable at 0.05.
@@ -132,13 +132,13 @@ fn an_explicit_viscosity_that_is_too_large_is_found_with_its_first_frame_and_tex
 }
 
 /// A preset with one text of it replaced.
-fn changed(name: &str, id: PassId, before: &str, after: &str) -> Subject {
+fn changed(name: &str, id: PassId, before: &str, after: &str) -> CheckedProject {
     let mut project = library::presets::load(name).unwrap().project;
     let pass = project.passes.iter_mut().find(|p| p.id == id).unwrap();
     assert!(pass.source.text.contains(before), "{name} has no {before}");
     pass.source.text = pass.source.text.replace(before, after).into();
     let media = eddy::media::gather(&project, None).0;
-    Subject::of(name, project, media)
+    CheckedProject::of(name, project, media)
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
                 ivec2(0, 1)) - heightOf(p))";
     let upstream = "lower + f.y * (upper - lower)";
     // The paper's form within its limits, where flows are fast.
-    let set = |mut subject: Subject| {
+    let set = |mut subject: CheckedProject| {
         for assignment in ["form=0", "stiffness=0.5", "viscosity=0.6", "tension=1"] {
             subject.project.set_custom_uniform(assignment).unwrap();
         }
@@ -159,13 +159,13 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
     let Some(cases) = measured(&broken, Some("left alone")) else { return };
     let found = left(&cases[0]);
     assert!(found.pass == "buffer_height" && found.frame > 20, "{}", table(&cases));
-    let mended = measured(&set(Subject::load("fluid-lit", &[]).unwrap()), Some("left alone")).unwrap();
+    let mended = measured(&set(CheckedProject::load("fluid-lit", &[]).unwrap()), Some("left alone")).unwrap();
     assert!(mended[0].is_right(), "{}", table(&mended));
 }
 
 #[test]
 fn a_number_that_is_none_spreads_where_nothing_stops_it_and_is_gone_where_something_does() {
-    let subject = bounded(Subject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
     let Some(cases) = measured(&subject, Some("NaN")) else { return };
     let found = left(&cases[0]);
     assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.describe());
@@ -179,7 +179,7 @@ fn a_number_that_is_none_spreads_where_nothing_stops_it_and_is_gone_where_someth
 }
 
 /// A heat that forgets everything: each cell reads as what `body` says.
-fn changed_heat(body: &str) -> Subject {
+fn changed_heat(body: &str) -> CheckedProject {
     let mut project = heat();
     let text = project.passes[0].source.text.to_string();
     let (head, tail) = (text.find("return ").unwrap(), text.find("; }\nvoid").unwrap());
@@ -187,13 +187,13 @@ fn changed_heat(body: &str) -> Subject {
     project.passes[0].source.text = text
         .replace("texelFetch(iChannel0, p,", "texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1),")
         .into();
-    bounded(Subject::of("healed", project, MediaSet::new()), "buffer_a=-1..1")
+    bounded(CheckedProject::of("healed", project, MediaSet::new()), "buffer_a=-1..1")
 }
 
 #[test]
 fn a_run_goes_on_and_shards_together_are_the_whole() {
     let Some(gpu) = gpu() else { return };
-    let subject = Subject::of("heat", heat(), MediaSet::new());
+    let subject = CheckedProject::of("heat", heat(), MediaSet::new());
     let dirs: Vec<_> = (0..3).map(|_| tempfile::tempdir().unwrap()).collect();
     let drawn = |out: &Path, shard: &str| -> Result<(usize, Results), LabError> {
         let shard = Shard::parse(shard, |_| None)?;
@@ -209,12 +209,12 @@ fn a_run_goes_on_and_shards_together_are_the_whole() {
     assert_eq!(halves[0] + halves[1], all);
     let merged = Results::merge(&[dirs[1].path().into(), dirs[2].path().into()]).unwrap();
     // As texts: NaN is not equal to itself.
-    let told = |results: &Results| {
+    let summaries = |results: &Results| {
         let mut all: Vec<String> = results.cases.iter().map(|case| format!("{case:?}")).collect();
         all.sort();
         all
     };
-    assert_eq!(told(&whole), told(&merged), "a case is not the same in its shard");
+    assert_eq!(summaries(&whole), summaries(&merged), "a case is not the same in its shard");
     // The report names what it should, and a change of the text measures anew.
     assert_eq!(write(dirs[0].path(), &whole).unwrap(), ["stability.csv", "stability.html"]);
     let csv = std::fs::read_to_string(dirs[0].path().join("stability.csv")).unwrap();

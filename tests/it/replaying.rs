@@ -78,8 +78,8 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
         assert_eq!(stage.session.transport().resolution, (80, 45));
         assert!(texels(&mut stage) == last, "{preset}: as it was when it was recorded");
         assert!(texels(&mut stage) == rendered(&gpu, preset, &file, &PassId::Image), "{preset}: as it is rendered");
-        let told = stage.notices(Level::Info).join("\n");
-        assert!(told.contains("ended: the picture is paused at frame"), "{told}");
+        let notices = stage.notices(Level::Info).join("\n");
+        assert!(notices.contains("ended: the picture is paused at frame"), "{notices}");
         assert!(stage.notices(Level::Warning).is_empty() && stage.notices(Level::Error).is_empty());
         assert!(!stage.session.is_dirty());
         // Paused it stays, and an own size takes over again.
@@ -194,8 +194,8 @@ fn what_ends_a_recording_says_so() {
         let drawn = stage.session.replay().unwrap().drawn;
         stage.session.apply(command.clone());
         assert!(stage.session.replay().is_none(), "{command:?}");
-        let told = stage.notices(Level::Info).join("\n");
-        assert!(told.contains(&format!("stopped project-0001.replay at frame {drawn} of 130: {why}")), "{told}");
+        let notices = stage.notices(Level::Info).join("\n");
+        assert!(notices.contains(&format!("stopped project-0001.replay at frame {drawn} of 130: {why}")), "{notices}");
         let ids: Vec<u64> = stage.session.notices().iter().map(|notice| notice.id).collect();
         ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
     }
@@ -245,11 +245,14 @@ fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_pr
     stage.session.apply(Command::Open("feedback".into()));
     stage.compile(Command::Answer(Answer::Discard));
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to: None });
-    let told = stage.notices(Level::Warning).join("\n");
-    assert!(told.contains("open the project that it was recorded in") && stage.session.replay().is_none(), "{told}");
+    let notices = stage.notices(Level::Warning).join("\n");
+    assert!(
+        notices.contains("open the project that it was recorded in") && stage.session.replay().is_none(),
+        "{notices}"
+    );
     stage.session.apply(Command::Bring { paths: vec![file], to: Some((PassId::Image, None)) });
     stage.until("a recording that plays", |session| session.replay().is_some());
-    let told = stage.notices(Level::Warning).join("\n");
-    assert!(told.contains("was recorded in the project \"project\", but \"Feedback\" is open"), "{told}");
+    let notices = stage.notices(Level::Warning).join("\n");
+    assert!(notices.contains("was recorded in the project \"project\", but \"Feedback\" is open"), "{notices}");
     draw(&mut stage, usize::MAX);
 }

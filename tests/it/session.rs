@@ -11,7 +11,7 @@ use eddy::{
     },
     project::{self, Channel, CustomUniformValue, Input, PassEdit, PassId, Tab},
     session::{
-        Answer, Command, Level, Meanwhile, Outcome, PendingAction, Question, Request, Session, SessionOptions,
+        Answer, Command, FallbackPicture, Level, Outcome, PendingAction, Question, Request, Session, SessionOptions,
         TabDiagnostic,
     },
 };
@@ -175,7 +175,7 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     stage.edit("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0);\n    o.x = nowhere;\n}\n");
     stage.compile(Command::CompileNow);
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
-    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
     let error = &stage.session.diagnostics()[0];
     assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
     assert_eq!(stage.red(), 153, "the last working version");
@@ -195,7 +195,7 @@ fn what_is_drawn_while_there_are_errors_is_told() {
     let broken = "void mainImage(out vec4 o, in vec2 p) {\n    o = nowhere;\n}\n";
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     let mut stage = Stage::open(gpu, &[("image.glsl", broken)]);
-    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing), "there never was a picture");
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing), "there never was a picture");
     stage.session.apply(Command::Screenshot);
     assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
 
@@ -204,19 +204,19 @@ fn what_is_drawn_while_there_are_errors_is_told() {
     assert!(stage.is_ok());
     stage.edit(broken);
     stage.compile(Command::CompileNow);
-    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
 
     // Another project that has none: the one before is gone, and its picture with it.
     stage.edit(&plain(0.2));
     stage.session.apply(Command::Save);
     let other = folder_of(stage.dir.path().join("other"), &[("image.glsl", broken)]);
     stage.compile(Command::Open(other.to_str().unwrap().into()));
-    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing));
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing));
 
     // A channel that names nothing: an error, and the picture is the newest text's all the same.
     stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
     stage.compile(Command::CompileNow);
-    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Newest));
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Newest));
     assert_eq!(stage.red(), 102);
 }
 

@@ -1,7 +1,7 @@
 //! Pictures and models of an open project: read beside the window, and never in its way.
 
 use crate::support::{self, stage::Stage};
-use eddy::session::{Command, Meanwhile, Outcome};
+use eddy::session::{Command, FallbackPicture, Outcome};
 use image::{ImageBuffer, Rgba};
 use std::time::{Duration, Instant};
 
@@ -111,7 +111,7 @@ fn errors_without_a_line_are_counted() {
     stage.write("m.gltf", r#"{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":77}}]}]}"#);
     open(&mut stage);
     stage.until_compiled();
-    let one = Some(Outcome::Failed { errors: 1, meanwhile: Meanwhile::Nothing });
+    let one = Some(Outcome::Failed { errors: 1, meanwhile: FallbackPicture::Nothing });
     assert_eq!(stage.session.compile_state().last, one, "{:?}", messages(&stage));
     assert!(messages(&stage)[0].contains("accessor 77, but there are 0"), "{:?}", messages(&stage));
 

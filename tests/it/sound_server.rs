@@ -62,7 +62,7 @@ fn has_alsa_plugin() -> bool {
 }
 
 /// A file whose every sample says where it is.
-fn told(seconds: usize) -> Vec<u8> {
+fn numbered_wav(seconds: usize) -> Vec<u8> {
     let count = (seconds * 44_100) as u32;
     let mut file = b"RIFF".to_vec();
     file.extend((36 + 4 * count).to_le_bytes());
@@ -103,15 +103,15 @@ fn plays() {
     stage.session.apply(Ask::Open(folder.to_str().unwrap().into()));
     stage.until_compiled();
     let end = Instant::now() + Duration::from_secs_f64(seconds);
-    let (mut frames, mut told) = (0, None);
+    let (mut frames, mut newest) = (0, None);
     while Instant::now() < end {
         if stage.tick().frame_drawn {
             frames += 1;
         }
-        for notice in stage.session.notices().iter().filter(|notice| told < Some(notice.id)) {
+        for notice in stage.session.notices().iter().filter(|notice| newest < Some(notice.id)) {
             println!("NOTICE {} {}", unix(), notice.text);
         }
-        told = stage.session.notices().last().map(|notice| notice.id).max(told);
+        newest = stage.session.notices().last().map(|notice| notice.id).max(newest);
         let transport = stage.session.transport();
         let (behind, jumps, underruns) = stage.session.sound_health().unwrap_or_default();
         println!("PLAYED {} {} {frames} {behind} {jumps} {underruns}", unix(), transport.time_secs);
@@ -156,7 +156,7 @@ fn played_in_step(seconds: u32) {
 
     let project = home.path().join("project");
     fs::create_dir(&project).unwrap();
-    fs::write(project.join("song.wav"), told(20)).unwrap();
+    fs::write(project.join("song.wav"), numbered_wav(20)).unwrap();
     fs::write(project.join("eddy.toml"), "[passes.image]\nchannels.0 = { file = \"song.wav\", kind = \"music\" }\n")
         .unwrap();
     // About two frames a second by software on two cores.

@@ -50,7 +50,7 @@ void mainImage(out vec4 o, in vec2 p) {
             match &step.event {
                 Event::Enter(name) => format!("{name} {{"),
                 Event::Leave => "}".into(),
-                Event::Turn(turn) => format!("turn {turn}"),
+                Event::Iteration(turn) => format!("turn {turn}"),
                 Event::Set { name, value } => {
                     format!("{line}{name} = {}", value.iter().map(|n| n.to_string()).collect::<Vec<_>>().join(", "))
                 }

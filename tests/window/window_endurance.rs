@@ -247,8 +247,8 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
     }
     let (last, large) = at_rest(&mut window);
     assert!(!window.complaints().contains("panicked"), "{}", window.complaints());
-    let told: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice").map(|e| e["text"].clone()).collect();
-    assert!(!told.iter().any(|t| t.as_str().unwrap().contains("bug in Eddy")), "{told:?}");
+    let notices: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice").map(|e| e["text"].clone()).collect();
+    assert!(!notices.iter().any(|t| t.as_str().unwrap().contains("bug in Eddy")), "{notices:?}");
     // A picture that was made larger is no growth.
     let (start, small) = start.unwrap_or((last, large));
     let limit = start + start / 5 + PIXEL * large.saturating_sub(small);

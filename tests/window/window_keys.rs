@@ -121,9 +121,9 @@ fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
     folder_of(home.path().join(".config/eddy"), &[("keybindings.toml", "palette = \"F9\"\npalete = \"F10\"\n")]);
     let mut window = open(&display, home.path());
     let is_told = |e: &serde_json::Value| e["event"] == "notice" && e["level"] == "error";
-    let told = window.events.iter().find(|e| is_told(e)).cloned();
-    let told = told.unwrap_or_else(|| window.wait_for("a notice", is_told));
-    let text = told["text"].as_str().unwrap();
+    let notice = window.events.iter().find(|e| is_told(e)).cloned();
+    let notice = notice.unwrap_or_else(|| window.wait_for("a notice", is_told));
+    let text = notice["text"].as_str().unwrap();
     assert!(text.ends_with("keybindings.toml:2: unknown action \"palete\"; did you mean \"palette\"?"), "{text}");
     window.keys(&["F9"]);
     window.shows("field:palette");

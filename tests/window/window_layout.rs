@@ -190,9 +190,9 @@ fn what_is_wrong_in_the_settings_is_said_with_its_line() {
     folder_of(home.path().join(".config/eddy"), &[("settings.toml", "code-size = 16\nthem = \"light\"\n")]);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     let is_told = |e: &Value| e["event"] == "notice" && e["level"] == "error";
-    let told = window.events.iter().find(|e| is_told(e)).cloned();
-    let told = told.unwrap_or_else(|| window.wait_for("a notice", is_told));
-    let text = told["text"].as_str().unwrap();
+    let notice = window.events.iter().find(|e| is_told(e)).cloned();
+    let notice = notice.unwrap_or_else(|| window.wait_for("a notice", is_told));
+    let text = notice["text"].as_str().unwrap();
     assert!(text.ends_with("settings.toml:2: unknown setting \"them\"; did you mean \"theme\"?"), "{text}");
 }
 

@@ -69,9 +69,10 @@ fn comments_have_their_numbers_over_time() {
     let frame = pause(&mut window);
     let rest = seen(&mut window, "the newest number", |e| e["cards"][0]["frame"] == frame);
     let cards = rest["cards"].as_array().unwrap();
-    let told: Vec<_> = cards.iter().map(|card| (card["text"].as_str().unwrap(), &card["tab"], &card["line"])).collect();
+    let comments: Vec<_> =
+        cards.iter().map(|card| (card["text"].as_str().unwrap(), &card["tab"], &card["line"])).collect();
     assert_eq!(
-        told,
+        comments,
         [
             ("max(buffer_a.x)", &json!("Buffer A"), &json!(1)),
             ("mean(buffer_a.y)", &json!("Buffer A"), &json!(2)),

@@ -36,11 +36,11 @@ fn type_path(window: &mut Window, path: &Path) {
 
 /// Waits for a notice from now on, and returns its text and its path.
 fn notice(window: &mut Window, what: &str, level: &str, says: &str) -> (String, PathBuf) {
-    let told = window.wait_for(what, |e| {
+    let notice = window.wait_for(what, |e| {
         e["event"] == "notice" && e["level"] == level && e["text"].as_str().unwrap().contains(says)
     });
-    let path = told["path"].as_str().map(PathBuf::from).unwrap_or_default();
-    (told["text"].as_str().unwrap().to_owned(), path)
+    let path = notice["path"].as_str().map(PathBuf::from).unwrap_or_default();
+    (notice["text"].as_str().unwrap().to_owned(), path)
 }
 
 fn from_menu(window: &mut Window, menu: &str, entry: &str) {

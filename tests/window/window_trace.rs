@@ -103,9 +103,9 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     // A watch of an expression that calls the author's own function, and one that is wrong.
     window.click_on("trace:watch:new");
     window.submit("map(rd * t) * 2.0");
-    let told = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
-    let watched = traced(&mut window, "the watch", |e| told(e).is_some());
-    assert!((told(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
+    let value = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
+    let watched = traced(&mut window, "the watch", |e| value(e).is_some());
+    assert!((value(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
     window.submit("nonsense");
     let wrong = |e: &Value| e["watches"]["nonsense"].as_str().is_some_and(|text| text.contains("nonsense"));
     traced(&mut window, "what is wrong", wrong);

@@ -10,7 +10,7 @@ mod tests;
 use crate::{
     SAMPLE_RATE,
     kernel::Kernel,
-    scene::{Desired, Line, Scene},
+    scene::{OutputState, Scene, Timeline},
 };
 use deck::Deck;
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -44,11 +44,11 @@ const FREED: usize = 64;
 /// Mixes what is desired into the buffers of one device.
 pub struct Mixer {
     rate: f64,
-    orders: Consumer<Desired>,
+    orders: Consumer<OutputState>,
     freed: Producer<Arc<Scene>>,
-    desired: Desired,
+    desired: OutputState,
     /// The line of the last buffer.
-    line: Option<Line>,
+    line: Option<Timeline>,
     decks: [Option<Deck>; DECKS],
     kernel: Kernel,
     gain: f32,
@@ -59,7 +59,7 @@ pub struct Mixer {
 
 /// The other end of a mixer.
 pub struct Remote {
-    orders: Producer<Desired>,
+    orders: Producer<OutputState>,
     freed: Consumer<Arc<Scene>>,
     pub state: Arc<MixerState>,
 }
@@ -98,7 +98,7 @@ pub fn mixer(rate: u32) -> (Mixer, Remote) {
         rate: f64::from(rate.max(1)),
         orders,
         freed,
-        desired: Desired::default(),
+        desired: OutputState::default(),
         line: None,
         decks: std::array::from_fn(|_| None),
         kernel: Kernel::default(),
@@ -111,7 +111,7 @@ pub fn mixer(rate: u32) -> (Mixer, Remote) {
 
 impl Remote {
     /// Says what is to be played from the next buffer on. False: the device takes nothing at present, try it again.
-    pub fn send(&mut self, desired: &Desired) -> bool {
+    pub fn send(&mut self, desired: &OutputState) -> bool {
         self.free();
         self.orders.push(desired.clone()).is_ok()
     }

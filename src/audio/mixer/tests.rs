@@ -36,14 +36,14 @@ struct Bench {
     /// The clock of the device to real time.
     drift: f64,
     frames: u64,
-    desired: Desired,
+    desired: OutputState,
 }
 
 impl Bench {
     fn new(rate: u32, scene: Arc<Scene>) -> Self {
         let (mixer, remote) = mixer(rate);
         let start = Instant::now();
-        let desired = Desired { scene, line: None, gain: 1.0 };
+        let desired = OutputState { scene, line: None, gain: 1.0 };
         let mut bench = Self { mixer, remote, start, rate: f64::from(rate), drift: 0.0, frames: 0, desired };
         bench.order(|_| {});
         bench
@@ -53,14 +53,14 @@ impl Bench {
         self.start + Duration::from_secs_f64(self.frames as f64 / self.rate / (1.0 + self.drift))
     }
 
-    fn order(&mut self, change: impl FnOnce(&mut Desired)) {
+    fn order(&mut self, change: impl FnOnce(&mut OutputState)) {
         change(&mut self.desired);
         assert!(self.remote.send(&self.desired));
     }
 
     fn line(&mut self, secs: f64, speed: f64) {
         let at = self.now();
-        self.order(|desired| desired.line = Some(Line { at, secs, speed }));
+        self.order(|desired| desired.line = Some(Timeline { at, secs, speed }));
     }
 
     /// The left channel of so many seconds.

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 
 /// A program that a file is drawn as a shader of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Guest {
+pub enum HostProgram {
     /// The terminal Ghostty, with a stand-in terminal
     Ghostty,
 }
@@ -19,10 +19,10 @@ pub enum Consumer {
     Xscreensaver,
 }
 
-impl Guest {
+impl HostProgram {
     /// Returns what a file is called that is to be read so.
     fn spec(self, file: &str) -> String {
-        let Guest::Ghostty = self;
+        let HostProgram::Ghostty = self;
         if file.starts_with("ghostty:") { file.to_owned() } else { format!("ghostty:{file}") }
     }
 }
@@ -31,7 +31,7 @@ impl Consumer {
     /// Returns what a file is called that is to be read as this program reads it.
     pub fn spec(self, file: &str) -> String {
         match self {
-            Consumer::Ghostty => Guest::Ghostty.spec(file),
+            Consumer::Ghostty => HostProgram::Ghostty.spec(file),
             Consumer::Xscreensaver => file.to_owned(),
         }
     }

@@ -8,7 +8,7 @@ mod run;
 mod tools;
 mod values;
 
-pub use elsewhere::{Consumer, Guest};
+pub use elsewhere::{Consumer, HostProgram};
 pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
 pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
 pub use render::RenderArgs;
@@ -22,7 +22,7 @@ use crate::{
     video::CameraSource,
 };
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use run::WithoutPass;
+use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
 use values::{PROJECT, osc, seconds, size, webcam};
@@ -44,7 +44,7 @@ pub struct Window {
     pub project: Option<String>,
     /// Open the file as a custom shader of this program, with a stand-in for what it draws: ghostty, a terminal
     #[arg(long = "as", value_name = "PROGRAM", requires = "project")]
-    pub guest: Option<Guest>,
+    pub guest: Option<HostProgram>,
     /// Size of the window in pixels [default: fits the screen]
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: Option<(u32, u32)>,
@@ -137,7 +137,7 @@ pub struct CheckArgs {
     #[arg(conflicts_with = "json", value_parser = dumped_pass)]
     pub dump_ir: Option<String>,
     #[command(flatten)]
-    pub without_pass: WithoutPass,
+    pub without_pass: DisabledPasses,
 }
 
 /// The name of a pass, or nothing.

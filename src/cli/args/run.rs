@@ -1,6 +1,6 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
-use super::elsewhere::Guest;
+use super::elsewhere::HostProgram;
 use super::values::{fps, recording, seconds, size, webcam};
 use crate::cli::tiles::Tiles;
 use crate::{
@@ -21,7 +21,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 pub struct RunArgs {
     /// Draw files as custom shaders of this program, with a stand-in for what it draws: ghostty, a terminal
     #[arg(long = "as", value_name = "PROGRAM")]
-    pub guest: Option<Guest>,
+    pub guest: Option<HostProgram>,
     /// Resolution of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
     pub size: (u32, u32),
@@ -62,7 +62,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub compile_timeout: Option<Duration>,
     #[command(flatten)]
-    pub without_pass: WithoutPass,
+    pub without_pass: DisabledPasses,
     /// Not an option: `eddy render` sets it.
     #[arg(skip)]
     pub tiles: Tiles,
@@ -111,13 +111,13 @@ impl RunArgs {
 
 /// Passes of the shader compiler's optimiser that are left out: for who works on it.
 #[derive(Clone, Debug, Default, Args)]
-pub struct WithoutPass {
+pub struct DisabledPasses {
     /// Skip an optimisation; may be repeated
     #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
     passes: Vec<PassSet>,
 }
 
-impl WithoutPass {
+impl DisabledPasses {
     pub fn set(&self) -> PassSet {
         self.passes.iter().fold(PassSet::default(), |all, &set| all.with(set))
     }

@@ -85,7 +85,8 @@ impl CallProgress {
         // Where nobody sees a bar, a call that takes hours says so once.
         let estimate = (self.style == Style::Auto && bar.is_hidden()).then(RefCell::default);
         let title = title.to_owned();
-        let progress = Progress { call: self, bar, title, pictures, steps, began: now, told: Cell::new(now), estimate };
+        let progress =
+            Progress { call: self, bar, title, pictures, steps, began: now, reported_at: Cell::new(now), estimate };
         if self.style == Style::Openjd {
             progress.tell(0);
         }
@@ -117,7 +118,7 @@ pub struct Progress<'a> {
     steps: u32,
     began: Instant,
     /// The time of the last line.
-    told: Cell<Instant>,
+    reported_at: Cell<Instant>,
     estimate: Option<RefCell<Estimate>>,
 }
 
@@ -136,8 +137,8 @@ impl Progress<'_> {
             Style::Openjd => OPENJD_EVERY,
             Style::Auto | Style::Bar | Style::None => return,
         };
-        if self.told.get().elapsed() >= every {
-            self.told.set(Instant::now());
+        if self.reported_at.get().elapsed() >= every {
+            self.reported_at.set(Instant::now());
             self.tell(self.bar.position());
         }
     }

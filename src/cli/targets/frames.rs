@@ -5,7 +5,7 @@ use crate::playback::frames::{FrameList, Frames, film_step};
 
 /// The frames that are asked for.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct RequestedFrames {
     /// Frames to write, rising, each once.
     pub at: Vec<u32>,
     /// Frames that are drawn in any case: from 0 to before this one.
@@ -17,11 +17,11 @@ pub struct Asked {
 }
 
 /// Err: what was asked for cannot be meant.
-pub fn of(args: &RenderArgs, is_film: bool) -> Result<Asked, String> {
+pub fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, String> {
     let listed = FrameList::joined(&args.at).map_err(|why| format!("--at: {why}"))?;
     let at = listed.numbers();
     let count = args.run.recorded();
-    let asked = |at: Vec<u32>, drawn, is_range| Asked { at, drawn, is_range, step: 1 };
+    let asked = |at: Vec<u32>, drawn, is_range| RequestedFrames { at, drawn, is_range, step: 1 };
     let mut asked = match &args.frames {
         Some(Frames::List(_)) if !at.is_empty() => {
             return Err("--frames and --at both say which frames are written: leave one of them out".into());

@@ -40,7 +40,7 @@ pub struct MidiDecoder {
     status: u8,
     first: Option<u8>,
     /// The newest coarse part of each channel's controllers 0 to 31.
-    coarse: [[Option<Coarse>; 32]; 16],
+    coarse: [[Option<CoarseValue>; 32]; 16],
     /// The parameter that is selected on each channel.
     parameters: [Parameter; 16],
 }
@@ -96,7 +96,7 @@ impl Parameter {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Coarse {
+struct CoarseValue {
     value: u8,
     at: Instant,
     /// A fine part has followed one before.
@@ -150,7 +150,7 @@ impl MidiDecoder {
             0..32 => {
                 let coarse = &mut of_channel[usize::from(number)];
                 let is_pair = coarse.is_some_and(|before| before.is_pair);
-                *coarse = Some(Coarse { value, at: now, is_pair });
+                *coarse = Some(CoarseValue { value, at: now, is_pair });
                 None
             }
             32..64 => {

@@ -16,9 +16,9 @@ pub(super) struct Pattern {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Token {
-    Is(u8),
+    Byte(u8),
     Any,
-    Rest,
+    AnySequence,
     /// One of the ranges, or none of them.
     Set {
         ranges: Vec<(u8, u8)>,
@@ -90,7 +90,7 @@ fn tokens(mut rest: &[u8]) -> Option<Vec<Token>> {
         rest = behind;
         tokens.push(match first {
             b'?' => Token::Any,
-            b'*' => Token::Rest,
+            b'*' => Token::AnySequence,
             b'[' => {
                 let (list, behind) = until(rest, b']')?;
                 rest = behind;
@@ -102,7 +102,7 @@ fn tokens(mut rest: &[u8]) -> Option<Vec<Token>> {
                 Token::OneOf(list.split(|byte| *byte == b',').map(<[u8]>::to_vec).collect())
             }
             b']' | b'}' | b',' => return None,
-            byte => Token::Is(*byte),
+            byte => Token::Byte(*byte),
         });
     }
     Some(tokens)
@@ -146,7 +146,7 @@ fn part_matches(tokens: &[Token], part: &[u8]) -> bool {
         let mut next = vec![false; part.len() + 1];
         for from in (0..=part.len()).filter(|from| reached[*from]) {
             match token {
-                Token::Rest => {
+                Token::AnySequence => {
                     next[from..].fill(true);
                     break;
                 }
@@ -169,12 +169,12 @@ fn part_matches(tokens: &[Token], part: &[u8]) -> bool {
 
 fn is_one(token: &Token, byte: u8) -> bool {
     match token {
-        Token::Is(known) => *known == byte,
+        Token::Byte(known) => *known == byte,
         Token::Set { ranges, is_negated } => {
             ranges.iter().any(|(from, to)| (*from..=*to).contains(&byte)) != *is_negated
         }
         Token::Any => true,
-        Token::Rest | Token::OneOf(_) => false,
+        Token::AnySequence | Token::OneOf(_) => false,
     }
 }
 

@@ -136,10 +136,10 @@ impl Worker {
     }
 
     fn tell(&self, state: OscState) {
-        let mut told = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        if *told != state {
-            *told = state;
-            drop(told);
+        let mut known = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        if *known != state {
+            *known = state;
+            drop(known);
             (self.wake)();
         }
     }

@@ -18,12 +18,12 @@ const SUSPECTS: usize = 8;
 const MOST: f64 = 0.5;
 
 /// Makes an operation exact: its result of single precision is that of double precision, rounded.
-struct Exact {
+struct ExactOperation {
     function: FuncId,
     value: Value,
 }
 
-impl Observer<Shadowed> for Exact {
+impl Observer<Shadowed> for ExactOperation {
     fn correct(&mut self, function: FuncId, value: Value, cells: &mut [Cell<Shadowed>]) {
         if (function, value) != (self.function, self.value) {
             return;
@@ -48,11 +48,11 @@ pub fn find(
         return Ok(None);
     }
     let mut best: Option<Blame> = None;
-    for birth in watch.births().into_iter().take(SUSPECTS) {
-        let drawn = walk(&mut Exact { function: birth.function, value: birth.value })?;
+    for cause in watch.root_causes().into_iter().take(SUSPECTS) {
+        let drawn = walk(&mut ExactOperation { function: cause.function, value: cause.value })?;
         let left = error_of(&drawn);
         if left <= MOST * error && best.as_ref().is_none_or(|best| left < best.left) {
-            best = Some(Blame { birth: birth.clone(), error, left });
+            best = Some(Blame { cause: cause.clone(), error, left });
         }
     }
     Ok(best)

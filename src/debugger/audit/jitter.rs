@@ -3,7 +3,7 @@
 
 use super::run::walk;
 use crate::{
-    fragment::{AtPixel, PassFragments},
+    fragment::{PassFragments, PixelContent},
     trace::TraceError,
 };
 use eddy_engine::{PassInputs, Sources};
@@ -61,7 +61,7 @@ pub fn jittered(
     (limit, seed): (u64, u64),
 ) -> Result<[f32; 4], TraceError> {
     let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
-    let AtPixel::Fragment(at) = pass.at(pixel)? else { return Ok([0.0; 4]) };
+    let PixelContent::Fragment(at) = pass.at(pixel)? else { return Ok([0.0; 4]) };
     let mut jitter = Jitter { program: &at.walkable.program, state: seed };
     Ok(walk(&at, &mut jitter)?.map(|x| x.single))
 }

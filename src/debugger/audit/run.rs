@@ -7,7 +7,7 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    fragment::{AtPixel, Fragment, Origin, PassFragments, own_texels},
+    fragment::{Fragment, Origin, PassFragments, PixelContent, own_texels},
     trace::TraceError,
 };
 use eddy_diag::SourceId;
@@ -124,7 +124,7 @@ fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.extend(walked(pass, pixel)?);
+            done.extend(walk_pixel(pass, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -153,14 +153,14 @@ fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)
     Ok(audit)
 }
 
-fn walked(pass: &PassFragments<'_>, pixel: (u32, u32)) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
+fn walk_pixel(pass: &PassFragments<'_>, pixel: (u32, u32)) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
     let at = match pass.at(pixel)? {
-        AtPixel::Fragment(at) => at,
-        AtPixel::Undrawn(Origin::Clear) => {
+        PixelContent::Fragment(at) => at,
+        PixelContent::Undrawn(Origin::Clear) => {
             let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
             return Ok(Some((audited, Vec::new())));
         }
-        AtPixel::Undrawn(_) => return Ok(None),
+        PixelContent::Undrawn(_) => return Ok(None),
     };
     let mut watch = Watch::new(at.walkable, &at.world);
     let drawn = walk(&at, &mut watch)?;

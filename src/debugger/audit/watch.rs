@@ -26,7 +26,7 @@ const LARGE_ANGLE: f32 = 1e4;
 
 /// An operation whose result is much less exact than its operands.
 #[derive(Clone, Debug)]
-pub struct Birth {
+pub struct RootCause {
     pub function: FuncId,
     pub value: Value,
     /// Relative error of the result.
@@ -38,7 +38,7 @@ pub struct Birth {
 
 /// An operation, a pixel's error, and what is left of it where the operation is exact.
 pub struct Blame {
-    pub birth: Birth,
+    pub cause: RootCause,
     pub error: f64,
     pub left: f64,
 }
@@ -46,7 +46,7 @@ pub struct Blame {
 pub struct Watch<'w> {
     walkable: &'w Walkable,
     inputs: &'w DrawInputs<'w>,
-    births: HashMap<(FuncId, Value), Birth>,
+    root_causes: HashMap<(FuncId, Value), RootCause>,
     found: Vec<(Kind, Option<Span>, String)>,
     /// Cells of memory that nothing was written to, and those that an undefined value was written to: with the place of
     /// the expression that it is the value of.
@@ -68,7 +68,7 @@ impl<'w> Watch<'w> {
         Self {
             walkable,
             inputs,
-            births: HashMap::new(),
+            root_causes: HashMap::new(),
             found: Vec::new(),
             unset: HashMap::new(),
             written: HashSet::new(),
@@ -81,17 +81,17 @@ impl<'w> Watch<'w> {
     }
 
     /// The operations in which errors are born, the largest first.
-    pub fn births(&self) -> Vec<&Birth> {
-        let mut births: Vec<&Birth> = self.births.values().collect();
-        births.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.span.cmp_place(&b.span)));
-        births
+    pub fn root_causes(&self) -> Vec<&RootCause> {
+        let mut root_causes: Vec<&RootCause> = self.root_causes.values().collect();
+        root_causes.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.span.cmp_place(&b.span)));
+        root_causes
     }
 
     pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> Vec<Finding> {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
-        if let Some(Blame { birth, error, left }) = born {
-            let (kind, span, numbers) = (Kind::Rounding(birth.what), birth.span, birth.numbers);
+        if let Some(Blame { cause, error, left }) = born {
+            let (kind, span, numbers) = (Kind::Rounding(cause.what), cause.span, cause.numbers);
             all.push(Finding { kind, span, pixels: 1, pixel, numbers, error: Some((error, left)) });
         }
         all
@@ -360,10 +360,10 @@ impl Observer<Shadowed> for Watch<'_> {
             return;
         }
         let key = (view.function_id(), value);
-        if self.births.get(&key).is_none_or(|known| known.error < error) {
+        if self.root_causes.get(&key).is_none_or(|known| known.error < error) {
             let (function, numbers) = (view.function_id(), shown(view, &operands));
             let span = self.span(loc);
-            self.births.insert(key, Birth { function, value, error, what: own, numbers, span });
+            self.root_causes.insert(key, RootCause { function, value, error, what: own, numbers, span });
         }
     }
 }

@@ -17,5 +17,5 @@ mod weights;
 mod writer;
 
 pub use pass::{PassFragments, WalkError};
-pub use pixel::{AtPixel, Fragment, MeshFragment, Origin};
+pub use pixel::{Fragment, MeshFragment, Origin, PixelContent};
 pub use writer::own_texels;

@@ -1,7 +1,7 @@
 //! A pass in one frame, ready to be walked at any of its pixels.
 
 use super::{
-    pixel::{AtPixel, Fragment, Origin},
+    pixel::{Fragment, Origin, PixelContent},
     raster::Raster,
     writer::Writer,
 };
@@ -51,30 +51,30 @@ impl<'p> PassFragments<'p> {
     }
 
     /// Returns what runs for a pixel, counted from the bottom left.
-    pub fn at(&self, pixel: (u32, u32)) -> Result<AtPixel<'_>, Stop> {
+    pub fn at(&self, pixel: (u32, u32)) -> Result<PixelContent<'_>, Stop> {
         let (walkable, inputs, origin) = match Writer::of(&self.settings, self.inputs.size, pixel) {
             Writer::Boundary => match &self.boundary {
                 Some(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Boundary),
-                None => return Ok(AtPixel::Undrawn(Origin::Boundary)),
+                None => return Ok(PixelContent::Undrawn(Origin::Boundary)),
             },
             // Where meshes are drawn all is cleared first, beyond the region too.
             Writer::Nothing(region)
                 if self.settings.meshes().is_some() && region.within(self.inputs.size).is_some() =>
             {
-                return Ok(AtPixel::Undrawn(Origin::Clear));
+                return Ok(PixelContent::Undrawn(Origin::Clear));
             }
-            Writer::Nothing(region) => return Ok(AtPixel::Undrawn(Origin::Outside(region))),
+            Writer::Nothing(region) => return Ok(PixelContent::Undrawn(Origin::Outside(region))),
             Writer::Programs => match &self.body {
                 Body::Screen(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Screen),
                 Body::Meshes(raster) => {
-                    let Some(fragment) = raster.shown(pixel)? else { return Ok(AtPixel::Undrawn(Origin::Clear)) };
+                    let Some(fragment) = raster.shown(pixel)? else { return Ok(PixelContent::Undrawn(Origin::Clear)) };
                     (raster.walkable(fragment.draw), raster.entry(fragment, pixel)?, Origin::Mesh(fragment))
                 }
             },
         };
         let world = self.inputs.of_draw(origin.draw());
         let lane = Machine::<f32>::lane_of(pixel);
-        Ok(AtPixel::Fragment(Fragment { walkable, world, inputs, origin, lane, limit: self.limit }))
+        Ok(PixelContent::Fragment(Fragment { walkable, world, inputs, origin, lane, limit: self.limit }))
     }
 
     /// Every program of the pass.

@@ -10,7 +10,7 @@ use eddy_project::Region;
 
 /// Says what there is to walk at a pixel.
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and nearly all are walked")]
-pub enum AtPixel<'p> {
+pub enum PixelContent<'p> {
     Fragment(Fragment<'p>),
     /// No program leaves its value there, or none that can be walked: the texels of a boundary may be a picture's.
     Undrawn(Origin),

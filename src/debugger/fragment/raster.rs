@@ -11,7 +11,7 @@ use super::{
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{
     ir::{Module, Output, Stmt},
-    walk::{Cell, EntryInputs, LANES, Machine, Nobody, Shadowed, SlotCells, Stop, quad},
+    walk::{Cell, EntryInputs, LANES, Machine, NoObserver, Shadowed, SlotCells, Stop, quad},
     walkable::{Detail, Walkable},
 };
 use eddy_project::{Cull, DepthTest, Geometry, Stage};
@@ -126,7 +126,7 @@ impl<'p> Raster<'p> {
                 if stage.facts.may_discard || stage.facts.sets_depth {
                     let (inputs, world) = (self.entry(fragment, pixel)?, self.inputs.of_draw(Some(number)));
                     let mut machine = Machine::<f32>::new(&stage.walkable.program, &world, inputs, self.limit);
-                    let drawn = machine.run(lane, &mut Nobody)?;
+                    let drawn = machine.run(lane, &mut NoObserver)?;
                     if drawn.discarded[lane] {
                         continue;
                     }

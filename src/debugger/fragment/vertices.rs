@@ -4,7 +4,7 @@ use eddy_engine::{DrawInputs, MeshInputs};
 use eddy_glsl::{
     Attribute,
     ir::{Input, Op, Output},
-    walk::{Cell, Drawn, EntryInputs, LANES, Machine, Nobody, Real, Shadowed, SlotCells, Stop},
+    walk::{Cell, Drawn, EntryInputs, LANES, Machine, NoObserver, Real, Shadowed, SlotCells, Stop},
     walkable::Walkable,
 };
 use eddy_media::mesh::Vertex;
@@ -56,7 +56,7 @@ impl<'p> VertexStage<'p> {
         for begin in range.clone().step_by(LANES) {
             let count = LANES.min(range.end - begin);
             machine.set_inputs(self.inputs(std::array::from_fn(|lane| (begin + lane.min(count - 1)) as u32)));
-            let drawn = machine.run(0, &mut Nobody)?;
+            let drawn = machine.run(0, &mut NoObserver)?;
             positions.extend((0..count).map(|lane| position(&drawn, lane).map(Real::to_f32)));
         }
         Ok(positions)
@@ -67,7 +67,7 @@ impl<'p> VertexStage<'p> {
         let [a, b, c] = self::triangle(self.mesh, triangle);
         let mut machine = self.machine::<Shadowed>();
         machine.set_inputs(self.inputs([a, b, c, c]));
-        let drawn = machine.run(0, &mut Nobody)?;
+        let drawn = machine.run(0, &mut NoObserver)?;
         Ok(std::array::from_fn(|lane| Corner {
             position: position(&drawn, lane),
             varyings: drawn

@@ -3,5 +3,5 @@
 mod search;
 mod texels;
 
-pub use search::{BornAt, FirstNonfinite, SearchEnd, SearchJob, search};
+pub use search::{FirstNonfinite, NonfiniteOperation, SearchEnd, SearchJob, search};
 pub use texels::{NonfiniteTexels, born, drawn, stored};

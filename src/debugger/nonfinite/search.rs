@@ -23,12 +23,12 @@ pub struct FirstNonfinite {
     /// They are older than the frames that are kept, of which this is the oldest.
     pub is_older: bool,
     /// The operation; `None` where nothing but the pass's format or a texel that it reads can have made it.
-    pub born: Option<BornAt>,
+    pub born: Option<NonfiniteOperation>,
 }
 
 /// An operation that makes what is no finite number.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BornAt {
+pub struct NonfiniteOperation {
     pub message: &'static str,
     /// `None` for what Eddy adds to the author's code.
     pub place: Option<TextLocation>,
@@ -88,7 +88,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
         if let Some(found) = look(&mut engine, &project, &passes, inputs.frame) {
             let read = engine.inspect(&found.pass).map_err(|e| e.to_string())?;
             let born = born(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
-            let born = born.map(|finding| BornAt {
+            let born = born.map(|finding| NonfiniteOperation {
                 message: finding.kind.message(),
                 place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
                 text: finding.span.map_or_else(String::new, |span| written(&project, span)),

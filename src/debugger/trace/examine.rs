@@ -7,7 +7,7 @@ use super::{
     ulps,
     watch_expression::{Watched, Watches},
 };
-use crate::fragment::{AtPixel, Fragment, MeshFragment, Origin, PassFragments};
+use crate::fragment::{Fragment, MeshFragment, Origin, PassFragments, PixelContent};
 use eddy_diag::{SourceId, Span};
 use eddy_engine::{PassInputs, Pixels, Sources};
 use eddy_glsl::{
@@ -92,12 +92,12 @@ impl Traced {
         let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
         drop(sources);
         let at = match walked.at(pixel)? {
-            AtPixel::Undrawn(Origin::Clear) => return Err(TraceError::Clear(pixel)),
-            AtPixel::Undrawn(Origin::Outside(region)) => return Err(TraceError::Kept { pixel, region }),
-            AtPixel::Undrawn(_) | AtPixel::Fragment(Fragment { origin: Origin::Boundary, .. }) => {
+            PixelContent::Undrawn(Origin::Clear) => return Err(TraceError::Clear(pixel)),
+            PixelContent::Undrawn(Origin::Outside(region)) => return Err(TraceError::Kept { pixel, region }),
+            PixelContent::Undrawn(_) | PixelContent::Fragment(Fragment { origin: Origin::Boundary, .. }) => {
                 return Err(TraceError::Boundary { pixel, written: boundary(&project, index) });
             }
-            AtPixel::Fragment(at) => at,
+            PixelContent::Fragment(at) => at,
         };
         let mut recorder = HistoryRecorder::new(at.walkable);
         // One walk gives both: the numbers of single precision know nothing of those beside them.

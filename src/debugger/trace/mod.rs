@@ -13,12 +13,12 @@ mod watch_expression;
 
 pub use crate::fragment::{MeshFragment, Origin};
 pub use examine::{Breakpoint, Examiner, Printed, Traced};
-pub use history::{Call, History, Moment, MomentKind, Shown, Turn, Value};
+pub use history::{Call, History, Iteration, Moment, MomentKind, NamedValue, Value};
 pub use number::Number;
 pub use recorder::{Event, Step};
 pub use watch_expression::Watched;
 
-use crate::fragment::{AtPixel, PassFragments, WalkError};
+use crate::fragment::{PassFragments, PixelContent, WalkError};
 use eddy_diag::Diagnostic;
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{
@@ -133,8 +133,8 @@ impl<'p> Tracer<'p> {
             return Err(TraceError::Outside { pixel, size: self.size });
         }
         let at = match self.pass.at(pixel)? {
-            AtPixel::Fragment(at) => at,
-            AtPixel::Undrawn(origin) => {
+            PixelContent::Fragment(at) => at,
+            PixelContent::Undrawn(origin) => {
                 let is_clear = origin == Origin::Clear;
                 let (value, double) = (is_clear.then_some([0.0; 4]), is_clear.then_some([0.0; 4]));
                 return Ok(Trace { steps: Vec::new(), left_out: 0, value, double, statements: 0, origin });

@@ -142,7 +142,7 @@ impl<R: Real> Observer<R> for Recorder<'_> {
         let Some(turns) = self.turns.last_mut() else { return };
         *turns += 1;
         let turn = *turns;
-        self.push(Event::Turn(turn), None);
+        self.push(Event::Iteration(turn), None);
     }
 
     fn value(&mut self, view: &View<'_, '_, R>, value: Value) {
@@ -171,7 +171,7 @@ pub enum Event {
     Leave,
     /// A loop begins its next turn, counted from 1 through all loops of the call. The last is the one whose test ends
     /// the loop.
-    Turn(u64),
+    Iteration(u64),
     /// A variable, or a part of one, takes a value: its name as GLSL spells it, and its scalars in memory order.
     Set { name: String, value: Vec<Number> },
 }

@@ -1,5 +1,5 @@
 use super::{
-    Breakpoint, Examiner, MomentKind, Number, Traced, Turn,
+    Breakpoint, Examiner, Iteration, MomentKind, Number, Traced,
     travel::{self, Direction, Stride},
     ulps,
 };
@@ -101,7 +101,7 @@ fn variables_are_what_they_were() {
     let traced = traced(CODE);
     let history = &traced.history;
     // At the begin of the third turn.
-    let third = history.moments.iter().position(|m| m.kind == MomentKind::Turn(3)).unwrap();
+    let third = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(3)).unwrap();
     let names: Vec<String> = history.visible(third).into_iter().map(|shown| shown.name).collect();
     assert_eq!(names, ["o", "c", "p", "rd", "steps", "hit", "i", "glow"]);
     assert_eq!([number(&traced, third, "i"), number(&traced, third, "steps")], [2.0, 2.0]);
@@ -133,9 +133,9 @@ fn variables_are_what_they_were() {
 fn the_turns_of_a_loop_are_its_rows() {
     let traced = traced(CODE);
     let history = &traced.history;
-    let inside = history.moments.iter().position(|m| m.kind == MomentKind::Turn(2)).unwrap();
+    let inside = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(2)).unwrap();
     let turns = history.turns(inside);
-    let of = |turn: &Turn, name: &str| {
+    let of = |turn: &Iteration, name: &str| {
         let values = history.turn_values(turn);
         values.iter().find(|shown| shown.name == name).unwrap().value.numbers[0].as_f64()
     };
@@ -151,7 +151,7 @@ fn the_turns_of_a_loop_are_its_rows() {
 #[test]
 fn expressions_mean_what_they_mean_in_the_code() {
     let mut examiner = Examiner::new(Arc::new(traced(CODE)));
-    let third = examiner.traced.history.moments.iter().position(|m| m.kind == MomentKind::Turn(3)).unwrap();
+    let third = examiner.traced.history.moments.iter().position(|m| m.kind == MomentKind::Iteration(3)).unwrap();
     let mut watch = |expression: &str| {
         let value = examiner.watch(third, expression);
         value.map(|value| (value.type_text, value.numbers.iter().map(|n| n.as_f64()).collect::<Vec<_>>()))
@@ -206,9 +206,9 @@ fn comments_print_what_is_true_where_they_stand() {
     );
     let mut examiner = Examiner::new(Arc::new(traced(&code)));
     let printed = examiner.printed();
-    let told: Vec<(usize, &str, usize)> =
+    let reported: Vec<(usize, &str, usize)> =
         printed.iter().map(|p| (p.line + 1, p.expression.as_str(), p.values.len())).collect();
-    assert_eq!(told, [(13, "d", 14), (18, "p", 0), (20, "glow", 1)]);
+    assert_eq!(reported, [(13, "d", 14), (18, "p", 0), (20, "glow", 1)]);
     let numbers = |index: usize| -> Vec<f64> {
         printed[index].values.iter().map(|(_, value)| value.as_ref().unwrap().numbers[0].as_f64()).collect()
     };

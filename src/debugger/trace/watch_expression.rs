@@ -81,19 +81,19 @@ impl Watches {
                 machine.set_global(*global, &words);
             }
         }
-        let mut result = Taken { compiled, value: None };
+        let mut result = ResultCapture { compiled, value: None };
         machine.run(Machine::<f32>::lane_of(pixel), &mut result).map_err(|stop| stop.to_string())?;
         result.value.ok_or_else(|| "no value: the pixel was discarded".into())
     }
 }
 
 /// Takes the result as the function that runs leaves it.
-struct Taken<'c> {
+struct ResultCapture<'c> {
     compiled: &'c Compiled,
     value: Option<Value>,
 }
 
-impl Observer<f32> for Taken<'_> {
+impl Observer<f32> for ResultCapture<'_> {
     fn leave(&mut self, view: &View<'_, '_, f32>) {
         let Compiled { walkable, kind, results, .. } = self.compiled;
         // An author's `main` has another name here.

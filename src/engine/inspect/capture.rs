@@ -5,7 +5,7 @@ use crate::{
     EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
 };
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
-use eddy_graph::{TexelSource, When};
+use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
 use eddy_project::{Filter, PassId, Wrap};
 use eddy_texture::{Dimension, TextureShape};
@@ -71,7 +71,7 @@ impl<'a> Capture<'a> {
         let read = running.program.plan.draws[index].reads[channel].as_ref();
         let texture = match read.map(|read| &read.source) {
             _ if !bound.texture => None,
-            Some(TexelSource::Target { index: target, when: When::LastFrame }) if self.is_past => {
+            Some(TexelSource::Target { index: target, when: ReadTiming::LastFrame }) if self.is_past => {
                 Some(self.before(running, index, *target)?)
             }
             Some(TexelSource::Target { index, .. }) => Some(running.targets[*index].newest()),

@@ -345,10 +345,10 @@ fn encode(
 
 /// Pictures that are written one by one, each to a place of its own.
 pub struct Stills {
-    queue: Queue<(Place, Pixels)>,
+    queue: Queue<(FrameDestination, Pixels)>,
 }
 
-enum Place {
+enum FrameDestination {
     /// With what is saved in the file besides the picture.
     File(PathBuf, Option<Box<Scene>>),
     Pipe,
@@ -364,10 +364,10 @@ impl Stills {
         pipe: Option<Box<dyn Write + Send>>,
     ) -> Result<Stills, FilmError> {
         let mut pipe = pipe.unwrap_or_else(|| Box::new(std::io::sink()));
-        let work = move |jobs: Receiver<Job<(Place, Pixels)>>| {
+        let work = move |jobs: Receiver<Job<(FrameDestination, Pixels)>>| {
             loop {
                 match jobs.recv() {
-                    Ok(Job::Next((Place::File(path, scene), pixels))) => {
+                    Ok(Job::Next((FrameDestination::File(path, scene), pixels))) => {
                         let written = write_with(&path, |file| {
                             let mut out = BufWriter::new(file);
                             still.write_scene(&mut out, &pixels, texels, scene.as_deref())?;
@@ -375,7 +375,7 @@ impl Stills {
                         });
                         written.map_err(FilmError::io(&path))?;
                     }
-                    Ok(Job::Next((Place::Pipe, pixels))) => {
+                    Ok(Job::Next((FrameDestination::Pipe, pixels))) => {
                         let mut bytes = Cursor::new(Vec::new());
                         let written = still.write(&mut bytes, &pixels, texels);
                         written.and_then(|()| pipe.write_all(&bytes.into_inner())).map_err(FilmError::pipe)?;
@@ -390,12 +390,12 @@ impl Stills {
 
     /// Writes a picture whole or not at all: what was there stays until then. An error may be that of an earlier picture.
     pub fn push(&mut self, path: PathBuf, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
-        self.queue.push(Job::Next((Place::File(path, scene.map(Box::new)), pixels)))
+        self.queue.push(Job::Next((FrameDestination::File(path, scene.map(Box::new)), pixels)))
     }
 
     /// Does the same, or gives the picture back where too many are waiting.
     pub fn try_push(&mut self, path: PathBuf, pixels: Pixels) -> Result<Option<Pixels>, FilmError> {
-        match self.queue.try_push(Job::Next((Place::File(path, None), pixels)))? {
+        match self.queue.try_push(Job::Next((FrameDestination::File(path, None), pixels)))? {
             Some(Job::Next((_, pixels))) => Ok(Some(pixels)),
             _ => Ok(None),
         }
@@ -403,7 +403,7 @@ impl Stills {
 
     /// Writes a picture to the pipe.
     pub fn pipe(&mut self, pixels: Pixels) -> Result<(), FilmError> {
-        self.queue.push(Job::Next((Place::Pipe, pixels)))
+        self.queue.push(Job::Next((FrameDestination::Pipe, pixels)))
     }
 
     /// Waits until all pictures are written.

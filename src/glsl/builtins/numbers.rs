@@ -9,14 +9,14 @@ use super::{
         extreme, test,
     },
     overloads::{patterns::*, sig},
-    row::{Gap, Operation::*, ROW, Row, Test::Component, gap},
+    row::{Operation::*, ROW, Row, Test::Component, UndefinedCase, gap},
 };
 use crate::{
     ir::{Binary, Math},
     types::Scalar,
 };
 
-const LOGARITHM: &[Gap] =
+const LOGARITHM: &[UndefinedCase] =
     &[gap("the logarithm of 0 and below is undefined (8.2)", 0..1, Component(|[x, ..]| x <= 0.0))];
 
 #[rustfmt::skip]

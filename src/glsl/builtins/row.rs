@@ -20,7 +20,7 @@ pub struct Row {
     pub operation: Operation,
     pub constant: Constant,
     /// The arguments that it has no result for.
-    pub gaps: &'static [Gap],
+    pub gaps: &'static [UndefinedCase],
     /// The argument that is an `out` place.
     pub writes: Option<usize>,
     /// Section 6.1 forbids to declare a built-in again, but ANGLE, and so the site, takes overloads of these.
@@ -107,7 +107,7 @@ pub enum Lod {
 
 /// Arguments that a function has no result for.
 #[derive(Debug)]
-pub struct Gap {
+pub struct UndefinedCase {
     /// The reason for a person, with the section of the specification.
     pub what: &'static str,
     /// The arguments that are asked for it.
@@ -124,8 +124,8 @@ pub(super) enum Test {
     Vector(fn(&[f32]) -> bool),
 }
 
-pub(super) const fn gap(what: &'static str, decides: Range<usize>, test: Test) -> Gap {
-    Gap { what, decides, test }
+pub(super) const fn gap(what: &'static str, decides: Range<usize>, test: Test) -> UndefinedCase {
+    UndefinedCase { what, decides, test }
 }
 
 impl Row {
@@ -162,7 +162,7 @@ impl Row {
     }
 
     /// Returns the gap that some arguments are in, and the component that is; none for a whole vector or matrix.
-    pub fn gap(&self, args: &[Arg<'_>]) -> Option<(&'static Gap, Option<usize>)> {
+    pub fn gap(&self, args: &[Arg<'_>]) -> Option<(&'static UndefinedCase, Option<usize>)> {
         let components = args.iter().map(|arg| arg.words.len()).max().unwrap_or(0);
         (0..components).find_map(|index| {
             let gap = self.gaps.iter().find(|gap| gap.holds(args, index))?;
@@ -171,7 +171,7 @@ impl Row {
     }
 }
 
-impl Gap {
+impl UndefinedCase {
     /// Returns whether one component of the arguments is in the gap.
     pub(super) fn holds(&self, args: &[Arg<'_>], component: usize) -> bool {
         match self.test {

@@ -115,7 +115,7 @@ impl Checker<'_> {
         }
         let Some(words) = self.words(base) else { return self.error_expr(loc) };
         if count <= 16 {
-            let part: super::words::Words = words[from..from + count].iter().copied().collect();
+            let part: super::words::ScalarWords = words[from..from + count].iter().copied().collect();
             return self.constant(ty, part.as_slice(), loc);
         }
         let part = words[from..from + count].to_vec();
@@ -132,7 +132,7 @@ impl Checker<'_> {
         let swizzle = Swizzle::new(components.as_slice());
         let ty = TypeId::vector(scalar, swizzle.len() as u8);
         if let Some(words) = self.words(base) {
-            let picked: super::words::Words = swizzle.iter().map(|i| words[i]).collect();
+            let picked: super::words::ScalarWords = swizzle.iter().map(|i| words[i]).collect();
             return self.constant(ty, picked.as_slice(), loc);
         }
         let mut flags = self.part_flags(base);

@@ -1,6 +1,6 @@
 //! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
 
-use super::{checker::Checker, env, fault, scope::Binding, words::Words};
+use super::{checker::Checker, env, fault, scope::Binding, words::ScalarWords};
 use crate::{
     ast::{self, BasicType, List, Loc, Symbol},
     builtins::{Arg, Operation, Overload},
@@ -343,7 +343,7 @@ impl Checker<'_> {
             *arg = Arg { words: self.words(id)?, scalar: types.scalar(ty)?, columns };
         }
         let args = &args[..given.len()];
-        let mut words = Words::zeros(types.components(result)? as usize);
+        let mut words = ScalarWords::zeros(types.components(result)? as usize);
         if !builtin.fold(args, words.as_mut_slice()) {
             return None;
         }

@@ -1,6 +1,6 @@
 //! Constructors (section 5.4): scalars, vectors, matrices, structs and arrays.
 
-use super::{call, checker::Checker, fold, types::Size, words::Words};
+use super::{call, checker::Checker, fold, types::Size, words::ScalarWords};
 use crate::{
     ast::{self, List, Loc, TypeSpecId, TypeSpecKind},
     hir::{ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId},
@@ -137,7 +137,7 @@ impl Checker<'_> {
             return self.error_expr_of(ty, loc);
         }
         if self.expr_stack[base..].iter().all(|&id| self.is_constant(id)) {
-            let (mut words, mut gap) = (Words::default(), None);
+            let (mut words, mut gap) = (ScalarWords::default(), None);
             for i in base..base + count {
                 let id = self.expr_stack[i];
                 let from = self.module.types.scalar(self.ty(id)).expect("has components");
@@ -211,7 +211,7 @@ impl Checker<'_> {
         let ty = TypeId::vector(scalar, size);
         if let Some(words) = self.words(id) {
             let gap = words.iter().find_map(|&bits| fold::conversion_gap(bits, from, scalar));
-            let words: Words = words.iter().map(|&bits| fold::convert(bits, from, scalar)).collect();
+            let words: ScalarWords = words.iter().map(|&bits| fold::convert(bits, from, scalar)).collect();
             return self.converted(ty, (&words, gap), loc);
         }
         let flags = self.inherited(&[id]);
@@ -219,7 +219,7 @@ impl Checker<'_> {
     }
 
     /// A constant whose numbers were others' before, some of them beyond its range.
-    fn converted(&mut self, ty: TypeId, (words, gap): (&Words, Option<&'static str>), loc: Loc) -> ExprId {
+    fn converted(&mut self, ty: TypeId, (words, gap): (&ScalarWords, Option<&'static str>), loc: Loc) -> ExprId {
         let id = self.constant(ty, words.as_slice(), loc);
         if let Some(what) = gap {
             self.undefined(loc, what);
@@ -244,7 +244,7 @@ impl Checker<'_> {
         if let Some(words) = self.words(arg) {
             let of = |i: usize| words[if given == 1 { 0 } else { i }];
             let gap = (0..usize::from(size)).find_map(|i| fold::conversion_gap(of(i), from, scalar));
-            let words: Words = (0..usize::from(size)).map(|i| fold::convert(of(i), from, scalar)).collect();
+            let words: ScalarWords = (0..usize::from(size)).map(|i| fold::convert(of(i), from, scalar)).collect();
             return self.converted(ty, (&words, gap), loc);
         }
         let flags = self.inherited(&[arg]);
@@ -283,7 +283,7 @@ impl Checker<'_> {
                 Type::Scalar(_) => {
                     let arg = self.convert_to(arg, Scalar::Float, loc);
                     if let Some(&[bits]) = self.words(arg) {
-                        let words: Words = (0..needed)
+                        let words: ScalarWords = (0..needed)
                             .map(|i| if i / u32::from(rows) == i % u32::from(rows) { bits } else { 0 })
                             .collect();
                         return self.constant(ty, words.as_slice(), loc);
@@ -300,7 +300,7 @@ impl Checker<'_> {
                                 f32::to_bits(if column == row { 1.0 } else { 0.0 })
                             }
                         };
-                        let words: Words = (0..columns)
+                        let words: ScalarWords = (0..columns)
                             .flat_map(|c| (0..rows).map(move |r| (c, r)))
                             .map(|(c, r)| cell(c, r))
                             .collect();
@@ -337,7 +337,7 @@ impl Checker<'_> {
         }
         if self.expr_stack[base..].iter().all(|&id| self.is_constant(id)) {
             let all = self.expr_stack[base..].iter().flat_map(|&id| self.words(id).expect("constant").iter().copied());
-            let words: Words = all.take(needed as usize).collect();
+            let words: ScalarWords = all.take(needed as usize).collect();
             return self.constant(ty, words.as_slice(), loc);
         }
         let args = self.module.list(&self.expr_stack[base..]);

@@ -8,7 +8,7 @@ use crate::{
 
 /// Says what an author should know about a folded operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Trouble {
+pub(super) enum FoldWarning {
     DivisionByZero,
     ShiftRange,
 }
@@ -52,13 +52,13 @@ pub(super) fn binary(
     a: u32,
     b: u32,
     right_signed: bool,
-    trouble: &mut Option<Trouble>,
+    trouble: &mut Option<FoldWarning>,
 ) -> u32 {
     use BinaryOp as B;
     match (op, scalar) {
         (B::Shl | B::Shr, _) => {
             if b >= 32 || (right_signed && (b as i32) < 0) {
-                *trouble = Some(Trouble::ShiftRange);
+                *trouble = Some(FoldWarning::ShiftRange);
                 return 0;
             }
             match op {
@@ -76,11 +76,11 @@ pub(super) fn binary(
         (B::Sub, _) => a.wrapping_sub(b),
         (B::Mul, _) => a.wrapping_mul(b),
         (B::Div, _) if b == 0 => {
-            *trouble = Some(Trouble::DivisionByZero);
+            *trouble = Some(FoldWarning::DivisionByZero);
             if scalar == Scalar::Int { i32::MAX as u32 } else { u32::MAX }
         }
         (B::Rem, _) if b == 0 => {
-            *trouble = Some(Trouble::DivisionByZero);
+            *trouble = Some(FoldWarning::DivisionByZero);
             0
         }
         (B::Div, Scalar::Int) => (a as i32).checked_div(b as i32).unwrap_or(i32::MAX) as u32,
@@ -127,13 +127,13 @@ pub(super) struct Grid {
 }
 
 /// A linear algebraic product, column-major, sums from the first term on.
-pub(super) fn product(shape: Shape, left: Grid, right: Grid, a: &[u32], b: &[u32]) -> super::words::Words {
+pub(super) fn product(shape: Shape, left: Grid, right: Grid, a: &[u32], b: &[u32]) -> super::words::ScalarWords {
     let (left, right) = match shape {
         Shape::VecMat => (Grid { columns: left.rows, rows: 1 }, right),
         _ => (left, right),
     };
     let at = |words: &[u32], grid: Grid, column: usize, row: usize| f32::from_bits(words[column * grid.rows + row]);
-    let mut out = super::words::Words::default();
+    let mut out = super::words::ScalarWords::default();
     for column in 0..right.columns {
         for row in 0..left.rows {
             let terms = (0..left.columns).map(|k| at(a, left, k, row) * at(b, right, column, k));
@@ -159,9 +159,9 @@ mod tests {
         assert_eq!(int(BinaryOp::Shr, -8, 1), -4);
         assert_eq!(trouble, None);
         assert_eq!(binary(BinaryOp::Div, Scalar::Int, 1, 0, true, &mut trouble), i32::MAX as u32);
-        assert_eq!(trouble, Some(Trouble::DivisionByZero));
+        assert_eq!(trouble, Some(FoldWarning::DivisionByZero));
         assert_eq!(binary(BinaryOp::Shl, Scalar::Uint, 1, 32, false, &mut trouble), 0);
-        assert_eq!(trouble, Some(Trouble::ShiftRange));
+        assert_eq!(trouble, Some(FoldWarning::ShiftRange));
     }
 
     #[test]
@@ -178,7 +178,7 @@ mod tests {
     fn products_are_column_major() {
         let words = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         let floats =
-            |w: super::super::words::Words| w.as_slice().iter().map(|&b| f32::from_bits(b)).collect::<Vec<_>>();
+            |w: super::super::words::ScalarWords| w.as_slice().iter().map(|&b| f32::from_bits(b)).collect::<Vec<_>>();
         // mat2x3 has two columns of three rows.
         let m = words(&[1., 2., 3., 4., 5., 6.]);
         let (m23, v2, v3) = (Grid { columns: 2, rows: 3 }, Grid { columns: 1, rows: 2 }, Grid { columns: 1, rows: 3 });

@@ -3,8 +3,8 @@
 use super::{
     checker::Checker,
     fault,
-    fold::{self, Grid, Trouble},
-    words::Words,
+    fold::{self, FoldWarning, Grid},
+    words::ScalarWords,
 };
 use crate::{
     ast::{self, BinaryOp as Op, Loc},
@@ -39,7 +39,7 @@ impl Checker<'_> {
         };
         if let Some(words) = self.words(value) {
             let scalar = scalar.expect("legal operands have components");
-            let folded: Words = words.iter().map(|&bits| fold::unary(node, scalar, bits)).collect();
+            let folded: ScalarWords = words.iter().map(|&bits| fold::unary(node, scalar, bits)).collect();
             return self.constant(ty, folded.as_slice(), loc);
         }
         let flags = self.inherited(&[value]);
@@ -232,11 +232,11 @@ impl Checker<'_> {
             if is_float { fault::born([a, b].into_iter(), folded.as_slice()) } else { (false, false) };
         let id = self.constant(ty, folded.as_slice(), loc);
         match trouble {
-            Some(Trouble::DivisionByZero) => {
+            Some(FoldWarning::DivisionByZero) => {
                 self.undefined(loc, undefined::DIVISION);
                 self.warning(loc, "division by zero: the result is undefined");
             }
-            Some(Trouble::ShiftRange) => {
+            Some(FoldWarning::ShiftRange) => {
                 self.undefined(loc, undefined::SHIFT);
                 self.warning(loc, "a shift by less than 0 or more than 31 bits: the result is undefined");
             }

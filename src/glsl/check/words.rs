@@ -12,12 +12,12 @@ pub(super) const MAX_FOLDED_WORDS: usize = 1 << 24;
 
 /// The scalars of a value of a keyword type, at most those of a `mat4`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Words {
+pub(super) struct ScalarWords {
     bits: [u32; 16],
     len: u8,
 }
 
-impl Words {
+impl ScalarWords {
     /// So many zeros.
     pub fn zeros(len: usize) -> Self {
         Self { len: len as u8, ..Self::default() }
@@ -37,9 +37,9 @@ impl Words {
     }
 }
 
-impl FromIterator<u32> for Words {
+impl FromIterator<u32> for ScalarWords {
     fn from_iter<I: IntoIterator<Item = u32>>(iter: I) -> Self {
-        let mut words = Words::default();
+        let mut words = ScalarWords::default();
         iter.into_iter().for_each(|bits| words.push(bits));
         words
     }

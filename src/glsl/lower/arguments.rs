@@ -34,7 +34,7 @@ pub(super) enum Specialization {
 
 /// The argument of a call for such a parameter.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Passed {
+pub(super) enum SpecializedArgument {
     Known(Specialization),
     /// The specialization that the caller itself has of a parameter, counted among those that can be specialized.
     Param(usize),
@@ -124,7 +124,13 @@ impl Arguments {
     }
 
     /// Returns the arguments of a call in `caller` (none: an initialiser) for those.
-    pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
+    pub fn passed(
+        &self,
+        module: &Module,
+        caller: Option<FuncId>,
+        func: FuncId,
+        args: &[ExprId],
+    ) -> Vec<SpecializedArgument> {
         let first = module[func].locals.start as usize;
         let last_effect = last_effect(module, args);
         let passed = self.specializable(func).iter().map(|param| {
@@ -132,12 +138,14 @@ impl Arguments {
             // What a later argument changes is not what was passed.
             let changes = last_effect > Some(place);
             match module[args[place]].kind {
-                ExprKind::Channel(channel) => Passed::Known(Specialization::Channel(channel)),
-                ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Specialization::Table(table)),
+                ExprKind::Channel(channel) => SpecializedArgument::Known(Specialization::Channel(channel)),
+                ExprKind::Const(table) if self.is_table(module, table) => {
+                    SpecializedArgument::Known(Specialization::Table(table))
+                }
                 ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
                     let declared = &module[global];
                     let stays = !changes && !self.writes(func, global);
-                    Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
+                    SpecializedArgument::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
                         (false, Some(value)) => Specialization::Table(value),
                         // Nobody sets it: it is zero.
                         (false, None) if declared.init.is_none() => Specialization::None,
@@ -149,11 +157,11 @@ impl Arguments {
                     let specializable = caller.map_or(&[][..], |caller| self.specializable(caller));
                     // They are in order.
                     match specializable.binary_search(&local) {
-                        Ok(param) => Passed::Param(param),
-                        Err(_) => Passed::Known(Specialization::None),
+                        Ok(param) => SpecializedArgument::Param(param),
+                        Err(_) => SpecializedArgument::Known(Specialization::None),
                     }
                 }
-                _ => Passed::Known(Specialization::None),
+                _ => SpecializedArgument::Known(Specialization::None),
             }
         });
         passed.collect()

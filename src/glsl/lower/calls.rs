@@ -6,7 +6,7 @@
 
 use super::{
     access::Place,
-    arguments::{Instance, Passed, Specialization, last_effect},
+    arguments::{Instance, Specialization, SpecializedArgument, last_effect},
     function::{Builder, Slot},
 };
 use crate::{
@@ -114,10 +114,10 @@ impl Builder<'_, '_> {
         result
     }
 
-    fn resolved(&self, passed: Passed) -> Specialization {
+    fn resolved(&self, passed: SpecializedArgument) -> Specialization {
         match passed {
-            Passed::Known(specialization) => specialization,
-            Passed::Param(index) => self.specializations[index],
+            SpecializedArgument::Known(specialization) => specialization,
+            SpecializedArgument::Param(index) => self.specializations[index],
         }
     }
 

@@ -7,7 +7,7 @@
 use rustc_hash::FxHashSet;
 
 use super::{
-    arguments::{Arguments, Instance, Passed, Specialization},
+    arguments::{Arguments, Instance, Specialization, SpecializedArgument},
     walk::{self as writes, Node},
 };
 use crate::{
@@ -24,7 +24,7 @@ pub(super) struct Reachable {
 }
 
 /// Calls in a body, with what they pass.
-type Calls = Vec<(FuncId, Vec<Passed>)>;
+type Calls = Vec<(FuncId, Vec<SpecializedArgument>)>;
 
 /// The names in a function body or an initialiser.
 #[derive(Default)]
@@ -66,10 +66,10 @@ impl Reachable {
         found.insert(pending[0].clone());
         while let Some(instance) = pending.pop() {
             let facts = &facts[instance.func.index()];
-            let mut call = |func: FuncId, passed: &[Passed], of_caller: &[Specialization]| {
+            let mut call = |func: FuncId, passed: &[SpecializedArgument], of_caller: &[Specialization]| {
                 let specializations = passed.iter().map(|&passed| match passed {
-                    Passed::Known(specialization) => specialization,
-                    Passed::Param(index) => of_caller[index],
+                    SpecializedArgument::Known(specialization) => specialization,
+                    SpecializedArgument::Param(index) => of_caller[index],
                 });
                 let instance = Instance { func, specializations: specializations.collect() };
                 if found.insert(instance.clone()) {

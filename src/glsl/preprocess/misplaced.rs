@@ -92,7 +92,7 @@ impl Preprocessor<'_, '_> {
         let behind = line[ticks..].trim();
         let is_alone = !behind.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
         let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
-        let told = span;
+        let marks = span;
         if is_alone {
             self.lexer.begin_directive();
             self.lexer.rest_of_line();
@@ -113,7 +113,7 @@ impl Preprocessor<'_, '_> {
             None => {
                 self.fence = Some(self.report.diagnostics.len());
                 self.report.add(
-                    Diagnostic::error(told, "a Markdown fence has no meaning in GLSL")
+                    Diagnostic::error(marks, "a Markdown fence has no meaning in GLSL")
                         .hint("delete the lines with ```")
                         .fix(Fix::new("Remove the Markdown fence", vec![edit])),
                 );

@@ -23,6 +23,6 @@ pub use inputs::{EntryInputs, SlotCells, quad};
 pub use layout::cells;
 pub use machine::{Drawn, Machine, Stop};
 pub use number::{Cell, Real, Shadowed};
-pub use observer::{Nobody, Observer, View};
+pub use observer::{NoObserver, Observer, View};
 pub use state::LANES;
 pub use world::{Lod, World};

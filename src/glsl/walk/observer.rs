@@ -125,6 +125,6 @@ pub trait Observer<R> {
 }
 
 /// Sees nothing.
-pub struct Nobody;
+pub struct NoObserver;
 
-impl<R> Observer<R> for Nobody {}
+impl<R> Observer<R> for NoObserver {}

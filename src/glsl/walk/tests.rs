@@ -67,7 +67,7 @@ fn draw<R: Real>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
     let (walkable, world) = (walkable(code), Bare::default());
     let lane = Machine::<R>::lane_of(pixel);
     let drawn =
-        Machine::<R>::new(&walkable.program, &world, EntryInputs::of_pixel(pixel), LIMIT).run(lane, &mut Nobody)?;
+        Machine::<R>::new(&walkable.program, &world, EntryInputs::of_pixel(pixel), LIMIT).run(lane, &mut NoObserver)?;
     let (_, cells) = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).unwrap();
     Ok(std::array::from_fn(|i| cells[lane][i].float().to_f64()))
 }
@@ -175,7 +175,7 @@ fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
     let (walkable, world) =
         (walkable("void mainImage(out vec4 r, in vec2 p) { if (p.x > 1.0) discard; r = vec4(1.0); }"), Bare::default());
     let drawn = Machine::<f32>::new(&walkable.program, &world, EntryInputs::of_pixel((0, 0)), LIMIT)
-        .run(0, &mut Nobody)
+        .run(0, &mut NoObserver)
         .unwrap();
     let drew: Vec<bool> = drawn.outputs[0].1.iter().map(|cells| !cells.is_empty()).collect();
     assert_eq!(drew, [true, false, true, false]);
@@ -201,7 +201,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
     assert!(draw::<f64>(code, (3, 2)).unwrap()[0].abs() < 1e-7);
     let (walkable, world) = (walkable(code), Bare::default());
     let drawn = Machine::<Shadowed>::new(&walkable.program, &world, EntryInputs::of_pixel((3, 2)), LIMIT)
-        .run(1, &mut Nobody)
+        .run(1, &mut NoObserver)
         .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(f64::from(single) < -0.3 && double.abs() < 1e-7, "{single} {double}");
@@ -210,7 +210,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
         "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = texture(iChannel0, vec2((a + 1e8) - 1e8)); }";
     let walkable = self::walkable(code);
     let drawn = Machine::<Shadowed>::new(&walkable.program, &world, EntryInputs::of_pixel((3, 2)), LIMIT)
-        .run(1, &mut Nobody)
+        .run(1, &mut NoObserver)
         .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(single == 0.0 && (double - 0.35).abs() < 1e-7, "{single} {double}");

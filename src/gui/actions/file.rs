@@ -1,12 +1,12 @@
 //! The file in which a person gives actions other keys.
 
 use super::{Chord, Entry, Group, Keymap, keymap::level, table::ACTIONS};
-use crate::{gui::config_file::Mistake, project::nearest};
+use crate::{gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
 
 /// Returns the keys that a file's text gives, and all mistakes in it. What is wrong leaves an action its own keys.
-pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
+pub fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut keymap = Keymap::default();
     let mut mistakes = Vec::new();
     let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
@@ -14,14 +14,14 @@ pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
         Ok(document) => document,
         Err(error) => {
             let text = format!("{}; write lines like: palette = \"Ctrl+Shift+P\"", error.message());
-            return (keymap, vec![Mistake { line: line(error.span()), text }]);
+            return (keymap, vec![ConfigError { line: line(error.span()), text }]);
         }
     };
     let table = document.as_table();
     let mut given: Vec<(&Entry, Chord, usize)> = Vec::new();
     for (name, item) in table.iter() {
         let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
-        let mut wrong = |line: usize, text: String| mistakes.push(Mistake { line, text });
+        let mut wrong = |line: usize, text: String| mistakes.push(ConfigError { line, text });
         let Some(entry) = ACTIONS.iter().find(|e| e.name == name) else {
             let mend = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),

@@ -1,7 +1,7 @@
 //! `keybindings.toml` gives actions other keys.
 
 use super::{Keymap, file};
-use crate::gui::config_file::{ConfigFile, Content, Mistake};
+use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 use std::sync::Arc;
 
 /// The keys as the file says, if there is one.
@@ -11,7 +11,7 @@ impl Content for Arc<Keymap> {
     const NAME: &str = "keybindings.toml";
     const STAYS: &str = "The keyboard shortcuts stay as they are.";
 
-    fn read(text: &str) -> (Self, Vec<Mistake>) {
+    fn read(text: &str) -> (Self, Vec<ConfigError>) {
         let (keymap, mistakes) = file::read(text);
         (Arc::new(keymap), mistakes)
     }

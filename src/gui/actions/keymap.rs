@@ -6,13 +6,13 @@ use std::{ops::Deref, sync::Arc};
 
 /// Holds what is open and has the keyboard, and so whose keys are listened to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Listening {
+pub struct KeyFocus {
     pub code: bool,
     pub find_bar: bool,
     pub trace: bool,
 }
 
-impl Listening {
+impl KeyFocus {
     /// The levels whose keys are listened to, the first come first.
     fn levels(self) -> impl Iterator<Item = usize> {
         let levels = [self.code, self.find_bar, self.trace, true];
@@ -22,13 +22,13 @@ impl Listening {
 
 /// The keys as tips and menus say them: those that work where the keyboard is.
 #[derive(Clone, Debug, Default)]
-pub struct KeysHere {
+pub struct ActiveKeymap {
     keymap: Arc<Keymap>,
-    listening: Listening,
+    listening: KeyFocus,
 }
 
-impl KeysHere {
-    pub fn new(keymap: Arc<Keymap>, listening: Listening) -> Self {
+impl ActiveKeymap {
+    pub fn new(keymap: Arc<Keymap>, listening: KeyFocus) -> Self {
         Self { keymap, listening }
     }
 
@@ -47,7 +47,7 @@ impl KeysHere {
 }
 
 /// Everything else does not depend on the place.
-impl Deref for KeysHere {
+impl Deref for ActiveKeymap {
     type Target = Keymap;
 
     fn deref(&self) -> &Keymap {
@@ -95,7 +95,7 @@ impl Keymap {
 
     /// Returns the key that does an action where these are listened to: the first that nothing which comes before takes.
     /// Empty where there is none.
-    fn hint_where(&self, action: Action, listening: Listening) -> String {
+    fn hint_where(&self, action: Action, listening: KeyFocus) -> String {
         let Some(i) = ACTIONS.iter().position(|e| e.action == action) else { return String::new() };
         let own = level(ACTIONS[i].group);
         let before: Vec<usize> = listening.levels().filter(|level| *level < own).collect();
@@ -113,7 +113,7 @@ impl Keymap {
     }
 
     /// Returns what a key press means.
-    pub fn pressed(&self, event: &Event, listening: Listening) -> Option<&'static Entry> {
+    pub fn pressed(&self, event: &Event, listening: KeyFocus) -> Option<&'static Entry> {
         let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
         let find = |key: Key, m: Modifiers| listening.levels().find_map(|level| self.holder(level, key, m));
         // Letters and digits are called by one letter, signs by a word.
@@ -156,7 +156,7 @@ mod tests {
     }
 
     fn action(key: Key, modifiers: Modifiers, code: bool) -> Option<Action> {
-        let listening = Listening { code, ..Listening::default() };
+        let listening = KeyFocus { code, ..KeyFocus::default() };
         Keymap::default().pressed(&press(key, modifiers), listening).map(|e| e.action)
     }
 
@@ -205,7 +205,7 @@ mod tests {
         // A US keyboard types { with Shift and [.
         let (key, physical_key) = (Key::OpenCurlyBracket, Some(Key::OpenBracket));
         let event = Event::Key { key, physical_key, pressed: true, repeat: false, modifiers: ctrl_shift };
-        let found = Keymap::default().pressed(&event, Listening { code: true, ..Listening::default() });
+        let found = Keymap::default().pressed(&event, KeyFocus { code: true, ..KeyFocus::default() });
         assert_eq!(found.map(|e| e.name), Some("fold"));
     }
 
@@ -225,9 +225,9 @@ mod tests {
     /// In the code Alt+Down moves a line, and Reset has another key that works there.
     #[test]
     fn tips_say_the_keys_that_work_where_the_keyboard_is() {
-        let (code, elsewhere) = (Listening { code: true, ..Listening::default() }, Listening::default());
-        let trace = Listening { trace: true, ..code };
-        let hint = |listening, action| KeysHere::new(Arc::default(), listening).hint(action);
+        let (code, elsewhere) = (KeyFocus { code: true, ..KeyFocus::default() }, KeyFocus::default());
+        let trace = KeyFocus { trace: true, ..code };
+        let hint = |listening, action| ActiveKeymap::new(Arc::default(), listening).hint(action);
         assert_eq!(
             (hint(elsewhere, Action::Reset).as_str(), hint(code, Action::Reset).as_str()),
             ("Alt+Down", "Ctrl+Shift+F5")

@@ -16,5 +16,5 @@ pub use action::{Action, LayoutAction, PictureAction, SCALES, SIZES, TimeAction,
 pub use chord::Chord;
 pub use entry::{Entry, Group};
 pub use key_file::KeyFile;
-pub use keymap::{Keymap, KeysHere, Listening};
+pub use keymap::{ActiveKeymap, KeyFocus, Keymap};
 pub use table::ACTIONS;

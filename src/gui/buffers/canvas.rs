@@ -3,7 +3,7 @@
 use super::{
     numbers::fitted,
     state::{Buffers, ShownTarget},
-    zoom::{Placed, Zoom},
+    zoom::{PlacedPicture, Zoom},
 };
 use crate::{
     gui::{accessible, flash, theme, ui_output::UiOutput},
@@ -91,7 +91,7 @@ pub fn show(
     }
 }
 
-fn mouse(zoom: &mut Zoom, ui: &Ui, response: &Response, placed: &Placed) {
+fn mouse(zoom: &mut Zoom, ui: &Ui, response: &Response, placed: &PlacedPicture) {
     if response.clicked() {
         response.request_focus();
     }
@@ -109,7 +109,7 @@ fn mouse(zoom: &mut Zoom, ui: &Ui, response: &Response, placed: &Placed) {
 }
 
 /// Arrows move it, plus and minus make it larger and smaller, Home shows all, Page Up and Down go to other targets.
-fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, placed: Option<&Placed>) {
+fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, placed: Option<&PlacedPicture>) {
     if !response.has_focus() {
         return;
     }
@@ -147,7 +147,7 @@ fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, pl
 }
 
 /// Draws what is seen of the picture.
-fn picture(painter: &Painter, seen: &ShownTarget, placed: &Placed) {
+fn picture(painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) {
     let [(left, right), (bottom, top)] = placed.seen();
     if left >= right || bottom >= top {
         return;
@@ -164,7 +164,7 @@ fn picture(painter: &Painter, seen: &ShownTarget, placed: &Placed) {
 
 /// Lights up what is NaN or infinite, and goes out again. Asks for frames only where something is. Says whether it is
 /// lit.
-fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &Placed) -> bool {
+fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) -> bool {
     if seen.runs.is_empty() {
         return false;
     }
@@ -181,7 +181,7 @@ fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &Plac
     is_lit
 }
 
-fn rule(painter: &Painter, placed: &Placed) {
+fn rule(painter: &Painter, placed: &PlacedPicture) {
     let [(left, right), (bottom, top)] = placed.seen();
     let strength = ((placed.scale - RULED) / 30.0).clamp(0.15, 0.5);
     let stroke = Stroke::new(1.0, Color32::from_gray(128).gamma_multiply(strength));
@@ -199,7 +199,13 @@ fn numbers(seen: &ShownTarget, value: [f32; 4], letters: usize) -> Vec<String> {
 }
 
 /// Writes a texel's numbers on it, in black or white. Gives what was written.
-fn write(painter: &Painter, seen: &ShownTarget, placed: &Placed, (x, y): (u32, u32), is_lit: bool) -> Vec<String> {
+fn write(
+    painter: &Painter,
+    seen: &ShownTarget,
+    placed: &PlacedPicture,
+    (x, y): (u32, u32),
+    is_lit: bool,
+) -> Vec<String> {
     let pixels = &seen.read.pixels;
     let Some(value) = pixels.texels.get((y * pixels.width + x) as usize) else { return Vec::new() };
     let rect = placed.rect((x, x + 1), y);
@@ -225,7 +231,7 @@ fn write(painter: &Painter, seen: &ShownTarget, placed: &Placed, (x, y): (u32, u
 }
 
 /// A frame round the texel that is looked at; a small one has a ring.
-fn mark(painter: &Painter, placed: &Placed, (x, y): (u32, u32)) {
+fn mark(painter: &Painter, placed: &PlacedPicture, (x, y): (u32, u32)) {
     let rect = placed.rect((x, x + 1), y);
     for (grown, color) in [(1.5, Color32::BLACK), (0.5, Color32::WHITE)] {
         let stroke = Stroke::new(1.0, color);

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     debugger::nonfinite::SearchEnd,
-    engine::{PassCost, When},
+    engine::{PassCost, ReadTiming},
     session::{
         Session, Status,
         buffers::{Target, reason},
@@ -75,7 +75,7 @@ pub fn report(state: &Buffers, session: &Session) -> Value {
 fn graph(session: &Session) -> Vec<Value> {
     let all: Vec<_> = session.pass_costs().passes.into_iter().map(|pass| pass.cost).collect();
     let node = |cost: &PassCost| {
-        let when = |when: When| if when == When::ThisFrame { "this frame" } else { "last frame" };
+        let when = |when: ReadTiming| if when == ReadTiming::ThisFrame { "this frame" } else { "last frame" };
         let reads: Vec<_> = cost.reads.iter().map(|read| (read.pass.title(), when(read.when))).collect();
         json!({ "pass": cost.pass.title(), "reads": reads, "why": reason(&cost.pass, &all) })
     };

@@ -20,7 +20,7 @@ pub struct Zoom {
 
 /// A picture of so many texels, where it is on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
+pub struct PlacedPicture {
     pub area: Rect,
     pub size: (u32, u32),
     /// Points of a texel.
@@ -44,17 +44,17 @@ impl Zoom {
     }
 
     /// Places a picture so.
-    pub fn place(&self, area: Rect, size: (u32, u32)) -> Placed {
+    pub fn place(&self, area: Rect, size: (u32, u32)) -> PlacedPicture {
         let whole = vec2(size.0 as f32, size.1 as f32);
         let fitting = (area.width() / whole.x).min(area.height() / whole.y).clamp(1e-4, self.most);
-        let Some(scale) = self.scale else { return Placed { area, size, scale: fitting, center: whole / 2.0 } };
+        let Some(scale) = self.scale else { return PlacedPicture { area, size, scale: fitting, center: whole / 2.0 } };
         let scale = scale.clamp(fitting.min(1.0), self.most);
         // Half of what is seen at least is of the picture.
-        Placed { area, size, scale, center: self.center.clamp(Vec2::ZERO, whole) }
+        PlacedPicture { area, size, scale, center: self.center.clamp(Vec2::ZERO, whole) }
     }
 
     /// Makes it larger or smaller; the place of the picture at a point stays there.
-    pub fn about(&mut self, placed: &Placed, at: Pos2, factor: f32) {
+    pub fn about(&mut self, placed: &PlacedPicture, at: Pos2, factor: f32) {
         let (fitting, held) = (Self::up_to(self.most).place(placed.area, placed.size).scale, placed.texel(at));
         let scale = (placed.scale * factor).clamp(fitting.min(1.0), self.most);
         if factor < 1.0 && scale <= fitting {
@@ -66,7 +66,7 @@ impl Zoom {
     }
 
     /// Moves it by points of the screen.
-    pub fn drag(&mut self, placed: &Placed, by: Vec2) {
+    pub fn drag(&mut self, placed: &PlacedPicture, by: Vec2) {
         let center = placed.center - vec2(by.x, -by.y) / placed.scale;
         let whole = vec2(placed.size.0 as f32, placed.size.1 as f32);
         *self = Self { scale: Some(placed.scale), most: self.most, center: center.clamp(Vec2::ZERO, whole) };
@@ -78,7 +78,7 @@ impl Zoom {
     }
 }
 
-impl Placed {
+impl PlacedPicture {
     /// Returns where a place of the picture is on the screen.
     pub fn point(&self, texel: Pos2) -> Pos2 {
         let offset = (texel.to_vec2() - self.center) * self.scale;

@@ -4,7 +4,7 @@ use super::{Live, sound};
 use crate::{
     gui::{
         theme,
-        thumbnails::{Subject, Thumbnail, Thumbnails},
+        thumbnails::{Thumbnail, ThumbnailSource, Thumbnails},
     },
     media::MediaKey,
     project::{Input, InputKind, Media, Origin, PassId},
@@ -62,7 +62,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
             Thumbnail::Ready(texture) => {
                 let size = texture.size_vec2();
                 let shown = fitting(place, size.x / size.y.max(1.0));
-                let is_wave = matches!(subject, Subject::Sound(..));
+                let is_wave = matches!(subject, ThumbnailSource::Sound(..));
                 let tint = if is_wave { theme::of(ui).accent } else { egui::Color32::WHITE };
                 return egui::Image::new(&texture).corner_radius(3.0).tint(tint).paint_at(ui, shown);
             }
@@ -92,16 +92,16 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
 }
 
 /// Returns the small picture of media. A file of Shadertoy that no file of Eddy stands in for has none.
-fn subject(session: &Session, input: &Input) -> Option<Subject> {
+fn subject(session: &Session, input: &Input) -> Option<ThumbnailSource> {
     let Input::Media { kind, media } = input else { return None };
     match kind {
         InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
             let dimension = input.row().dimension;
             let key = MediaKey { media: media.clone(), dimension, vflip: dimension == Dimension::D2 };
-            Some(Subject::Texture(key, folder(session)))
+            Some(ThumbnailSource::Texture(key, folder(session)))
         }
-        InputKind::Video => Some(Subject::Video(media.clone(), folder(session))),
-        InputKind::Music => Some(Subject::Sound(media.clone(), folder(session))),
+        InputKind::Video => Some(ThumbnailSource::Video(media.clone(), folder(session))),
+        InputKind::Music => Some(ThumbnailSource::Sound(media.clone(), folder(session))),
         _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! The bars over the code: for finding, for another name, for a line.
 
-use super::{CodePanel, find_bar::Asked, places, rename_bar::Renamed};
+use super::{CodePanel, find_bar::FindBarAction, places, rename_bar::Renamed};
 use crate::{
     gui::{
         accessible,
@@ -17,18 +17,18 @@ impl CodePanel {
         // While one types, Escape first goes back to one caret.
         let is_for_code = self.has_keys(ui.ctx()) && self.buffer().is_some_and(|b| b.carets().list().len() > 1);
         match asked {
-            Asked::Step(forward) => self.find_on(forward),
-            Asked::Replace => {
+            FindBarAction::Step(forward) => self.find_on(forward),
+            FindBarAction::Replace => {
                 if let Some(editor) = self.editors.get_mut(&self.current) {
                     self.find.replace_one(&self.current, editor);
                 }
                 self.tell_changed(out);
                 self.find_on(true);
             }
-            Asked::ReplaceAll => self.replace_all(out),
-            Asked::Nothing | Asked::Close => {}
+            FindBarAction::ReplaceAll => self.replace_all(out),
+            FindBarAction::Nothing | FindBarAction::Close => {}
         }
-        if asked == Asked::Close || (ui.input(|i| i.key_pressed(Key::Escape)) && !is_for_code) {
+        if asked == FindBarAction::Close || (ui.input(|i| i.key_pressed(Key::Escape)) && !is_for_code) {
             self.find.close();
             self.focus();
         }

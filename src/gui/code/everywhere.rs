@@ -39,7 +39,7 @@ impl CodePanel {
             places.extend(finder.matches(editor.buffer().text()).into_iter().map(|m| (tab.clone(), m)));
         }
         self.uses = Uses::found(session, &now.0.text, places.clone());
-        self.everywhere = Everywhere { of: Some(now), places, is_listed: true };
+        self.everywhere = ProjectMatches { of: Some(now), places, is_listed: true };
     }
 
     /// Selects the next match, or the one before, in whichever text it is. The keyboard stays where it is.
@@ -86,7 +86,7 @@ impl CodePanel {
 
 /// The matches of a query in all texts.
 #[derive(Default)]
-pub(super) struct Everywhere {
+pub(super) struct ProjectMatches {
     /// The query, and the texts' revisions, that they are of.
     pub of: Option<(Query, Vec<(Tab, u64)>)>,
     pub places: Vec<(Tab, Range<usize>)>,
@@ -94,7 +94,7 @@ pub(super) struct Everywhere {
     pub is_listed: bool,
 }
 
-impl Everywhere {
+impl ProjectMatches {
     pub fn count(&self) -> usize {
         self.places.len()
     }

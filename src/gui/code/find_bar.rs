@@ -29,7 +29,7 @@ pub(super) struct FindBar {
 
 /// The results of a frame of the bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(super) enum FindBarAction {
     Nothing,
     Close,
     /// To the next match, or to the one before.
@@ -141,9 +141,9 @@ impl FindBar {
         editor: &CodeEditor,
         everywhere: usize,
         out: &mut UiOutput,
-    ) -> Asked {
+    ) -> FindBarAction {
         self.refresh(tab, editor);
-        let mut asked = Asked::Nothing;
+        let mut asked = FindBarAction::Nothing;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
             let wrong = matches!(self.found.finder, Some(Err(_)));
@@ -157,7 +157,7 @@ impl FindBar {
                 field.request_focus();
             }
             if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
-                asked = Asked::Step(!ui.input(|i| i.modifiers.shift));
+                asked = FindBarAction::Step(!ui.input(|i| i.modifiers.shift));
                 field.request_focus();
             }
             let mut switch = |ui: &mut Ui, on: &mut bool, name: &str, label: &str, tip: &str, action: Action| {
@@ -191,7 +191,7 @@ impl FindBar {
             ] {
                 let step = icons::button(ui, icon, label).on_hover_text(out.keys.tip(label, action));
                 if out.clicked(if forward { "find:next" } else { "find:previous" }, &step) {
-                    asked = Asked::Step(forward);
+                    asked = FindBarAction::Step(forward);
                 }
             }
             if self.replaces {
@@ -203,13 +203,13 @@ impl FindBar {
                 }
             }
             if icons::button(ui, Icon::Close, "Close").on_hover_text("Close (Esc)").clicked() {
-                asked = Asked::Close;
+                asked = FindBarAction::Close;
             }
         });
         asked
     }
 
-    fn replacing(&mut self, ui: &mut Ui, count: usize, asked: &mut Asked, out: &mut UiOutput) {
+    fn replacing(&mut self, ui: &mut Ui, count: usize, asked: &mut FindBarAction, out: &mut UiOutput) {
         let field = ui.add(TextEdit::singleline(&mut self.with).hint_text("Replace with").desired_width(150.0));
         out.place("field:replace", field.rect);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
@@ -220,12 +220,12 @@ impl FindBar {
         let one =
             ui.add_enabled(some, Button::new("Replace")).on_hover_text("Replace this match and find the next (Enter)");
         if out.clicked("find:replace", &one) || (entered && some) {
-            *asked = Asked::Replace;
+            *asked = FindBarAction::Replace;
         }
         let all = ui.add_enabled(some, Button::new("All"));
         let all = all.on_hover_text(out.keys.tip("Replace all matches", Action::ReplaceAll));
         if out.clicked("find:replace-all", &all) {
-            *asked = Asked::ReplaceAll;
+            *asked = FindBarAction::ReplaceAll;
         }
     }
 }

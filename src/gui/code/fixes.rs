@@ -18,7 +18,7 @@ pub(super) struct Fixes {
 }
 
 /// The results of a frame of the list.
-pub(super) enum Chosen {
+pub(super) enum FixesAction {
     Nothing,
     Closed,
     Fix(TabFix),
@@ -43,7 +43,7 @@ impl Fixes {
     }
 
     /// Takes the keys that are for the list before the code sees them.
-    pub fn take_keys(&mut self, ui: &Ui) -> Chosen {
+    pub fn take_keys(&mut self, ui: &Ui) -> FixesAction {
         let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));
         let (down, up) = (count(Key::ArrowDown), count(Key::ArrowUp));
         if !self.list.is_empty() {
@@ -52,18 +52,18 @@ impl Fixes {
         }
         let (enter, escape) = (count(Key::Enter) > 0, count(Key::Escape) > 0);
         match self.list.get(self.selected) {
-            Some(fix) if enter => Chosen::Fix(fix.clone()),
-            _ if enter || escape => Chosen::Closed,
-            _ => Chosen::Nothing,
+            Some(fix) if enter => FixesAction::Fix(fix.clone()),
+            _ if enter || escape => FixesAction::Closed,
+            _ => FixesAction::Nothing,
         }
     }
 
     /// Shows the list below the caret. `now`: where that is, as [`Fixes::new`] takes it.
-    pub fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> Chosen {
+    pub fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> FixesAction {
         if *now != self.at {
-            return Chosen::Closed;
+            return FixesAction::Closed;
         }
-        let mut chosen = Chosen::Nothing;
+        let mut chosen = FixesAction::Nothing;
         let area = Area::new(Id::unique("quick fixes"))
             .order(Order::Foreground)
             .fixed_pos(caret.left_bottom() + vec2(0.0, 2.0))
@@ -94,7 +94,7 @@ impl Fixes {
                     let at = egui::pos2(rect.left() + 8.0, rect.center().y - title.size().y / 2.0);
                     ui.painter().galley(at, title, theme::of(ui).text);
                     if out.clicked(&format!("fix:{i}"), &response) {
-                        chosen = Chosen::Fix(fix.clone());
+                        chosen = FixesAction::Fix(fix.clone());
                     }
                 }
             });

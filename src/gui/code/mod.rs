@@ -11,7 +11,7 @@ mod rename_bar;
 mod requests;
 
 use super::{
-    actions::{Action, Keymap, Listening},
+    actions::{Action, KeyFocus, Keymap},
     editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
     problems,
     tabs::{self, OpenFile},
@@ -24,9 +24,9 @@ use crate::{
     session::{Command, Session, probe::ProbePlace},
 };
 use egui::{Frame, Id, Margin, Panel, Ui};
-use everywhere::Everywhere;
+use everywhere::ProjectMatches;
 use find_bar::FindBar;
-use fixes::{Chosen, Fixes};
+use fixes::{Fixes, FixesAction};
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
@@ -45,7 +45,7 @@ pub struct CodePanel {
     font_size: f32,
     wraps: bool,
     find: FindBar,
-    everywhere: Everywhere,
+    everywhere: ProjectMatches,
     fixes: Option<Fixes>,
     rename: Option<RenameBar>,
     /// The session's tabs.
@@ -398,7 +398,7 @@ impl CodePanel {
         }
         let (here, has_keys) = (self.fixed_at(), self.has_keys(ui.ctx()));
         if let (Some(fixes), Some(now)) = (&self.fixes, here) {
-            let chosen = if has_keys { fixes.show(ui, shown.caret, &now, out) } else { Chosen::Closed };
+            let chosen = if has_keys { fixes.show(ui, shown.caret, &now, out) } else { FixesAction::Closed };
             self.choose_fix(chosen, out);
         }
     }
@@ -461,7 +461,7 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
 
 /// Returns what a key asks of the code while it has the keyboard.
 fn of_code(keymap: &Keymap, event: &egui::Event) -> Option<EditorAction> {
-    match keymap.pressed(event, Listening { code: true, ..Listening::default() })?.action {
+    match keymap.pressed(event, KeyFocus { code: true, ..KeyFocus::default() })?.action {
         Action::Code(action) => Some(action),
         _ => None,
     }

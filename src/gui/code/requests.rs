@@ -2,7 +2,7 @@
 
 use super::{
     CodePanel,
-    fixes::{Chosen, Fixes},
+    fixes::{Fixes, FixesAction},
     rename_bar::RenameBar,
 };
 use crate::{
@@ -59,11 +59,11 @@ impl CodePanel {
         Some((self.current.clone(), buffer.selection().head, buffer.revision()))
     }
 
-    pub(super) fn choose_fix(&mut self, chosen: Chosen, out: &mut UiOutput) {
+    pub(super) fn choose_fix(&mut self, chosen: FixesAction, out: &mut UiOutput) {
         match chosen {
-            Chosen::Nothing => return,
-            Chosen::Closed => {}
-            Chosen::Fix(fix) => out.shell_commands.push(ShellCommand::Fix(fix)),
+            FixesAction::Nothing => return,
+            FixesAction::Closed => {}
+            FixesAction::Fix(fix) => out.shell_commands.push(ShellCommand::Fix(fix)),
         }
         self.fixes = None;
     }

@@ -2,7 +2,7 @@
 
 use super::{
     pictures,
-    state::{Choice, Compare, Under, View},
+    state::{Choice, Compare, HoveredPixel, View},
 };
 use crate::{
     gui::{
@@ -202,7 +202,7 @@ pub(super) fn pace(times: &Times) -> String {
     )
 }
 
-fn under(Under { texel: (x, y), ours, theirs }: &Under) -> String {
+fn under(HoveredPixel { texel: (x, y), ours, theirs }: &HoveredPixel) -> String {
     let words = |texel: &[f32; 4]| texel.map(|x| format!("{x:.4}")).join(" ");
     format!("{x},{y}: {} against {}", words(ours), words(theirs))
 }

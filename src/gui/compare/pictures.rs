@@ -1,6 +1,6 @@
 //! The two pictures: side by side, one over the other, or their difference.
 
-use super::state::{Compare, Under, View};
+use super::state::{Compare, HoveredPixel, View};
 use crate::gui::{accessible, theme, ui_output::UiOutput};
 use egui::{
     Align2, Color32, CursorIcon, EventFilter, FontId, Id, Key, Painter, Rect, Response, Sense, StrokeKind, TextureId,
@@ -72,7 +72,7 @@ pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOutput) {
         let y = (((1.0 - part.y) * size.y) as u32).min(comparison.ours.height - 1);
         let index = (y * comparison.ours.width + x) as usize;
         let (ours, theirs) = (*comparison.ours.texels.get(index)?, *comparison.theirs.texels.get(index)?);
-        Some(Under { texel: (x, y), ours, theirs })
+        Some(HoveredPixel { texel: (x, y), ours, theirs })
     });
     let shown = match view {
         View::Side => "side by side".to_owned(),

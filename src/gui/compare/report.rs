@@ -2,7 +2,7 @@
 
 use super::{
     panel::{distance, pace},
-    state::{Compare, Under, View},
+    state::{Compare, HoveredPixel, View},
 };
 use crate::{
     lab::Number,
@@ -48,7 +48,7 @@ pub fn report(state: &Compare, session: &Session) -> Value {
         "wipe": state.wipe,
         "gain": state.gain,
         "figures": figures,
-        "under": state.under.map(|Under { texel: (x, y), ours, theirs }| {
+        "under": state.under.map(|HoveredPixel { texel: (x, y), ours, theirs }| {
             json!({ "texel": [x, y], "ours": ours, "theirs": theirs })
         }),
     })

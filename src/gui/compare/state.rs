@@ -41,7 +41,7 @@ pub(super) struct Pictures {
 
 /// The pixel under the pointer, from the bottom left, and its values.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Under {
+pub(super) struct HoveredPixel {
     pub texel: (u32, u32),
     pub ours: [f32; 4],
     pub theirs: [f32; 4],
@@ -64,7 +64,7 @@ pub struct Compare {
     coming: Option<Receiver<Figures>>,
     /// The comparison whose figures are made, or there.
     of: Option<Arc<Comparison>>,
-    pub(super) under: Option<Under>,
+    pub(super) under: Option<HoveredPixel>,
 }
 
 impl Compare {

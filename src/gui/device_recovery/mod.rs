@@ -20,11 +20,11 @@ const AGAIN: Duration = Duration::from_secs(10);
 
 /// The losses of the window's device so far.
 #[derive(Default)]
-pub struct Losses {
+pub struct DeviceLosses {
     newest: Option<Instant>,
 }
 
-impl Losses {
+impl DeviceLosses {
     /// Looks whether the window's device is still there. In the place of one that is lost comes another, which `renew`
     /// opens; the window ends if that fails or was done just before, after what was not saved has been. What the device
     /// refused is told of, and the window goes on.

@@ -24,7 +24,7 @@ fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
     session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
-    let (mut losses, start) = (Losses::default(), Instant::now());
+    let (mut losses, start) = (DeviceLosses::default(), Instant::now());
     let mut watch = |seconds: u64, session: &mut Session| {
         let mut renewed = 0;
         let now = start + Duration::from_secs(seconds);
@@ -55,7 +55,7 @@ fn a_window_that_gets_no_other_device_saves_what_was_not() {
     session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
     gpu.lose();
     let none = |_: &mut Session| Err(GuiError::Surface("planted".into()));
-    let error = Losses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
+    let error = DeviceLosses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
     assert!(error.to_string().contains("Your unsaved work is in"), "{error}");
 }
 

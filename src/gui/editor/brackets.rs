@@ -1,7 +1,7 @@
 //! Says which bracket belongs to which.
 
 use super::{buffer::Buffer, highlight::Highlight, nesting::Bracket, pieces::Piece};
-use crate::glsl::services::lines::{Inside, Scanner};
+use crate::glsl::services::lines::{LineContext, Scanner};
 use std::ops::Range;
 
 /// The bracket that a caret is at, and the one that belongs to it: where each begins, in the order of the text.
@@ -138,7 +138,7 @@ fn brackets(buffer: &Buffer, bytes: &Range<usize>, piece: &Piece, kind: Bracket)
     while !scanner.is_at_end() {
         let at = scanner.at;
         scanner.step();
-        if scanner.state.inside == Inside::Code
+        if scanner.state.inside == LineContext::Code
             && let Some((of, by)) = Bracket::of(text.as_bytes()[at])
             && of == kind
         {

@@ -4,7 +4,7 @@
 //! in sight. After a change only the pieces around it are cut anew.
 
 use super::nesting::Nesting;
-use crate::glsl::services::lines::{Inside, LexState, Scanner};
+use crate::glsl::services::lines::{LexState, LineContext, Scanner};
 
 /// Bytes of a piece: cut at the next place between two tokens from here on, at twice as many wherever that is.
 pub const PIECE: usize = 1024;
@@ -92,7 +92,7 @@ pub fn cut(
     while !scanner.is_at_end() {
         let byte = line.as_bytes()[scanner.at];
         scanner.step();
-        if scanner.state.inside == Inside::Code {
+        if scanner.state.inside == LineContext::Code {
             // The end of a comment is no bracket.
             nesting.push(byte);
         }

@@ -6,7 +6,7 @@ use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, unt
 use crate::{
     gui::{
         dock::Panel,
-        settings::{Remembered, SettingsFile},
+        settings::{SettingsFile, WindowState},
     },
     session::{Answer, Command, Level, Question, SessionOptions},
 };
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 const LEAST: f32 = 4.5;
 
 /// Something painted behind a text.
-enum Ground {
+enum Backdrop {
     Fill(Rect, Color32),
     Picture(Rect),
 }
@@ -43,18 +43,18 @@ fn over(top: Color32, below: Color32) -> Color32 {
 }
 
 /// The colour behind a place; `None` over a picture.
-fn behind(grounds: &[Ground], at: Pos2) -> Option<Color32> {
+fn behind(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
     let mut color = Some(Color32::BLACK);
     for ground in grounds {
         match ground {
-            Ground::Fill(rect, fill) if rect.contains(at) => {
+            Backdrop::Fill(rect, fill) if rect.contains(at) => {
                 color = match (color, fill.is_opaque()) {
                     (_, true) => Some(*fill),
                     (Some(below), false) => Some(over(*fill, below)),
                     (None, false) => None,
                 };
             }
-            Ground::Picture(rect) if rect.contains(at) => color = None,
+            Backdrop::Picture(rect) if rect.contains(at) => color = None,
             _ => {}
         }
     }
@@ -68,12 +68,12 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
     while let Some((clip, shape)) = stack.pop() {
         match shape {
             Shape::Vec(all) => stack.extend(all.iter().rev().map(|shape| (clip, shape))),
-            Shape::Rect(rect) if rect.brush.is_some() => grounds.push(Ground::Picture(rect.rect.intersect(clip))),
+            Shape::Rect(rect) if rect.brush.is_some() => grounds.push(Backdrop::Picture(rect.rect.intersect(clip))),
             Shape::Rect(rect) if rect.fill.a() > 0 && rect.blur_width == 0.0 => {
-                grounds.push(Ground::Fill(rect.rect.intersect(clip), rect.fill));
+                grounds.push(Backdrop::Fill(rect.rect.intersect(clip), rect.fill));
             }
-            Shape::Mesh(mesh) => grounds.push(Ground::Picture(mesh.calc_bounds().intersect(clip))),
-            Shape::Callback(callback) => grounds.push(Ground::Picture(callback.rect.intersect(clip))),
+            Shape::Mesh(mesh) => grounds.push(Backdrop::Picture(mesh.calc_bounds().intersect(clip))),
+            Shape::Callback(callback) => grounds.push(Backdrop::Picture(callback.rect.intersect(clip))),
             Shape::Text(text) if text.angle == 0.0 => {
                 for row in &text.galley.rows {
                     for glyph in row.glyphs.iter().filter(|glyph| !glyph.chr.is_whitespace()) {
@@ -167,7 +167,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             std::fs::write(&file, text).unwrap();
             let mut settings = SettingsFile::at(Some(file.clone()));
             settings.refresh();
-            stage.state_mut().shell.restore(settings, &Remembered::default(), true, None);
+            stage.state_mut().shell.restore(settings, &WindowState::default(), true, None);
             stage.run_steps(2);
             press(&mut stage, CTRL, Key::Comma);
             // The theme is the settings' own until now.

@@ -3,7 +3,7 @@
 use crate::{
     gui::{
         accessible, theme,
-        thumbnails::{Subject, Thumbnail, Thumbnails},
+        thumbnails::{Thumbnail, ThumbnailSource, Thumbnails},
         ui_output::UiOutput,
     },
     project::presets,
@@ -89,7 +89,7 @@ impl Card {
         }
         let picture = match thumbnails.live(self.name) {
             Some(texture) => Thumbnail::Ready(texture),
-            None => thumbnails.get(Subject::Preset(self.name.to_owned())),
+            None => thumbnails.get(ThumbnailSource::Preset(self.name.to_owned())),
         };
         let place = paint(ui, rect, response.hovered() || response.has_focus(), &picture, &self.title, text);
         let trouble = match picture {

@@ -9,7 +9,7 @@ use crate::{
         accessible,
         actions::Action,
         recent, theme,
-        thumbnails::{Subject, Thumbnail, Thumbnails},
+        thumbnails::{Thumbnail, ThumbnailSource, Thumbnails},
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     session::{Command, RecentProject, Session},
@@ -111,7 +111,7 @@ fn recent_card(
     }
     out.place(format!("recent:{path}"), rect.intersect(ui.clip_rect()));
     let picture = match session.last_picture(&project.path) {
-        Some((file, written)) => thumbnails.get(Subject::Recent(file, written)),
+        Some((file, written)) => thumbnails.get(ThumbnailSource::Recent(file, written)),
         None => Thumbnail::Failed(String::new()),
     };
     let place = card::paint(ui, rect, response.hovered() || response.has_focus(), &picture, &title, text);

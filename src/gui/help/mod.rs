@@ -73,7 +73,7 @@ impl Help {
     }
 
     fn contents(&self, ui: &mut Ui, out: &mut UiOutput) {
-        let wanted = Wanted::new(&self.search);
+        let wanted = SearchTerms::new(&self.search);
         let mut is_empty = true;
         for section in &self.sections {
             let all = wanted.is_in(&section.title);
@@ -151,9 +151,9 @@ fn title(ui: &mut Ui, text: &str) {
 }
 
 /// The words that are looked for, in small letters.
-struct Wanted(Vec<String>);
+struct SearchTerms(Vec<String>);
 
-impl Wanted {
+impl SearchTerms {
     fn new(typed: &str) -> Self {
         Self(typed.split_whitespace().map(str::to_lowercase).collect())
     }
@@ -173,12 +173,12 @@ mod tests {
     #[test]
     fn all_words_of_a_search_are_found_in_any_order_and_size() {
         let text = "iMouse follows the mouse over the picture";
-        assert!(Wanted::new("").is_in(text) && Wanted::new("  imouse PICTURE ").is_in(text));
-        assert!(!Wanted::new("imouse keys").is_in(text));
+        assert!(SearchTerms::new("").is_in(text) && SearchTerms::new("  imouse PICTURE ").is_in(text));
+        assert!(!SearchTerms::new("imouse keys").is_in(text));
         assert!(
             text::sections()
                 .iter()
-                .any(|s| s.paragraphs.iter().any(|p| Wanted::new("iuniform color3").is_in(p.text())))
+                .any(|s| s.paragraphs.iter().any(|p| SearchTerms::new("iuniform color3").is_in(p.text())))
         );
     }
 
@@ -186,7 +186,7 @@ mod tests {
     fn every_panel_is_in_the_help() {
         let sections = text::sections();
         for panel in Panel::all() {
-            let wanted = Wanted::new(panel.title());
+            let wanted = SearchTerms::new(panel.title());
             let is_there = sections.iter().any(|s| s.paragraphs.iter().any(|p| wanted.is_in(p.text())));
             assert!(is_there, "docs/using.md and docs/debugging.md do not speak of {}", panel.title());
         }

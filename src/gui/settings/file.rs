@@ -1,13 +1,13 @@
 //! The text of `settings.toml`: read, made anew, and changed in one line.
 
 use super::keys::{Change, KEYS, Settings};
-use crate::{gui::config_file::Mistake, project::nearest};
+use crate::{gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
 
 /// Returns the settings that a file's text gives, and all mistakes in it. What is wrong leaves a setting as it is at
 /// first.
-pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
+pub fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let mut settings = Settings::default();
     let mut mistakes = Vec::new();
     let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
@@ -15,13 +15,13 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
         Ok(document) => document,
         Err(error) => {
             let text = format!("{}; write lines like: theme = \"dark\"", error.message().trim_end());
-            return (settings, vec![Mistake { line: line(error.span()), text }]);
+            return (settings, vec![ConfigError { line: line(error.span()), text }]);
         }
     };
     let table = document.as_table();
     for (name, item) in table.iter() {
         let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
-        let mut wrong = |text: String| mistakes.push(Mistake { line: at, text });
+        let mut wrong = |text: String| mistakes.push(ConfigError { line: at, text });
         let Some(key) = KEYS.iter().find(|key| key.name == name) else {
             let mend = match nearest(name, KEYS.iter().map(|key| key.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
@@ -43,12 +43,12 @@ pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
 }
 
 /// Returns the text with one setting changed, and everything else as it was. Err: the text is none that can be changed.
-pub fn change(text: &str, change: &Change) -> Result<String, Mistake> {
+pub fn change(text: &str, change: &Change) -> Result<String, ConfigError> {
     const NOT_SAVED: &str = "your change in the window is not saved";
     let line = |at: usize| 1 + text[..at].matches('\n').count();
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
         let at = error.span().map_or(0, |s| s.start);
-        Mistake { line: line(at), text: format!("{}; {NOT_SAVED}", error.message().trim_end()) }
+        ConfigError { line: line(at), text: format!("{}; {NOT_SAVED}", error.message().trim_end()) }
     })?;
     let (name, value) = change.written();
     match document.get_mut(name) {
@@ -63,7 +63,10 @@ pub fn change(text: &str, change: &Change) -> Result<String, Mistake> {
             let document = Document::parse(text).ok();
             let key = document.as_ref().and_then(|document| document.as_table().key(name)?.span());
             let at = line(key.map_or(0, |span| span.start));
-            return Err(Mistake { line: at, text: format!("{name} takes one value: {name} = {value}; {NOT_SAVED}") });
+            return Err(ConfigError {
+                line: at,
+                text: format!("{name} takes one value: {name} = {value}; {NOT_SAVED}"),
+            });
         }
         _ => {
             if let Some(text) = uncommented(text, name, &value) {

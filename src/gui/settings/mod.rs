@@ -11,4 +11,4 @@ mod window_file;
 
 pub use keys::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, Settings, Theme};
 pub use settings_file::SettingsFile;
-pub use window_file::{Remembered, UsualSizes, WindowFile, WindowPlace};
+pub use window_file::{UsualSizes, WindowFile, WindowPlace, WindowState};

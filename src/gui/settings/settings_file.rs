@@ -4,7 +4,7 @@ use super::{
     file,
     keys::{Change, Settings},
 };
-use crate::gui::config_file::{ConfigFile, Content, Mistake};
+use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 
 /// The settings as the file says, if there is one.
 pub type SettingsFile = ConfigFile<Settings>;
@@ -13,7 +13,7 @@ impl Content for Settings {
     const NAME: &str = "settings.toml";
     const STAYS: &str = "The settings stay as they are.";
 
-    fn read(text: &str) -> (Self, Vec<Mistake>) {
+    fn read(text: &str) -> (Self, Vec<ConfigError>) {
         file::read(text)
     }
 

@@ -46,7 +46,7 @@ impl UsualSizes {
 
 /// Holds what is remembered of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Remembered {
+pub struct WindowState {
     pub place: WindowPlace,
     /// The panels that are open.
     pub open: Option<BTreeSet<Panel>>,
@@ -60,22 +60,22 @@ pub struct WindowFile {
     /// `None` where the system has no place for it.
     path: Option<PathBuf>,
     /// As it was read or written last.
-    known: Remembered,
+    known: WindowState,
 }
 
 impl WindowFile {
     /// `folder`: for what is remembered between two starts.
     pub fn new(folder: Option<PathBuf>) -> Self {
-        Self { path: folder.map(|folder| folder.join(NAME)), known: Remembered::default() }
+        Self { path: folder.map(|folder| folder.join(NAME)), known: WindowState::default() }
     }
 
     /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
-    pub fn read(&mut self) -> (Remembered, Vec<String>) {
+    pub fn read(&mut self) -> (WindowState, Vec<String>) {
         let Some(path) = &self.path else { return Default::default() };
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
-            Err(error) => return (Remembered::default(), vec![format!("{}: {error}", path.display())]),
+            Err(error) => return (WindowState::default(), vec![format!("{}: {error}", path.display())]),
         };
         let (remembered, mistakes) = read(&text);
         self.known = remembered.clone();
@@ -83,12 +83,12 @@ impl WindowFile {
         (remembered, mistakes.into_iter().map(with_place).collect())
     }
 
-    pub fn known(&self) -> &Remembered {
+    pub fn known(&self) -> &WindowState {
         &self.known
     }
 
     /// Writes the file if it would say something new.
-    pub fn keep(&mut self, remembered: Remembered) {
+    pub fn keep(&mut self, remembered: WindowState) {
         let Some(path) = &self.path else { return };
         if remembered == self.known {
             return;
@@ -101,8 +101,8 @@ impl WindowFile {
     }
 }
 
-fn text(remembered: &Remembered) -> String {
-    let Remembered { place, open, layout } = remembered;
+fn text(remembered: &WindowState) -> String {
+    let WindowState { place, open, layout } = remembered;
     let mut document = DocumentMut::new();
     let mut set = |name: &str, value: Value| drop(document.insert(name, Item::Value(value)));
     if let Some((width, height)) = place.size {
@@ -125,8 +125,8 @@ fn text(remembered: &Remembered) -> String {
     format!("{HEADER}{document}")
 }
 
-fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
-    let mut remembered = Remembered::default();
+fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
+    let mut remembered = WindowState::default();
     let mut mistakes = Vec::new();
     let document = match toml_edit::Document::parse(text) {
         Ok(document) => document,
@@ -170,12 +170,12 @@ fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
 mod tests {
     use super::*;
 
-    fn example() -> Remembered {
+    fn example() -> WindowState {
         let left = vec![
             (Node::Panel(Panel::Picture), 0.75),
             (Node::Tabs(vec![Node::Panel(Panel::Uniforms), Node::Panel(Panel::Costs)], 1), 0.25),
         ];
-        Remembered {
+        WindowState {
             place: WindowPlace { size: Some((1300.0, 800.0)), corner: Some((-10, 20)), is_maximized: true },
             open: Some(BTreeSet::from([Panel::Picture, Panel::Code, Panel::Costs])),
             layout: Some(Node::Row(vec![(Node::Column(left), 0.5), (Node::Panel(Panel::Code), 0.5)])),
@@ -201,7 +201,7 @@ mod tests {
     fn what_is_written_is_read_again() {
         let folder = tempfile::tempdir().unwrap();
         let mut file = WindowFile::new(Some(folder.path().join("eddy")));
-        assert_eq!(file.read(), (Remembered::default(), vec![]));
+        assert_eq!(file.read(), (WindowState::default(), vec![]));
         file.keep(example());
         let text = fs::read_to_string(folder.path().join("eddy").join(NAME)).unwrap();
         assert!(text.contains("layout = { row = [{ column = [\"picture\", { tabs = "), "{text}");
@@ -221,6 +221,6 @@ mod tests {
         assert_eq!(lines, [3, 4, 5], "{mistakes:?}");
         assert!(mistakes[2].1.ends_with("a panel is listed twice"), "{mistakes:?}");
         let (remembered, mistakes) = read("x = \n");
-        assert_eq!((remembered, mistakes.len()), (Remembered::default(), 1));
+        assert_eq!((remembered, mistakes.len()), (WindowState::default(), 1));
     }
 }

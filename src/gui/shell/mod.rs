@@ -8,7 +8,7 @@ mod panels;
 mod report;
 
 use super::{
-    actions::{Action, KeyFile, KeysHere, Listening},
+    actions::{Action, ActiveKeymap, KeyFile, KeyFocus},
     browser::Browser,
     channels::Live,
     code::CodePanel,
@@ -22,7 +22,7 @@ use super::{
     palette::Palette,
     questions,
     recorder::Recorder,
-    settings::{Change, Remembered, Settings, SettingsFile, Theme},
+    settings::{Change, Settings, SettingsFile, Theme, WindowState},
     settings_page::{Overridden, SettingsPage},
     thumbnails::Thumbnails,
     toasts,
@@ -149,7 +149,7 @@ impl Shell {
     pub fn restore(
         &mut self,
         settings: SettingsFile,
-        remembered: &Remembered,
+        remembered: &WindowState,
         keeps_frame_limit: bool,
         osc: Option<SocketAddr>,
     ) {
@@ -223,7 +223,7 @@ impl Shell {
         let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
         let is_read = self.is_back(ui) | looks;
         let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
-        let mut out = UiOutput::new(KeysHere::new(self.keys.keymap().clone(), self.listening(ui)));
+        let mut out = UiOutput::new(ActiveKeymap::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
             // What is mended is no news any more, and what is said anew is said once.
             let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
@@ -350,8 +350,8 @@ impl Shell {
     }
 
     /// Returns whose keys are listened to.
-    fn listening(&self, ctx: &egui::Context) -> Listening {
-        Listening {
+    fn listening(&self, ctx: &egui::Context) -> KeyFocus {
+        KeyFocus {
             code: self.code.has_keys(ctx),
             find_bar: self.code.is_finding(),
             trace: !self.gallery && self.dock.is_seen(Panel::Trace),

@@ -58,7 +58,7 @@ impl Shell {
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
             dock.show(
                 ui,
-                &mut Shown {
+                &mut PanelContents {
                     viewport,
                     code,
                     lab,
@@ -137,7 +137,7 @@ fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
 }
 
 /// Holds what is in the panels, while they are shown.
-struct Shown<'a> {
+struct PanelContents<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
@@ -153,7 +153,7 @@ struct Shown<'a> {
     out: &'a mut UiOutput,
 }
 
-impl Contents for Shown<'_> {
+impl Contents for PanelContents<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
         let Self { code, lab, kept, recorder, choices, thumbnails, live, under_picture, session, out, .. } = self;
         let margin = Margin { left: 8, right: 6, top: 2, bottom: 4 };
@@ -210,7 +210,7 @@ impl Contents for Shown<'_> {
     }
 }
 
-impl Shown<'_> {
+impl PanelContents<'_> {
     /// The picture with its bar below it. True: a hand begins to move them.
     fn picture(&mut self, ui: &mut Ui) -> bool {
         let p = theme::of(ui);

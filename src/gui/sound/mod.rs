@@ -12,7 +12,7 @@ use crate::{
     audio::{Peaks, TrackSpectrum},
     session::SoundView,
 };
-use range::Shown;
+use range::VisibleRange;
 
 /// The state of the panel.
 #[derive(Default)]
@@ -20,7 +20,7 @@ pub struct Sound {
     /// The outline of the newest track.
     peaks: Option<Peaks>,
     spectrum: TrackSpectrum,
-    shown: Shown,
+    shown: VisibleRange,
 }
 
 impl Sound {

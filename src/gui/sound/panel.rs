@@ -2,7 +2,7 @@
 
 use super::{
     Sound,
-    range::Shown,
+    range::VisibleRange,
     wave::{self, Wave},
 };
 use crate::{
@@ -91,9 +91,9 @@ fn progress(ui: &mut Ui, session: &Session, view: &SoundView) {
 }
 
 /// The wheel zooms around the pointer, or moves with Shift.
-fn zoom(shown: &mut Shown, ui: &Ui, response: &Response, rect: Rect) {
+fn zoom(shown: &mut VisibleRange, ui: &Ui, response: &Response, rect: Rect) {
     if response.double_clicked() {
-        *shown = Shown::default();
+        *shown = VisibleRange::default();
     }
     let Some(at) = response.hover_pos() else { return };
     let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta, input.zoom_delta()));

@@ -5,19 +5,19 @@ const SHORTEST: f64 = 0.01;
 
 /// Seconds from the beginning of the track to the left edge, and of the width.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct VisibleRange {
     pub from: f64,
     pub length: f64,
 }
 
-impl Default for Shown {
+impl Default for VisibleRange {
     /// All of it, however long it is.
     fn default() -> Self {
         Self { from: 0.0, length: f64::INFINITY }
     }
 }
 
-impl Shown {
+impl VisibleRange {
     /// Keeps it inside a track of so many seconds.
     pub fn within(self, whole: f64) -> Self {
         let length = self.length.clamp(SHORTEST, whole.max(SHORTEST));
@@ -49,13 +49,13 @@ mod tests {
 
     #[test]
     fn zooming_keeps_the_place_under_the_pointer_and_the_track_in_sight() {
-        let whole = Shown::default().within(180.0);
-        assert_eq!(whole, Shown { from: 0.0, length: 180.0 });
+        let whole = VisibleRange::default().within(180.0);
+        assert_eq!(whole, VisibleRange { from: 0.0, length: 180.0 });
         let zoomed = whole.zoomed(2.0, 0.75);
         assert_eq!(zoomed.from + 0.75 * zoomed.length, 135.0);
         assert_eq!(zoomed.length, 90.0);
         assert_eq!(zoomed.zoomed(0.5, 0.2).within(180.0), whole);
-        assert_eq!(zoomed.moved(9.0).within(180.0), Shown { from: 90.0, length: 90.0 });
+        assert_eq!(zoomed.moved(9.0).within(180.0), VisibleRange { from: 90.0, length: 90.0 });
         assert_eq!(zoomed.moved(-9.0).within(180.0).from, 0.0);
         assert_eq!(whole.zoomed(1e9, 0.5).within(180.0).length, SHORTEST);
         assert_eq!([step(0.003), step(7.0), step(1000.0)], [0.005, 10.0, 300.0]);

@@ -1,6 +1,6 @@
 //! The waveform and the spectrum, as they are painted.
 
-use super::range::{Shown, step};
+use super::range::{VisibleRange, step};
 use crate::{
     audio::{BINS, Peaks, SAMPLE_RATE, Spectrum},
     gui::theme::Palette,
@@ -17,7 +17,7 @@ pub struct Wave<'a> {
     pub painter: &'a Painter,
     pub palette: &'a Palette,
     pub rect: Rect,
-    pub shown: Shown,
+    pub shown: VisibleRange,
 }
 
 impl Wave<'_> {

@@ -31,7 +31,7 @@ const STEPS_BACK: i32 = 10;
 pub struct Live {
     gpu: Gpu,
     wake: Arc<dyn Fn() + Send + Sync>,
-    wanted: Arc<Wanted>,
+    wanted: Arc<LiveRequests>,
     /// `None` before the first one was wanted.
     frames: Option<Receiver<(String, ColorImage)>>,
     shown: Option<(String, TextureHandle)>,
@@ -39,7 +39,7 @@ pub struct Live {
 
 /// Holds what the thread shall draw.
 #[derive(Default)]
-struct Wanted {
+struct LiveRequests {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -127,7 +127,7 @@ impl Drop for Live {
     }
 }
 
-impl Wanted {
+impl LiveRequests {
     /// Waits until a preset is wanted; `None` at the end.
     fn next(&self) -> Option<String> {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -161,7 +161,7 @@ fn draw(
     window: &Gpu,
     device: &mut Option<Gpu>,
     name: &str,
-    wanted: &Wanted,
+    wanted: &LiveRequests,
     frames: &SyncSender<(String, ColorImage)>,
     wake: &(dyn Fn() + Send + Sync),
 ) -> Result<(), String> {

@@ -1,6 +1,6 @@
 //! Each small picture as the thread of thumbnails makes it.
 
-use super::Subject;
+use super::ThumbnailSource;
 use crate::{
     media::{self, Texels},
     project::{TexelFormat, presets},
@@ -22,19 +22,19 @@ const WAVE_SECONDS: u32 = 60;
 const RECENT_BYTES: u64 = 1 << 20;
 const RECENT_SIDE: u32 = 1024;
 
-pub(super) fn make(subject: &Subject) -> Result<ColorImage, String> {
+pub(super) fn make(subject: &ThumbnailSource) -> Result<ColorImage, String> {
     match subject {
-        Subject::Preset(name) => preset(name),
-        Subject::Recent(file, _) => recent(file),
-        Subject::Texture(key, folder) => {
+        ThumbnailSource::Preset(name) => preset(name),
+        ThumbnailSource::Recent(file, _) => recent(file),
+        ThumbnailSource::Texture(key, folder) => {
             let texels = media::load(key, folder.as_deref(), None).map_err(|e| e.to_string())?;
             Ok(swatch(&texels.flattened()))
         }
-        Subject::Video(media, folder) => {
+        ThumbnailSource::Video(media, folder) => {
             let texels = media::first_frame(media, folder.as_deref()).map_err(|e| e.to_string())?;
             Ok(swatch(&texels))
         }
-        Subject::Sound(media, folder) => {
+        ThumbnailSource::Sound(media, folder) => {
             let sound = media::begin_of_sound(media, folder.as_deref(), WAVE_SECONDS).map_err(|e| e.to_string())?;
             Ok(wave(&sound.outline(WAVE.0)))
         }

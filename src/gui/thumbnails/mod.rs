@@ -28,7 +28,7 @@ const LIST_AGAIN: Duration = Duration::from_secs(2);
 
 /// The subject of a small picture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Subject {
+pub enum ThumbnailSource {
     Preset(String),
     /// The file of a recent project's picture, and which of those that were written there it is.
     Recent(PathBuf, u64),
@@ -50,16 +50,16 @@ pub enum Thumbnail {
 }
 
 pub struct Thumbnails {
-    known: HashMap<Subject, Known>,
-    wanted: Sender<Wanted>,
-    made: Receiver<Made>,
+    known: HashMap<ThumbnailSource, CachedThumbnail>,
+    wanted: Sender<ThumbnailRequest>,
+    made: Receiver<ThumbnailResult>,
     live: Live,
     listed: Listed,
     /// Counts frames of the window.
     frame: u64,
 }
 
-struct Known {
+struct CachedThumbnail {
     thumbnail: Thumbnail,
     /// The frame of the window that showed it last.
     shown_in: u64,
@@ -74,18 +74,18 @@ struct Listed {
 }
 
 /// An order of the thread.
-enum Wanted {
-    Picture(Subject),
+enum ThumbnailRequest {
+    Picture(ThumbnailSource),
     Files(PathBuf),
 }
 
-enum Made {
-    Picture(Subject, Result<ColorImage, String>),
+enum ThumbnailResult {
+    Picture(ThumbnailSource, Result<ColorImage, String>),
     Files(PathBuf, Vec<FolderFile>),
 }
 
 /// Returns the newest order, as what was scrolled away is not looked at. `None`: nobody asks any more.
-fn newest(orders: &Receiver<Wanted>, waiting: &mut Vec<Wanted>) -> Option<Wanted> {
+fn newest(orders: &Receiver<ThumbnailRequest>, waiting: &mut Vec<ThumbnailRequest>) -> Option<ThumbnailRequest> {
     if waiting.is_empty() {
         waiting.push(orders.recv().ok()?);
     }
@@ -96,21 +96,21 @@ fn newest(orders: &Receiver<Wanted>, waiting: &mut Vec<Wanted>) -> Option<Wanted
 impl Thumbnails {
     /// Starts the thread that makes them. `wake` is called when there is a new one.
     pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
-        let (wanted, wanted_here) = channel::<Wanted>();
+        let (wanted, wanted_here) = channel::<ThumbnailRequest>();
         let (made_here, made) = channel();
         let live = Live::new(gpu, wake.clone());
         let work = move || {
             let mut waiting = Vec::new();
             while let Some(wanted) = newest(&wanted_here, &mut waiting) {
                 let made = match wanted {
-                    Wanted::Picture(subject) => {
+                    ThumbnailRequest::Picture(subject) => {
                         // A panic is this picture's alone; the others are still wanted.
                         let image = catch_unwind(AssertUnwindSafe(|| made::make(&subject)));
-                        Made::Picture(subject, image.unwrap_or_else(|_| Err("this is a bug in Eddy".into())))
+                        ThumbnailResult::Picture(subject, image.unwrap_or_else(|_| Err("this is a bug in Eddy".into())))
                     }
-                    Wanted::Files(folder) => {
+                    ThumbnailRequest::Files(folder) => {
                         let files = folder::files(&folder);
-                        Made::Files(folder, files)
+                        ThumbnailResult::Files(folder, files)
                     }
                 };
                 if made_here.send(made).is_err() {
@@ -131,17 +131,19 @@ impl Thumbnails {
         self.frame += 1;
         while let Ok(made) = self.made.try_recv() {
             match made {
-                Made::Picture(subject, image) => {
+                ThumbnailResult::Picture(subject, image) => {
                     let thumbnail = match image {
                         Ok(image) => {
                             Thumbnail::Ready(ctx.load_texture(format!("{subject:?}"), image, TextureOptions::LINEAR))
                         }
                         Err(e) => Thumbnail::Failed(e),
                     };
-                    self.known.insert(subject, Known { thumbnail, shown_in: self.frame });
+                    self.known.insert(subject, CachedThumbnail { thumbnail, shown_in: self.frame });
                 }
-                Made::Files(folder, files) if folder == self.listed.folder => self.listed.files = files.into(),
-                Made::Files(..) => {}
+                ThumbnailResult::Files(folder, files) if folder == self.listed.folder => {
+                    self.listed.files = files.into()
+                }
+                ThumbnailResult::Files(..) => {}
             }
         }
         self.forget_the_oldest();
@@ -159,22 +161,22 @@ impl Thumbnails {
     }
 
     /// The picture, as far as it is known; asks for it the first time.
-    pub fn get(&mut self, subject: Subject) -> Thumbnail {
+    pub fn get(&mut self, subject: ThumbnailSource) -> Thumbnail {
         let shown_in = self.frame;
         if let Some(known) = self.known.get_mut(&subject) {
             known.shown_in = shown_in;
             return known.thumbnail.clone();
         }
-        if self.wanted.send(Wanted::Picture(subject.clone())).is_err() {
+        if self.wanted.send(ThumbnailRequest::Picture(subject.clone())).is_err() {
             let thumbnail = Thumbnail::Failed("the thumbnail thread has ended".into());
-            self.known.insert(subject, Known { thumbnail, shown_in });
+            self.known.insert(subject, CachedThumbnail { thumbnail, shown_in });
             return Thumbnail::Waiting;
         }
         // The picture that was there before has served.
-        if let Subject::Recent(file, _) = &subject {
-            self.known.retain(|known, _| !matches!(known, Subject::Recent(other, _) if other == file));
+        if let ThumbnailSource::Recent(file, _) = &subject {
+            self.known.retain(|known, _| !matches!(known, ThumbnailSource::Recent(other, _) if other == file));
         }
-        self.known.insert(subject, Known { thumbnail: Thumbnail::Waiting, shown_in });
+        self.known.insert(subject, CachedThumbnail { thumbnail: Thumbnail::Waiting, shown_in });
         Thumbnail::Waiting
     }
 
@@ -185,7 +187,7 @@ impl Thumbnails {
             self.listed = Listed { folder: folder.to_owned(), ..Listed::default() };
         }
         let is_due = self.listed.asked_at.is_none_or(|at| now.saturating_duration_since(at) >= LIST_AGAIN);
-        if is_due && self.wanted.send(Wanted::Files(folder.to_owned())).is_ok() {
+        if is_due && self.wanted.send(ThumbnailRequest::Files(folder.to_owned())).is_ok() {
             self.listed.asked_at = Some(now);
         }
         self.listed.files.clone()
@@ -193,8 +195,8 @@ impl Thumbnails {
 
     /// Forgets pictures that have not been shown for the longest time, where there are more than are kept.
     fn forget_the_oldest(&mut self) {
-        let is_counted = |(subject, known): &(&Subject, &Known)| {
-            !matches!(subject, Subject::Preset(_)) && !matches!(known.thumbnail, Thumbnail::Waiting)
+        let is_counted = |(subject, known): &(&ThumbnailSource, &CachedThumbnail)| {
+            !matches!(subject, ThumbnailSource::Preset(_)) && !matches!(known.thumbnail, Thumbnail::Waiting)
         };
         let counted = self.known.iter().filter(is_counted);
         let mut shown: Vec<u64> = counted.map(|(_, known)| known.shown_in).collect();

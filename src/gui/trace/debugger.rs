@@ -1,6 +1,6 @@
 //! The state of the debugger, and what its keys do.
 
-use super::moment::{AtMoment, Rows};
+use super::moment::{MomentState, Rows};
 use crate::{
     debugger::trace::{
         Breakpoint, Examiner, Printed, Traced,
@@ -28,7 +28,7 @@ pub struct Debugger {
     /// The variable that is plotted; none: the first that changes.
     pub(super) plotted: Option<String>,
     /// Holds what there is to see at the moment.
-    pub(super) seen: Option<AtMoment>,
+    pub(super) seen: Option<MomentState>,
     /// The rows of the moment before: most moments are in its loop.
     rows: Option<Rows>,
     pub(super) printed: Option<Vec<Printed>>,
@@ -66,11 +66,11 @@ impl Debugger {
     }
 
     /// Finds what there is to see, unless it is known.
-    pub(super) fn look(&mut self) -> Option<&AtMoment> {
+    pub(super) fn look(&mut self) -> Option<&MomentState> {
         let examiner = self.examiner.as_mut()?;
         if self.seen.is_none() {
             let of = (&self.watches[..], &self.breakpoints[..]);
-            self.seen = Some(AtMoment::new(examiner, self.at, self.before, of, self.rows.take()));
+            self.seen = Some(MomentState::new(examiner, self.at, self.before, of, self.rows.take()));
         }
         self.seen.as_ref()
     }

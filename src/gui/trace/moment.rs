@@ -1,7 +1,7 @@
 //! Owns what there is to see at a moment, found once for it.
 
 use crate::{
-    debugger::trace::{Breakpoint, Examiner, Number, Shown, Turn, Value, Watched},
+    debugger::trace::{Breakpoint, Examiner, Iteration, NamedValue, Number, Value, Watched},
     project::Tab,
 };
 
@@ -12,7 +12,7 @@ const MOST_TURNS: usize = 2000;
 /// Variables of a loop's table.
 const COLUMNS: usize = 6;
 
-pub struct AtMoment {
+pub struct MomentState {
     pub variables: Vec<Variable>,
     pub watches: Vec<Watched>,
     /// The calls that it lies in, with moments to go to.
@@ -27,7 +27,7 @@ pub struct AtMoment {
 }
 
 pub struct Variable {
-    pub shown: Shown,
+    pub shown: NamedValue,
     /// It is another than at the moment that was shown before.
     pub is_changed: bool,
 }
@@ -43,7 +43,7 @@ pub struct Rows {
 }
 
 pub struct Row {
-    pub turn: Turn,
+    pub turn: Iteration,
     pub values: Vec<Option<Value>>,
 }
 
@@ -53,7 +53,7 @@ impl Rows {
     }
 }
 
-impl AtMoment {
+impl MomentState {
     /// Returns what there is to see at a moment, and what has changed since the one that was shown before.
     pub fn new(
         examiner: &mut Examiner,
@@ -89,7 +89,7 @@ impl AtMoment {
             Some(rows) if rows.first() == first => rows,
             _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
         };
-        AtMoment {
+        MomentState {
             variables,
             watches,
             stack,
@@ -108,7 +108,7 @@ fn is_same(a: &Value, b: &Value) -> bool {
 }
 
 /// The variables that change from turn to turn, no more than there is room for: numbers before vectors.
-fn table(turns: Vec<(Turn, Vec<Shown>)>) -> Rows {
+fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
     let mut names: Vec<(usize, String)> = Vec::new();
     for (_, values) in &turns {
         for shown in values {
@@ -116,7 +116,7 @@ fn table(turns: Vec<(Turn, Vec<Shown>)>) -> Rows {
             if count > 4 || names.iter().any(|(_, name)| *name == shown.name) {
                 continue;
             }
-            let find = |values: &[Shown]| values.iter().find(|other| other.name == shown.name).cloned();
+            let find = |values: &[NamedValue]| values.iter().find(|other| other.name == shown.name).cloned();
             let changes = turns.iter().any(|(_, other)| find(other).is_none_or(|o| !is_same(&o.value, &shown.value)));
             if changes || turns.len() == 1 {
                 names.push((count, shown.name.clone()));

@@ -6,7 +6,7 @@ use super::{
     divergence,
     moment::words,
     parts,
-    rows::{self, Asked},
+    rows::{self, RowAction},
 };
 use crate::{
     debugger::trace::{MomentKind, Traced},
@@ -106,7 +106,7 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
         let mut words = format!("{} at {x},{y} in frame {}", traced.pass.title(), traced.frame);
         if let Some(moment) = traced.history.moments.get(at) {
             words += &match moment.kind {
-                MomentKind::Turn(turn) => format!(" · iteration {turn}"),
+                MomentKind::Iteration(turn) => format!(" · iteration {turn}"),
                 MomentKind::Return => " · returns".to_owned(),
                 _ => String::new(),
             };
@@ -205,8 +205,8 @@ fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let plotted = debugger.plotted.clone();
     let Some(seen) = debugger.look().filter(|seen| !seen.rows.rows.is_empty()) else { return };
     match rows::show(ui, &seen.rows, plotted.as_deref(), out) {
-        Some(Asked::GoTo(at)) => debugger.go_to(at),
-        Some(Asked::Plot(name)) => debugger.plotted = Some(name),
+        Some(RowAction::GoTo(at)) => debugger.go_to(at),
+        Some(RowAction::Plot(name)) => debugger.plotted = Some(name),
         None => {}
     }
 }

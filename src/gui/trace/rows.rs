@@ -13,14 +13,14 @@ const FIRST: f32 = 40.0;
 const PLOT: f32 = 64.0;
 
 /// Says what was asked for in the table.
-pub enum Asked {
+pub enum RowAction {
     /// A moment to go to.
     GoTo(usize),
     /// Another variable over the turns.
     Plot(String),
 }
 
-pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<Asked> {
+pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<RowAction> {
     let mut asked = None;
     let more = if rows.is_cut { ", the first" } else { "" };
     ui.horizontal(|ui| {
@@ -72,7 +72,7 @@ pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput)
                 }
             }
             if out.clicked(&format!("trace:turn:{}", index + 1), &response) {
-                asked = Some(Asked::GoTo(row.turn.first));
+                asked = Some(RowAction::GoTo(row.turn.first));
             }
         }
     });
@@ -90,13 +90,13 @@ fn chosen(rows: &Rows, plotted: Option<&str>) -> Option<usize> {
     rows.names.iter().position(is_asked).or(first).or((!rows.names.is_empty()).then_some(0))
 }
 
-fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<Asked> {
+fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<RowAction> {
     let current = chosen(rows, plotted)?;
     let mut asked = None;
     let combo = ComboBox::from_id_salt("plotted").width(90.0).selected_text(&rows.names[current]).show_ui(ui, |ui| {
         for (index, name) in rows.names.iter().enumerate() {
             if ui.selectable_label(index == current, name).clicked() {
-                asked = Some(Asked::Plot(name.clone()));
+                asked = Some(RowAction::Plot(name.clone()));
             }
         }
     });

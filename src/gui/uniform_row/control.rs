@@ -4,7 +4,7 @@ use super::parts::{child, components};
 use crate::{
     gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
     project::{ControlTarget, CustomUniform},
-    session::{Command, Session, Waits},
+    session::{Command, PickupSide, Session},
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
@@ -27,8 +27,8 @@ pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String>
         let control = match session.control_of(&target) {
             _ if session.is_learning(&target) => "touch a control…".to_owned(),
             control => match (control?.label(), session.control_waits(&target)) {
-                (label, Some(Waits::Below)) => format!("turn up {label}"),
-                (label, Some(Waits::Above)) => format!("turn down {label}"),
+                (label, Some(PickupSide::Below)) => format!("turn up {label}"),
+                (label, Some(PickupSide::Above)) => format!("turn down {label}"),
                 (label, None) => label,
             },
         };

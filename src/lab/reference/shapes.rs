@@ -28,7 +28,7 @@ pub enum Shape {
 
 /// A shape somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
+pub struct PlacedShape {
     pub shape: Shape,
     pub centre: V,
     /// Its own x, y and z in the scene.
@@ -50,7 +50,7 @@ pub fn turned(x: f64, y: f64) -> [V; 3] {
     about_x.map(|[a, b, c]| [cy * a + sy * c, b, cy * c - sy * a])
 }
 
-impl Placed {
+impl PlacedShape {
     fn own(&self, v: V) -> V {
         self.axes.map(|axis| dot(axis, v))
     }
@@ -109,13 +109,13 @@ impl Placed {
 }
 
 /// The first surface that a ray meets, and the shape's number.
-pub fn first_hit(shapes: &[Placed], from: V, d: V) -> Option<(f64, usize)> {
+pub fn first_hit(shapes: &[PlacedShape], from: V, d: V) -> Option<(f64, usize)> {
     let hits = shapes.iter().enumerate().filter_map(|(i, s)| Some((s.spans(from, d).first()?.0, i)));
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// Returns whether nothing is between the eye and a point of a line.
-pub fn is_seen(shapes: &[Placed], eye: V, point: LinePoint) -> bool {
+pub fn is_seen(shapes: &[PlacedShape], eye: V, point: LinePoint) -> bool {
     // A hair beside the surface, so that the shape's own rim does not count.
     let to = along(along(point.at, point.out, 1e-4), eye, -1.0);
     first_hit(shapes, eye, to).is_none_or(|(t, _)| t > 1.0 - 1e-6)
@@ -227,8 +227,8 @@ fn cross(a: V, b: V) -> V {
 mod tests {
     use super::*;
 
-    fn each() -> [Placed; 3] {
-        [Shape::Sphere(0.7), Shape::Cuboid([0.5, 0.6, 0.4]), Shape::Torus(0.8, 0.3)].map(|shape| Placed {
+    fn each() -> [PlacedShape; 3] {
+        [Shape::Sphere(0.7), Shape::Cuboid([0.5, 0.6, 0.4]), Shape::Torus(0.8, 0.3)].map(|shape| PlacedShape {
             shape,
             centre: [0.2, -0.1, -5.0],
             axes: turned(35.0, 20.0),
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn what_is_behind_is_hidden() {
         let [sphere, ..] = each();
-        let behind = Placed { centre: [0.4, -0.2, -10.0], ..sphere };
+        let behind = PlacedShape { centre: [0.4, -0.2, -10.0], ..sphere };
         let hidden = |p: &LinePoint| !is_seen(&[sphere, behind], [0.0; 3], *p);
         assert!(behind.lines([0.0; 3], 30).iter().all(hidden));
         assert!(!sphere.lines([0.0; 3], 30).iter().any(hidden));

@@ -1,8 +1,8 @@
 //! Lists the cases of what is done to a project, from what it is by itself to what is unlikely.
 
 use super::{
-    Subject,
-    inputs::{Hand, Steps},
+    CheckedProject,
+    inputs::{MouseGesture, Steps},
     pairs,
 };
 use crate::{Extent, stability_record::Kind};
@@ -31,7 +31,7 @@ pub struct Case {
     pub every: u32,
     /// Sliders that are not at their defaults.
     pub values: CustomUniformValues,
-    pub hand: Hand,
+    pub hand: MouseGesture,
     pub steps: Steps,
     /// New sizes, each before a frame.
     pub resizes: Vec<(u32, (u32, u32))>,
@@ -133,7 +133,7 @@ pub fn base(extent: Extent) -> (u32, u32) {
 
 /// Everything that is done to a project on a canvas of this size, in the order in which it is done. A project without a
 /// state has neither recovery nor drift: it is drawn for fewer frames, and left out of what is done to a state.
-pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
+pub fn list(subject: &CheckedProject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     let mut m = Measure { base, ..if extent == Extent::Quick { QUICK } else { FULL } };
     let has_state = !subject.stateful().is_empty();
     if !has_state {
@@ -163,7 +163,7 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
         let name = format!("{}x{}, dragged", size.0, size.1);
         let (from, to) = (m.size_frames / 4, m.size_frames / 2);
         let case = Case::new(Kind::Size, name, size, m.size_frames, m.every).disturbed(from, to);
-        cases.push(Case { hand: Hand::Across, ..case });
+        cases.push(Case { hand: MouseGesture::Across, ..case });
     }
     for row in pairs::rows(sliders.len(), m.most, SEED).into_iter().filter(|row| row.len() > 1) {
         let values = row.iter().map(|(n, is_high)| (sliders[*n].name.clone(), end(&sliders[*n], *is_high))).collect();
@@ -195,7 +195,7 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
 
 /// Counts the pairs of ends of a project's sliders: those that the drawn cases have among what they turn, and all there
 /// are.
-pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
+pub fn coverage(subject: &CheckedProject, drawn: &[Case]) -> (usize, usize) {
     let sliders = subject.sliders();
     let row = |case: &Case| -> Vec<pairs::End> {
         let ends = (0..sliders.len()).flat_map(|n| [(n, false), (n, true)]);
@@ -205,7 +205,7 @@ pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
     (seen.len(), pairs::all(sliders.len()).len())
 }
 
-fn courant(subject: &Subject, sliders: &[CustomUniform], m: &Measure, cases: &mut Vec<Case>) {
+fn courant(subject: &CheckedProject, sliders: &[CustomUniform], m: &Measure, cases: &mut Vec<Case>) {
     let Some(courant) = subject.courant else { return };
     let Some(slider) = sliders.iter().find(|k| k.name == courant.slider) else { return };
     for &cells in m.courant {
@@ -226,7 +226,7 @@ impl Measure {
 }
 
 fn drags(m: &Measure, cases: &mut Vec<Case>) {
-    for (hand, name) in Hand::DRAGS {
+    for (hand, name) in MouseGesture::DRAGS {
         cases.push(Case { hand, ..m.disturbance(Kind::Drag, name, m.drag) });
     }
 }
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn cases_have_names_of_their_own_and_every_slider_is_at_both_ends() {
         for name in super::super::presets::NAMES {
-            let subject = Subject::load(name, &[]).unwrap();
+            let subject = CheckedProject::load(name, &[]).unwrap();
             for extent in [Extent::Quick, Extent::Full] {
                 let cases = list(&subject, extent, base(extent));
                 let names: BTreeSet<&str> = cases.iter().map(|c| c.name.as_str()).collect();
@@ -302,7 +302,7 @@ mod tests {
     #[test]
     fn whole_numbers_between_the_ends_are_drawn_where_they_are_few() {
         let inner = |name: &str| -> Vec<String> {
-            let subject = Subject::load(name, &[]).unwrap();
+            let subject = CheckedProject::load(name, &[]).unwrap();
             let cases = list(&subject, Extent::Full, base(Extent::Full));
             cases.into_iter().filter(|c| c.kind == Kind::Inner).map(|c| c.name).collect()
         };
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn the_box_with_its_lid_and_viscosities_of_a_large_canvas_are_drawn() {
-        let subject = Subject::load("fluid-accurate", &[]).unwrap();
+        let subject = CheckedProject::load("fluid-accurate", &[]).unwrap();
         let cases = list(&subject, Extent::Full, base(Extent::Full));
         let lids = cases.iter().filter(|c| c.name.contains("lid_speed") && c.name.contains("walls=1"));
         assert_eq!(lids.count(), 10);
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn a_filter_is_not_asked_for_what_only_a_state_can_do() {
-        let subject = Subject::load("gaussian-blur", &[]).unwrap();
+        let subject = CheckedProject::load("gaussian-blur", &[]).unwrap();
         let cases = list(&subject, Extent::Full, base(Extent::Full));
         let has = |kind| cases.iter().any(|c| c.kind == kind);
         assert!(has(Kind::Untouched) && has(Kind::End) && has(Kind::Drag) && has(Kind::Size) && has(Kind::Pairs));
@@ -339,7 +339,7 @@ mod tests {
 
     #[test]
     fn all_pairs_of_ends_are_among_the_cases() {
-        let subject = Subject::load("mip-fluid", &[]).unwrap();
+        let subject = CheckedProject::load("mip-fluid", &[]).unwrap();
         let sliders = subject.sliders();
         for extent in [Extent::Quick, Extent::Full] {
             let cases = list(&subject, extent, base(extent));

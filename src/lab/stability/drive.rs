@@ -2,15 +2,15 @@
 //! to find the frame in which that happened.
 
 use super::{
-    Case, Subject,
+    Case, CheckedProject,
     cases::Broken,
-    check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
+    check::{self, Allowed, Area, CaseConditions, Check, Found, HARD_LIMIT},
     inputs::Inputs,
     judge,
 };
 use crate::{
     LabError, Number,
-    stability_record::{Offence, Outcome, Recovery, StabilityRecord},
+    stability_record::{Outcome, Recovery, StabilityRecord, Violation},
 };
 use eddy_engine::{BuildOptions, Engine, Pixels, Program};
 use eddy_gpu::Gpu;
@@ -25,7 +25,7 @@ const RECOVERED: f64 = 1.1;
 
 /// A subject that is compiled once, and drawn case by case.
 pub struct Driver<'s> {
-    subject: &'s Subject,
+    subject: &'s CheckedProject,
     engine: Engine,
     state: Vec<PassId>,
     /// Largest root mean square of each check without any disturbance, by size and frames.
@@ -42,7 +42,7 @@ struct Run<'d, 's, 'c> {
 
 impl<'s> Driver<'s> {
     /// Compiles. Fails with the author's diagnostics.
-    pub fn new(gpu: &Gpu, subject: &'s Subject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
+    pub fn new(gpu: &Gpu, subject: &'s CheckedProject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
         let mut wanted: Vec<PassId> = vec![PassId::Image];
         wanted.extend(subject.checks.iter().map(|c| c.pass.clone()));
         wanted.extend(subject.stateful());
@@ -58,8 +58,8 @@ impl<'s> Driver<'s> {
     /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the
     /// record.
     pub fn measure(&mut self, case: &Case) -> StabilityRecord {
-        let situation = judge::situation(self.subject, case);
-        let excuses = self.subject.excuses(&situation);
+        let conditions = judge::conditions(self.subject, case);
+        let excuses = self.subject.excuses(&conditions);
         let mut record = StabilityRecord {
             project: self.subject.name.clone(),
             texts: self.subject.fingerprint(),
@@ -71,14 +71,14 @@ impl<'s> Driver<'s> {
             excuses,
             ..StabilityRecord::default()
         };
-        if let Err(trouble) = self.fill(case, &situation, &mut record) {
+        if let Err(trouble) = self.fill(case, &conditions, &mut record) {
             record.trouble = Some(trouble.to_string());
             record.outcome = None;
         }
         record
     }
 
-    fn fill(&mut self, case: &Case, situation: &Situation, record: &mut StabilityRecord) -> Result<(), LabError> {
+    fn fill(&mut self, case: &Case, conditions: &CaseConditions, record: &mut StabilityRecord) -> Result<(), LabError> {
         let calm = match case.disturbed {
             Some(_) => self.calm(case)?,
             None => Vec::new(),
@@ -90,14 +90,14 @@ impl<'s> Driver<'s> {
             if !case.is_checked(frame) {
                 continue;
             }
-            let all = run.look(situation)?;
+            let all = run.look(conditions)?;
             seen.take(frame, &all, case, &calm);
         }
         let subject = self.subject;
         record.outcome = Some(match (seen.left, seen.excused) {
             // What was outside after the frame before is known; when it left lies in between.
-            (Some(at), _) => Outcome::Left(self.first(case, situation, at, |l| l.is_left)?),
-            (None, Some(at)) => Outcome::LeftAsExpected(self.first(case, situation, at, |_| true)?),
+            (Some(at), _) => Outcome::Left(self.first(case, conditions, at, |l| l.is_left)?),
+            (None, Some(at)) => Outcome::LeftAsExpected(self.first(case, conditions, at, |_| true)?),
             (None, None) => Outcome::Held,
         });
         for (check, (low, high)) in subject.checks.iter().zip(&seen.extremes) {
@@ -115,7 +115,7 @@ impl<'s> Driver<'s> {
         if let Some(courant) = subject.courant
             && let Some((_, high)) = seen.extremes.get(courant.speed)
         {
-            record.courant = Some(Number((courant.cells)(*high, situation)));
+            record.courant = Some(Number((courant.cells)(*high, conditions)));
         }
         Ok(())
     }
@@ -124,10 +124,10 @@ impl<'s> Driver<'s> {
     fn first(
         &mut self,
         case: &Case,
-        situation: &Situation,
+        conditions: &CaseConditions,
         at: (u32, u32),
-        counts: impl Fn(&Looked) -> bool,
-    ) -> Result<Offence, LabError> {
+        counts: impl Fn(&FrameCheck) -> bool,
+    ) -> Result<Violation, LabError> {
         let mut run = self.begin(case)?;
         let mut last = None;
         while run.frame <= at.1 {
@@ -135,11 +135,11 @@ impl<'s> Driver<'s> {
             if frame < at.0 {
                 continue;
             }
-            let all = run.look(situation)?;
+            let all = run.look(conditions)?;
             let found = all.iter().enumerate().find(|(_, l)| l.offence.is_some() && counts(l));
             if let Some((n, looked)) = found {
                 let check = &run.driver.subject.checks[n];
-                last = looked.offence.map(|worst| Offence {
+                last = looked.offence.map(|worst| Violation {
                     frame,
                     pass: check.pass.key(),
                     quantity: check.quantity.name(),
@@ -162,13 +162,13 @@ impl<'s> Driver<'s> {
             return Ok(known.clone());
         }
         let twin = Case { disturbed: None, poison: None, resizes: Vec::new(), ..case.clone() };
-        let situation = judge::situation(self.subject, &twin);
+        let conditions = judge::conditions(self.subject, &twin);
         let mut most = vec![0.0f64; self.subject.checks.len()];
         let mut run = self.begin(&twin)?;
         while run.frame < twin.frames {
             let frame = run.draw()?;
             if twin.is_checked(frame) {
-                for (most, looked) in most.iter_mut().zip(run.look(&situation)?) {
+                for (most, looked) in most.iter_mut().zip(run.look(&conditions)?) {
                     *most = most.max(looked.found.rms);
                 }
             }
@@ -188,11 +188,11 @@ impl<'s> Driver<'s> {
 }
 
 /// A check after a frame.
-struct Looked {
+struct FrameCheck {
     found: Found,
     allowed: Allowed,
     /// Outside of the range, or, where that may be left, of what everything must keep.
-    offence: Option<check::Worst>,
+    offence: Option<check::WorstTexel>,
     /// It ought to have been kept.
     is_left: bool,
 }
@@ -226,27 +226,27 @@ impl Run<'_, '_, '_> {
     }
 
     /// Every check, of the newest texels.
-    fn look(&mut self, situation: &Situation) -> Result<Vec<Looked>, LabError> {
+    fn look(&mut self, conditions: &CaseConditions) -> Result<Vec<FrameCheck>, LabError> {
         let engine = &mut self.driver.engine;
-        let situation = Situation { size: engine.size(), ..situation.clone() };
+        let conditions = CaseConditions { size: engine.size(), ..conditions.clone() };
         let mut read: BTreeMap<&PassId, Pixels> = BTreeMap::new();
         let mut all = Vec::new();
         for check in &self.driver.subject.checks {
             if !read.contains_key(&check.pass) {
                 read.insert(&check.pass, engine.read(&check.pass)?);
             }
-            all.push(look(check, &read[&check.pass], &situation));
+            all.push(look(check, &read[&check.pass], &conditions));
         }
         Ok(all)
     }
 }
 
-fn look(check: &Check, pixels: &Pixels, situation: &Situation) -> Looked {
-    let allowed = check.allowed(situation);
+fn look(check: &Check, pixels: &Pixels, conditions: &CaseConditions) -> FrameCheck {
+    let allowed = check.allowed(conditions);
     let found = check::find(check.quantity, check.area, pixels, allowed.low, allowed.high);
     let is_excused = allowed.excuse.is_some();
     let is_wild = found.worst.is_some_and(|w| !w.value.is_finite() || w.value.abs() > HARD_LIMIT.max(allowed.high));
-    Looked { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
+    FrameCheck { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
 }
 
 /// Holds what the checked frames of a run came to.
@@ -265,7 +265,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn take(&mut self, frame: u32, all: &[Looked], case: &Case, calm: &[f64]) {
+    fn take(&mut self, frame: u32, all: &[FrameCheck], case: &Case, calm: &[f64]) {
         if self.extremes.is_empty() {
             self.extremes = vec![(f64::INFINITY, f64::NEG_INFINITY); all.len()];
         }
@@ -283,7 +283,7 @@ impl Seen {
         }
         self.before = frame + 1;
         if case.disturbed.is_some_and(|(_, end)| frame >= end) {
-            let is_lively = |(looked, calm): (&Looked, &f64)| looked.found.rms > RECOVERED * calm + 1e-6;
+            let is_lively = |(looked, calm): (&FrameCheck, &f64)| looked.found.rms > RECOVERED * calm + 1e-6;
             if all.iter().any(|l| l.is_left) || all.iter().zip(calm).any(is_lively) {
                 (self.restless, self.calm_since) = (Some(frame), None);
             } else {

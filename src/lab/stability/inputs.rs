@@ -9,7 +9,7 @@ const FRAMES_A_SECOND: f64 = 60.0;
 /// Says what the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
 /// frame after.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Hand {
+pub enum MouseGesture {
     #[default]
     Away,
     /// Half of the canvas, in one even stroke.
@@ -22,12 +22,12 @@ pub enum Hand {
     Across,
 }
 
-impl Hand {
-    pub const DRAGS: [(Hand, &'static str); 4] = [
-        (Hand::Slow, "slow drag"),
-        (Hand::Fast, "fast drag"),
-        (Hand::Edge, "drag held at an edge"),
-        (Hand::Across, "drag across the whole picture in a frame"),
+impl MouseGesture {
+    pub const DRAGS: [(MouseGesture, &'static str); 4] = [
+        (MouseGesture::Slow, "slow drag"),
+        (MouseGesture::Fast, "fast drag"),
+        (MouseGesture::Edge, "drag held at an edge"),
+        (MouseGesture::Across, "drag across the whole picture in a frame"),
     ];
 
     /// Returns where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from
@@ -36,14 +36,14 @@ impl Hand {
         let (w, h) = (f64::from(size.0), f64::from(size.1));
         let part = f64::from(t) / f64::from(frames.max(1));
         let (x, y) = match self {
-            Hand::Away => (0.0, 0.0),
-            Hand::Slow => (w * (0.25 + 0.5 * part), h * (0.5 + 0.1 * (6.0 * part).sin())),
-            Hand::Fast => {
+            MouseGesture::Away => (0.0, 0.0),
+            MouseGesture::Slow => (w * (0.25 + 0.5 * part), h * (0.5 + 0.1 * (6.0 * part).sin())),
+            MouseGesture::Fast => {
                 let there = f64::from(t % 16) / 8.0;
                 (w * (0.1 + 0.8 * there.min(2.0 - there)), h * (0.2 + 0.6 * part))
             }
-            Hand::Edge => (w * (0.2 - 0.03 * f64::from(t)).max(-0.1), h * (0.5 + 0.45 * (12.0 * part).sin())),
-            Hand::Across => match t % 4 {
+            MouseGesture::Edge => (w * (0.2 - 0.03 * f64::from(t)).max(-0.1), h * (0.5 + 0.45 * (12.0 * part).sin())),
+            MouseGesture::Across => match t % 4 {
                 0 => (1.0, 1.0),
                 1 => (w - 2.0, h - 2.0),
                 2 => (1.0, h - 2.0),
@@ -91,7 +91,7 @@ impl Steps {
 
 /// The inputs of one frame after the other.
 pub struct Inputs {
-    hand: Hand,
+    hand: MouseGesture,
     steps: Steps,
     /// Frames from the first to before the last.
     disturbed: Option<(u32, u32)>,
@@ -102,7 +102,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    pub fn new(hand: Hand, steps: Steps, disturbed: Option<(u32, u32)>) -> Inputs {
+    pub fn new(hand: MouseGesture, steps: Steps, disturbed: Option<(u32, u32)>) -> Inputs {
         Inputs { hand, steps, disturbed, frame: 0, seconds: 0.0, mouse: [0.0, 0.0, -0.0, -0.0], drag: [0.0; 2] }
     }
 
@@ -112,7 +112,7 @@ impl Inputs {
         let t = since.map(|(from, _)| self.frame - from);
         let delta = self.steps.seconds(t);
         match (t, since) {
-            (Some(t), Some((from, to))) if self.hand != Hand::Away => {
+            (Some(t), Some((from, to))) if self.hand != MouseGesture::Away => {
                 let [x, y] = self.hand.at(t, to - from, size);
                 if t > 0 {
                     self.drag = [self.drag[0] + x - self.mouse[0], self.drag[1] + y - self.mouse[1]];
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_drag_is_pressed_once_held_and_released() {
-        let mut inputs = Inputs::new(Hand::Across, Steps::Usual, Some((2, 5)));
+        let mut inputs = Inputs::new(MouseGesture::Across, Steps::Usual, Some((2, 5)));
         let mice: Vec<[f32; 4]> = (0..7).map(|_| inputs.next((64, 36)).mouse).collect();
         assert_eq!(mice[2], [1.0, 1.0, 1.0, 1.0]);
         assert_eq!(mice[3], [62.0, 34.0, 1.0, -1.0], "across in one frame");
@@ -163,17 +163,17 @@ mod tests {
     #[test]
     fn a_held_drag_goes_past_the_edge() {
         let size = (640, 360);
-        assert!(Hand::Edge.at(60, 60, size)[0] < 0.0);
-        let far = |hand: Hand| {
+        assert!(MouseGesture::Edge.at(60, 60, size)[0] < 0.0);
+        let far = |hand: MouseGesture| {
             (1..60).map(|t| (hand.at(t, 60, size)[0] - hand.at(t - 1, 60, size)[0]).abs()).fold(0.0, f32::max)
         };
-        assert!(far(Hand::Slow) < 7.0 && far(Hand::Fast) > 50.0 && far(Hand::Across) > 600.0);
+        assert!(far(MouseGesture::Slow) < 7.0 && far(MouseGesture::Fast) > 50.0 && far(MouseGesture::Across) > 600.0);
     }
 
     #[test]
     fn time_is_the_sum_of_its_steps() {
         for steps in [Steps::Usual, Steps::Times(10.0), Steps::Seconds(0.25), Steps::Still, Steps::Uneven] {
-            let mut inputs = Inputs::new(Hand::Away, steps, Some((3, 9)));
+            let mut inputs = Inputs::new(MouseGesture::Away, steps, Some((3, 9)));
             let (mut before, mut most) = (inputs.next((8, 8)).time_secs, 0.0f64);
             for _ in 1..20 {
                 let now = inputs.next((8, 8));

@@ -2,27 +2,27 @@
 //! quantity, so that a case need not be drawn again for a range that has been mended.
 
 use super::{
-    Area, Case, Check, Outcome, Situation, StabilityRecord, Subject,
+    Area, Case, CaseConditions, Check, CheckedProject, Outcome, StabilityRecord,
     check::{Allowed, HARD_LIMIT},
-    inputs::Hand,
+    inputs::MouseGesture,
 };
 use crate::Number;
 use std::collections::BTreeMap;
 
 /// Returns what a case is drawn with, as far as bounds depend on it.
-pub fn situation(subject: &Subject, case: &Case) -> Situation {
-    subject.situation(&case.values, case.size, case.steps.longest(), case.hand != Hand::Away)
+pub fn conditions(subject: &CheckedProject, case: &Case) -> CaseConditions {
+    subject.conditions(&case.values, case.size, case.steps.longest(), case.hand != MouseGesture::Away)
 }
 
 /// Returns whether today's ranges give the recorded extremes the recorded outcome.
-pub fn still_holds(subject: &Subject, case: &Case, record: &StabilityRecord) -> bool {
+pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityRecord) -> bool {
     let Some(outcome) = &record.outcome else { return true };
     let sizes: Vec<(u32, u32)> = case.resizes.iter().map(|(_, size)| *size).chain([case.size]).collect();
-    let usual = situation(subject, case);
+    let usual = conditions(subject, case);
     let mut ranges: BTreeMap<String, Allowed> = BTreeMap::new();
     for check in subject.checks.iter().filter(|c| can_be_judged(c, case)) {
         for &size in &sizes {
-            let allowed = check.allowed(&Situation { size, ..usual.clone() });
+            let allowed = check.allowed(&CaseConditions { size, ..usual.clone() });
             // Several checks of one name have their extremes together.
             let range = ranges.entry(check.name()).or_insert(allowed);
             range.low = range.low.min(allowed.low);

@@ -1,6 +1,6 @@
 //! Stability: whether a simulation stays within the bounds of what it simulates, whatever is done to it.
 //!
-//! A [`Subject`] is a project with [`Check`]s: for a quantity of a pass (a component, a length, a mean, an energy, how
+//! A [`CheckedProject`] is a project with [`Check`]s: for a quantity of a pass (a component, a length, a mean, an energy, how
 //! jagged it is) the range that physics or the method's theory allows. The presets' are declared in [`presets`], each
 //! with its reason; any other project is held to be finite and within [`ANY_BOUND`]. [`cases`] lists what is done: left
 //! alone for long, run past its Courant number, every slider at both ends and every pair of sliders at theirs, the
@@ -20,9 +20,9 @@ mod report;
 pub mod run;
 mod subject;
 
-pub use crate::stability_record::{Kind, Offence, Outcome, Recovery, StabilityRecord};
+pub use crate::stability_record::{Kind, Outcome, Recovery, StabilityRecord, Violation};
 pub use cases::Case;
-pub use check::{Allowed, Area, Check, Found, Quantity, Situation};
+pub use check::{Allowed, Area, CaseConditions, Check, Found, Quantity};
 pub use drive::Driver;
 pub use report::{table, write, write_of};
-pub use subject::{ANY_BOUND, BoundArgument, Subject};
+pub use subject::{ANY_BOUND, BoundArgument, CheckedProject};

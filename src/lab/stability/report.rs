@@ -1,6 +1,6 @@
 //! Writes what came of the cases, for people: a table for the terminal, a CSV, a page.
 
-use super::{Subject, check::Rule};
+use super::{CheckedProject, check::Rule};
 use crate::{
     Extent, LabError, Results,
     page_style::PAGE,
@@ -44,7 +44,7 @@ pub fn write(out: &Path, results: &Results) -> Result<Vec<String>, LabError> {
 
 /// As [`write`]. The page also has the bounds of `subjects`. Other projects are named by the results alone, which may be a
 /// stranger's, and are not opened.
-pub fn write_of(out: &Path, results: &Results, subjects: &[Subject]) -> Result<Vec<String>, LabError> {
+pub fn write_of(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
     if results.cases.is_empty() {
         return Ok(Vec::new());
     }
@@ -165,7 +165,7 @@ th { font-weight: 600; background: var(--head) } td.n, th.n { text-align: right;
 tr.left td { background: var(--wrong) } tr.excused td { color: var(--quiet) }
 ";
 
-fn page(results: &Results, subjects: &[Subject]) -> String {
+fn page(results: &Results, subjects: &[CheckedProject]) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Stability</title>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>{PAGE}{STYLE}</style></head><body>\n<h1>Stability</h1>\n\
@@ -214,13 +214,13 @@ fn page(results: &Results, subjects: &[Subject]) -> String {
     out
 }
 
-fn section(out: &mut String, project: &str, records: &[StabilityRecord], subjects: &[Subject]) {
+fn section(out: &mut String, project: &str, records: &[StabilityRecord], subjects: &[CheckedProject]) {
     let _ = writeln!(out, "<h2 id=\"{0}\">{0}</h2>", escaped(project));
     let preset;
     let subject = match subjects.iter().find(|subject| subject.name == project) {
         Some(subject) => Some(subject),
         None => {
-            preset = Subject::preset(project).ok();
+            preset = CheckedProject::preset(project).ok();
             preset.as_ref()
         }
     };
@@ -258,8 +258,8 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord], subject
 }
 
 /// The ranges at the sliders' defaults, and their reasons.
-fn bounds(out: &mut String, subject: &Subject) {
-    let usual = subject.situation(&Default::default(), (640, 360), 1.0 / 60.0, true);
+fn bounds(out: &mut String, subject: &CheckedProject) {
+    let usual = subject.conditions(&Default::default(), (640, 360), 1.0 / 60.0, true);
     out.push_str("<details><summary>Bounds</summary><div class=\"wide\"><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
     for check in &subject.checks {
         let allowed = check.allowed(&usual);

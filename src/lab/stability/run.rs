@@ -1,6 +1,6 @@
 //! Draws the cases of projects, each recorded when it is known.
 
-use super::{Case, Driver, StabilityRecord, Subject, cases, judge};
+use super::{Case, CheckedProject, Driver, StabilityRecord, cases, judge};
 use crate::{
     Extent, LabError, Results, Shard,
     results::{Journal, Record},
@@ -35,7 +35,7 @@ pub struct Step<'a> {
 /// known among them. A project that does not compile is an error; one whose case fails goes on with the next.
 pub fn run(
     gpu: &Gpu,
-    subjects: &[Subject],
+    subjects: &[CheckedProject],
     options: &Options,
     mut tell: impl FnMut(Step<'_>),
 ) -> Result<Results, LabError> {
@@ -54,7 +54,7 @@ pub fn run(
         options.only.as_ref().is_none_or(|text| case.name.contains(text) || case.kind.title().contains(text.as_str()))
     };
     let size = options.size.unwrap_or(cases::base(options.extent));
-    let listed: Vec<(&Subject, Vec<Case>)> = subjects
+    let listed: Vec<(&CheckedProject, Vec<Case>)> = subjects
         .iter()
         .map(|s| (s, cases::list(s, options.extent, size).into_iter().filter(is_asked).collect()))
         .collect();
@@ -73,7 +73,7 @@ pub fn run(
             done += 1;
             if let Some(known) = results.cases.iter().find(|r| is_known(r, subject, case, &fingerprint)) {
                 // Theory may have been mended since.
-                let excuses = subject.excuses(&judge::situation(subject, case));
+                let excuses = subject.excuses(&judge::conditions(subject, case));
                 if known.excuses != excuses {
                     let record = Record::Stability(StabilityRecord { excuses, ..known.clone() });
                     keep(&mut journal, &mut results, record)?;
@@ -101,9 +101,9 @@ fn keep(journal: &mut Option<Journal>, results: &mut Results, record: Record) ->
 }
 
 /// For each project a line that says how many pairs of its sliders' ends were drawn.
-pub fn coverage(subjects: &[Subject], options: &Options, results: &Results) -> String {
+pub fn coverage(subjects: &[CheckedProject], options: &Options, results: &Results) -> String {
     let size = options.size.unwrap_or(cases::base(options.extent));
-    let row = |subject: &Subject| {
+    let row = |subject: &CheckedProject| {
         let fingerprint = subject.fingerprint();
         let mut drawn = cases::list(subject, options.extent, size);
         drawn.retain(|case| results.cases.iter().any(|r| is_known(r, subject, case, &fingerprint)));
@@ -113,7 +113,7 @@ pub fn coverage(subjects: &[Subject], options: &Options, results: &Results) -> S
     subjects.iter().map(row).collect()
 }
 
-fn is_known(record: &StabilityRecord, subject: &Subject, case: &Case, fingerprint: &str) -> bool {
+fn is_known(record: &StabilityRecord, subject: &CheckedProject, case: &Case, fingerprint: &str) -> bool {
     record.project == subject.name
         && record.texts == fingerprint
         && record.case == case.name
@@ -139,7 +139,7 @@ mod tests {
         let records = Results::read(&folder).unwrap().cases;
         let mut accepted = 0;
         for name in presets::NAMES {
-            let subject = Subject::load(name, &[]).unwrap();
+            let subject = CheckedProject::load(name, &[]).unwrap();
             let (print, size) = (subject.fingerprint(), cases::base(Extent::Full));
             for case in cases::list(&subject, Extent::Full, size) {
                 let of_this = |r: &&StabilityRecord| {
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_record_is_judged_by_the_ranges_of_today() {
-        let mut subject = Subject::load("feedback", &[]).unwrap();
+        let mut subject = CheckedProject::load("feedback", &[]).unwrap();
         let case = cases::list(&subject, Extent::Quick, (160, 90)).remove(0);
         let extremes = subject.checks.iter().map(|c| (c.name(), (Number(0.1), Number(1.5)))).collect();
         let mut record = StabilityRecord {

@@ -1,7 +1,7 @@
 //! A project whose stability is asked for, and what it is held to.
 
 use super::{
-    check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
     presets,
 };
 use crate::LabError;
@@ -39,7 +39,7 @@ impl BoundArgument {
 
 /// A project with its checks.
 #[derive(Clone)]
-pub struct Subject {
+pub struct CheckedProject {
     /// As it was named.
     pub name: String,
     pub project: Project,
@@ -48,36 +48,36 @@ pub struct Subject {
     /// Says how its Courant number is set and measured, where it has one.
     pub courant: Option<presets::Courant>,
     /// Cases of its own.
-    pub extras: Vec<presets::Extra>,
+    pub extras: Vec<presets::PresetCase>,
 }
 
-impl Subject {
+impl CheckedProject {
     /// A preset by its name, else a project on disk. `bounds` come before what is declared for the pass.
-    pub fn load(spec: &str, bounds: &[BoundArgument]) -> Result<Subject, LabError> {
+    pub fn load(spec: &str, bounds: &[BoundArgument]) -> Result<CheckedProject, LabError> {
         let loaded = project::load(spec)?;
         let (media, _) = media::gather(&loaded.project, None);
-        let mut subject = Subject::of(spec, loaded.project, media);
+        let mut subject = CheckedProject::of(spec, loaded.project, media);
         subject.bound(bounds);
         Ok(subject)
     }
 
     /// Reads a preset of this build, and nothing of the disk.
-    pub fn preset(name: &str) -> Result<Subject, LabError> {
+    pub fn preset(name: &str) -> Result<CheckedProject, LabError> {
         let loaded = project::presets::load(name)?;
         let (media, _) = media::gather(&loaded.project, None);
-        Ok(Subject::of(name, loaded.project, media))
+        Ok(CheckedProject::of(name, loaded.project, media))
     }
 
     /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its
     /// passes.
-    pub fn of(name: &str, project: Project, media: MediaSet) -> Subject {
+    pub fn of(name: &str, project: Project, media: MediaSet) -> CheckedProject {
         let declared = match &project.origin {
             Origin::Preset(preset) => presets::declared(preset),
             _ => presets::declared_for_copy(&project),
         };
         let (checks, courant, extras) =
             declared.map_or((Vec::new(), None, Vec::new()), |d| (d.checks, d.courant, d.extras));
-        let mut subject = Subject { name: name.into(), project, media, checks, courant, extras };
+        let mut subject = CheckedProject { name: name.into(), project, media, checks, courant, extras };
         for id in subject.stateful() {
             if !subject.checks.iter().any(|c| c.pass == id) {
                 subject.checks.push(any(
@@ -122,18 +122,18 @@ impl Subject {
 
     /// Returns what a case is drawn with: sliders that are not at their defaults, canvas, longest step in seconds, and
     /// whether a hand drags.
-    pub fn situation(
+    pub fn conditions(
         &self,
         values: &CustomUniformValues,
         size: (u32, u32),
         longest_step: f64,
         is_dragged: bool,
-    ) -> Situation {
+    ) -> CaseConditions {
         let custom_uniforms = self.project.custom_uniforms();
         let mut all = self.project.custom_uniform_values.clone();
         all.extend(values.clone());
         let sliders = custom_uniforms.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
-        Situation { size, longest_step, is_dragged, sliders }
+        CaseConditions { size, longest_step, is_dragged, sliders }
     }
 
     /// A number for all the texts, what is looked at, and the ranges of states at the defaults: what was measured of
@@ -141,7 +141,7 @@ impl Subject {
     /// [`judge`](super::judge) holds it to the range that there is now.
     pub fn fingerprint(&self) -> String {
         let mut print = project::Fingerprint::of(&self.project);
-        let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
+        let usual = self.conditions(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
             let allowed = match check.pass {
                 PassId::Image => Allowed::new(-ANY_BOUND, ANY_BOUND),
@@ -153,9 +153,9 @@ impl Subject {
     }
 
     /// Returns why theory lets a bound be left in a situation; empty: it does not.
-    pub fn excuses(&self, situation: &Situation) -> Vec<String> {
+    pub fn excuses(&self, conditions: &CaseConditions) -> Vec<String> {
         let mut excuses: Vec<String> =
-            self.checks.iter().filter_map(|c| c.allowed(situation).excuse).map(str::to_owned).collect();
+            self.checks.iter().filter_map(|c| c.allowed(conditions).excuse).map(str::to_owned).collect();
         excuses.sort();
         excuses.dedup();
         excuses
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn every_state_of_every_preset_has_a_declared_range() {
         for name in library::names() {
-            let subject = Subject::load(name, &[]).unwrap();
+            let subject = CheckedProject::load(name, &[]).unwrap();
             for id in subject.stateful() {
                 let its: Vec<&Check> = subject.checks.iter().filter(|c| c.pass == id).collect();
                 assert!(
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn what_a_shader_says_is_part_of_the_fingerprint() {
-        let one = Subject::load("feedback", &[]).unwrap();
+        let one = CheckedProject::load("feedback", &[]).unwrap();
         let mut other = one.clone();
         assert_eq!(one.fingerprint(), other.fingerprint());
         let pass = &mut other.project.passes[0];

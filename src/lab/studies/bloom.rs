@@ -122,14 +122,14 @@ pub fn spots(rig: &Rig, setup: &Setup, places: &[[u32; 2]], mut each: impl FnMut
 
 /// The worst of many spots.
 #[derive(Clone, Copy, Debug)]
-pub struct Worst {
+pub struct SpotExtremes {
     pub low: f64,
     pub high: f64,
     pub shift: f64,
 }
 
-impl Worst {
-    pub const NONE: Worst = Worst { low: f64::INFINITY, high: 0.0, shift: 0.0 };
+impl SpotExtremes {
+    pub const NONE: SpotExtremes = SpotExtremes { low: f64::INFINITY, high: 0.0, shift: 0.0 };
 
     pub fn add(&mut self, spot: &Spot) {
         (self.low, self.high) = (self.low.min(spot.total), self.high.max(spot.total));
@@ -235,7 +235,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let n = point.grid;
     let is_usual = METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting);
     let count = if is_usual && n >= 512 { PERIOD * PERIOD } else { COMPARED };
-    let (mut worst, mut compared) = (Worst::NONE, Vec::new());
+    let (mut worst, mut compared) = (SpotExtremes::NONE, Vec::new());
     let at = |size, count| (0..count).map(|i| phase(i, size)).collect::<Vec<_>>();
     let on_grid = setup(&point.method, point.setting, (n, n));
     spots(rig, &on_grid, &at((n, n), count), |spot| {
@@ -248,7 +248,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let peaks: Vec<f64> = compared.iter().map(|s| s.light.iter().copied().fold(0.0, f64::max)).collect();
     let (low, high) = peaks.iter().fold((f64::MAX, 0.0f64), |(lo, hi), p| (lo.min(*p), hi.max(*p)));
     let variance = compared.iter().map(|s| s.variance).sum::<f64>() / compared.len() as f64;
-    let (size, mut beside) = (odd(n), Worst::NONE);
+    let (size, mut beside) = (odd(n), SpotExtremes::NONE);
     let on_odd = setup(&point.method, point.setting, size);
     spots(rig, &on_odd, &at(size, PERIOD), |spot| worst.add(&spot))?;
     spots(rig, &on_odd, &edges(size), |spot| beside.add(&spot))?;
@@ -291,7 +291,7 @@ mod tests {
         light[20 * 64 + 33] = 0.45;
         let spot = Spot::of([31, 20], 64, light);
         assert!((spot.total - 0.95).abs() < 1e-12 && (spot.shift - 0.9 / 0.95).abs() < 1e-12, "{spot:?}");
-        let mut worst = Worst::NONE;
+        let mut worst = SpotExtremes::NONE;
         worst.add(&spot);
         assert!((worst.gain() - 0.05).abs() < 1e-12 && worst.shift > 0.25);
     }

@@ -3,7 +3,7 @@
 use super::silhouettes::Found;
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-    reference::shapes::{Placed, Shape, V, along, dot, first_hit, is_seen, turned},
+    reference::shapes::{PlacedShape, Shape, V, along, dot, first_hit, is_seen, turned},
     three_of,
 };
 
@@ -30,11 +30,11 @@ const BORDER: usize = 3;
 const FAR: f64 = 4.0;
 
 /// In space as the camera sees it.
-fn scene() -> [Placed; 3] {
+fn scene() -> [PlacedShape; 3] {
     [
-        Placed { shape: Shape::Sphere(0.55), centre: [-1.05, -0.25, -6.0], axes: turned(0.0, 0.0) },
-        Placed { shape: Shape::Cuboid([0.42; 3]), centre: [1.0, -0.3, -5.6], axes: turned(25.0, 35.0) },
-        Placed { shape: Shape::Torus(0.55, 0.2), centre: [0.0, 0.85, -6.2], axes: turned(50.0, 15.0) },
+        PlacedShape { shape: Shape::Sphere(0.55), centre: [-1.05, -0.25, -6.0], axes: turned(0.0, 0.0) },
+        PlacedShape { shape: Shape::Cuboid([0.42; 3]), centre: [1.0, -0.3, -5.6], axes: turned(25.0, 35.0) },
+        PlacedShape { shape: Shape::Torus(0.55, 0.2), centre: [0.0, 0.85, -6.2], axes: turned(50.0, 15.0) },
     ]
 }
 

@@ -5,7 +5,7 @@ use super::{
     waves,
 };
 use crate::{
-    HardCase, LabError, Measured, Method, Point, Race, Rig, Study, Unit,
+    HardCase, LabError, Measured, Method, Point, Rig, SpeedComparison, Study, Unit,
     metrics::{Norms, mean, square_drift, viscosity_ratio},
     reference::{poisson::Random, taylor_green},
 };
@@ -179,7 +179,7 @@ pub static STUDY: Study = Study {
     // Too much energy is left where steps are short, as a viscosity of second differences falls short of the fluid's,
     // and too little where they are long.
     signed: Some("energy_error"),
-    race: Some(Race {
+    race: Some(SpeedComparison {
         method: "fluid-accurate",
         peers: &["guay", "guay-balanced", "guay-stiff", "guay-rgba16f"],
         peers_are: "one-pass settings",

@@ -3,7 +3,7 @@
 use super::silhouettes::Found;
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-    reference::shapes::{Placed, Shape, V, along, dot, first_hit, length, turned},
+    reference::shapes::{PlacedShape, Shape, V, along, dot, first_hit, length, turned},
     three_of,
 };
 use eddy_project::{Camera, MeshDraw, MeshSource, Project};
@@ -26,7 +26,7 @@ const FADE: [f64; 2] = [4.0, 36.0];
 const FIT: f64 = 1.0 / 1.5;
 
 /// A mesh of the preset: which of its pages it is drawn with, and where and how it is turned (degrees about one axis).
-struct Thing {
+struct MeshPlacement {
     page: usize,
     mesh: &'static str,
     shape: Shape,
@@ -34,10 +34,16 @@ struct Thing {
     turn: V,
 }
 
-const THINGS: [Thing; 3] = [
-    Thing { page: 0, mesh: "builtin:sphere", shape: Shape::Sphere(1.0), at: [-3.3, 0.0, 0.0], turn: [0.0; 3] },
-    Thing { page: 1, mesh: "builtin:cube", shape: Shape::Cuboid([1.0; 3]), at: [0.0; 3], turn: [0.0, 30.0, 0.0] },
-    Thing {
+const THINGS: [MeshPlacement; 3] = [
+    MeshPlacement { page: 0, mesh: "builtin:sphere", shape: Shape::Sphere(1.0), at: [-3.3, 0.0, 0.0], turn: [0.0; 3] },
+    MeshPlacement {
+        page: 1,
+        mesh: "builtin:cube",
+        shape: Shape::Cuboid([1.0; 3]),
+        at: [0.0; 3],
+        turn: [0.0, 30.0, 0.0],
+    },
+    MeshPlacement {
         page: 2,
         mesh: "builtin:torus",
         shape: Shape::Torus(1.0, 0.4),
@@ -46,13 +52,13 @@ const THINGS: [Thing; 3] = [
     },
 ];
 
-impl Thing {
-    fn placed(&self, shape: Shape) -> Placed {
-        Placed { shape, centre: self.at, axes: turned(self.turn[0], self.turn[1]) }
+impl MeshPlacement {
+    fn placed(&self, shape: Shape) -> PlacedShape {
+        PlacedShape { shape, centre: self.at, axes: turned(self.turn[0], self.turn[1]) }
     }
 
     /// The shape whose vertices have moved by the line's width.
-    fn hull(&self, method: &str, width: f64) -> Placed {
+    fn hull(&self, method: &str, width: f64) -> PlacedShape {
         let t = ((length(along(eye(), self.at, -1.0)) - FADE[0]) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
         let w = width * (1.0 - t * t * (3.0 - 2.0 * t));
         self.placed(match self.shape {
@@ -84,7 +90,7 @@ fn ray(n: usize, i: usize) -> V {
 
 /// Returns which texels are a line: those of which a hull's far side is seen, of each thing.
 fn exact(n: usize, method: &str, width: f64) -> [Vec<bool>; 3] {
-    let shapes: Vec<Placed> = THINGS.iter().map(|t| t.placed(t.shape)).collect();
+    let shapes: Vec<PlacedShape> = THINGS.iter().map(|t| t.placed(t.shape)).collect();
     let hulls = THINGS.each_ref().map(|t| t.hull(method, width));
     let from = eye();
     let mut regions = [const { Vec::new() }; 3];
@@ -131,7 +137,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
         ..Camera::default()
     };
     let draws = geometry.draws.clone();
-    let place = |thing: &Thing, draw: &MeshDraw| MeshDraw {
+    let place = |thing: &MeshPlacement, draw: &MeshDraw| MeshDraw {
         mesh: MeshSource::parse(thing.mesh),
         scale: 1.0,
         position: thing.at,

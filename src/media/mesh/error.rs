@@ -1,6 +1,6 @@
 //! The error of loading a mesh, with what to do about it.
 
-use super::{builtin::NAMES, trouble::Trouble};
+use super::{builtin::NAMES, trouble::ModelError};
 use eddy_project::{confine::FileError, listed, nearest};
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub enum MeshError {
     #[error("{} is not a supported model: unknown file extension", .0.display())]
     UnknownKind(PathBuf),
     #[error("{}{trouble}", path.display())]
-    Model { path: PathBuf, trouble: Trouble },
+    Model { path: PathBuf, trouble: ModelError },
 }
 
 /// A word about a model that is loaded, but not as its author may think. The model's name is not in it.

@@ -3,18 +3,18 @@
 use super::{
     model::{Mesh, Raw},
     normals, tangents,
-    trouble::Trouble,
+    trouble::ModelError,
 };
 use eddy_project::Normals;
 
 /// A mesh with everything a vertex has. `normals`: which are made where there are none.
-pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, Trouble> {
+pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, ModelError> {
     if !raw.indices.len().is_multiple_of(3) {
-        return Err(Trouble::broken(format!("{} corners are not a whole number of triangles", raw.indices.len())));
+        return Err(ModelError::broken(format!("{} corners are not a whole number of triangles", raw.indices.len())));
     }
     let count = raw.vertices.len();
     if let Some(index) = raw.indices.iter().find(|i| **i as usize >= count) {
-        return Err(Trouble::broken(format!("a triangle uses vertex {index}, but there are {count}")));
+        return Err(ModelError::broken(format!("a triangle uses vertex {index}, but there are {count}")));
     }
     let broken = |numbers: &[f32]| numbers.iter().any(|x| !x.is_finite());
     for (at, v) in raw.vertices.iter().enumerate() {
@@ -26,7 +26,7 @@ pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, Trouble> 
             (&v.color, "colour"),
         ];
         if let Some((_, what)) = numbers.into_iter().find(|(numbers, _)| broken(numbers)) {
-            return Err(Trouble::broken(format!("the {what} of vertex {at} is not a number")));
+            return Err(ModelError::broken(format!("the {what} of vertex {at} is not a number")));
         }
     }
     match normals {

@@ -7,7 +7,7 @@ use super::{
     gltf,
     model::{Mesh, Raw},
     obj,
-    trouble::{Counts, Trouble},
+    trouble::{Counts, ModelError},
 };
 use eddy_project::{MeshSource, Normals, confine, limits};
 use std::path::Path;
@@ -51,13 +51,13 @@ pub(crate) fn load_within(
     let normals = normals.unwrap_or(if is_gltf { Normals::Flat } else { Normals::Smooth });
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
     let mut made = Counts::default();
-    let mut take = |raw: Raw| -> Result<(), Trouble> {
+    let mut take = |raw: Raw| -> Result<(), ModelError> {
         // What was counted before is what the file has; flat normals take three vertices a triangle.
         let parts_corners = normals == Normals::Flat && !raw.has_normals;
         let vertices = if parts_corners { raw.indices.len() } else { raw.vertices.len() };
         made.add(vertices as u64, raw.indices.len() as u64 / 3).and_then(|()| made.fit(room)).map_err(|trouble| {
             match trouble {
-                Trouble::TooLarge(excess) if parts_corners => Trouble::TooLarge(format!(
+                ModelError::TooLarge(excess) if parts_corners => ModelError::TooLarge(format!(
                     "{excess}. It has no normals, and flat normals need three vertices per triangle: set normals = \
                      \"smooth\" in its draw to need fewer"
                 )),
@@ -72,11 +72,11 @@ pub(crate) fn load_within(
         let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
         gltf::load(&bytes, &named, room, &mut take).map(|left_out| (left_out, Vec::new()))
     } else {
-        obj::load(&bytes, room, &mut take).map(|warnings| (gltf::LeftOut::default(), warnings))
+        obj::load(&bytes, room, &mut take).map(|warnings| (gltf::IgnoredParts::default(), warnings))
     };
     match done {
         Ok((left_out, _)) if mesh.indices.is_empty() => {
-            Err(MeshError::Model { path: folder.join(name), trouble: Trouble::Empty(left_out.only()) })
+            Err(MeshError::Model { path: folder.join(name), trouble: ModelError::Empty(left_out.only()) })
         }
         Ok((left_out, mut warnings)) => {
             warnings.extend(left_out.beside().map(|what| MeshWarning {

@@ -3,7 +3,7 @@
 use super::{
     model::{Mesh, Raw, Vertex},
     normals,
-    trouble::Trouble,
+    trouble::ModelError,
 };
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use eddy_project::limits;
@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 /// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each
 /// other.
-pub(super) fn check(raw: &Raw) -> Result<(), Trouble> {
+pub(super) fn check(raw: &Raw) -> Result<(), ModelError> {
     let group = normals::places(raw);
     let mut corners = vec![0u64; group.iter().max().map_or(0, |last| *last as usize + 1)];
     raw.indices.iter().for_each(|i| corners[group[*i as usize] as usize] += 1);
@@ -20,7 +20,7 @@ pub(super) fn check(raw: &Raw) -> Result<(), Trouble> {
     if pairs <= limits::TANGENT_PAIRS {
         return Ok(());
     }
-    Err(Trouble::TooLarge(format!(
+    Err(ModelError::TooLarge(format!(
         "{most} corners of its triangles meet at one point, too many to compute tangents for"
     )))
 }

@@ -5,7 +5,7 @@ use eddy_project::{confine::FileError, limits};
 
 /// An error of a model; its text goes on behind the model's name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Trouble {
+pub enum ModelError {
     /// It is not what its format says.
     #[error(" is broken: {0}")]
     Broken(String),
@@ -29,25 +29,25 @@ pub enum Trouble {
     Empty(String),
 }
 
-impl Trouble {
+impl ModelError {
     /// Returns what to do about it.
     pub fn hint(&self) -> String {
         match self {
-            Trouble::Named(error) => error.hint(),
-            Trouble::TooLarge(_) => "simplify the model before it is exported".into(),
-            Trouble::Line { mend, .. } | Trouble::Needs { mend, .. } => mend.clone(),
-            Trouble::Broken(_) => "re-export the model".into(),
-            Trouble::Version(version) if version.starts_with("1.") || version.starts_with("0.") => {
+            ModelError::Named(error) => error.hint(),
+            ModelError::TooLarge(_) => "simplify the model before it is exported".into(),
+            ModelError::Line { mend, .. } | ModelError::Needs { mend, .. } => mend.clone(),
+            ModelError::Broken(_) => "re-export the model".into(),
+            ModelError::Version(version) if version.starts_with("1.") || version.starts_with("0.") => {
                 "re-export the model as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()
             }
-            Trouble::Version(_) => "re-export the model as glTF 2.0".into(),
-            Trouble::Empty(_) => "export the surface of the model as triangles".into(),
+            ModelError::Version(_) => "re-export the model as glTF 2.0".into(),
+            ModelError::Empty(_) => "export the surface of the model as triangles".into(),
         }
     }
 
     /// Cut short where a parser quotes a whole file.
-    pub fn broken(reason: impl std::fmt::Display) -> Trouble {
-        Trouble::Broken(Self::short(&reason.to_string()))
+    pub fn broken(reason: impl std::fmt::Display) -> ModelError {
+        ModelError::Broken(Self::short(&reason.to_string()))
     }
 
     /// A text of the file's, cut short where it is long.
@@ -60,9 +60,9 @@ impl Trouble {
     }
 
     /// Adds where in the file something is broken.
-    pub fn at(self, place: impl FnOnce() -> String) -> Trouble {
+    pub fn at(self, place: impl FnOnce() -> String) -> ModelError {
         match self {
-            Trouble::Broken(reason) => Trouble::Broken(format!("{}: {reason}", place())),
+            ModelError::Broken(reason) => ModelError::Broken(format!("{}: {reason}", place())),
             other => other,
         }
     }
@@ -79,46 +79,46 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    pub fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), Trouble> {
+    pub fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), ModelError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.triangles = self.triangles.saturating_add(triangles);
         at_most(self.vertices, limits::MODEL_VERTICES, "vertices")?;
         at_most(self.triangles, limits::MODEL_TRIANGLES, "triangles")
     }
 
-    pub fn add_parts(&mut self, parts: u64) -> Result<(), Trouble> {
+    pub fn add_parts(&mut self, parts: u64) -> Result<(), ModelError> {
         self.parts = self.parts.saturating_add(parts);
         at_most(self.parts, limits::MODEL_PARTS, "parts")
     }
 
-    pub fn add_part(&mut self) -> Result<(), Trouble> {
+    pub fn add_part(&mut self) -> Result<(), ModelError> {
         self.add_parts(1)
     }
 
-    pub fn add_joints(&mut self, joints: u64) -> Result<(), Trouble> {
+    pub fn add_joints(&mut self, joints: u64) -> Result<(), ModelError> {
         self.joints = self.joints.saturating_add(joints);
         at_most(self.joints, limits::MODEL_JOINTS, "joints")
     }
 
     /// Vertices that morph targets and joints move, counted for each of these.
-    pub fn add_moved(&mut self, vertices: u64) -> Result<(), Trouble> {
+    pub fn add_moved(&mut self, vertices: u64) -> Result<(), ModelError> {
         self.moved = self.moved.saturating_add(vertices);
         at_most(self.moved, limits::MODEL_MOVED, "vertices of morph targets and sets of joints")
     }
 
     /// Returns whether there is room for them.
-    pub fn fit(&self, room: u64) -> Result<(), Trouble> {
+    pub fn fit(&self, room: u64) -> Result<(), ModelError> {
         if self.vertices * size_of::<Vertex>() as u64 + self.triangles * 12 <= room {
             return Ok(());
         }
         let all = limits::in_bytes(limits::MEDIA_BYTES);
-        Err(Trouble::TooLarge(format!("with it the images and models of the project take more than {all}")))
+        Err(ModelError::TooLarge(format!("with it the images and models of the project take more than {all}")))
     }
 }
 
-pub(super) fn at_most(count: u64, limit: u64, what: &str) -> Result<(), Trouble> {
+pub(super) fn at_most(count: u64, limit: u64, what: &str) -> Result<(), ModelError> {
     if count <= limit {
         return Ok(());
     }
-    Err(Trouble::TooLarge(format!("it has more than {limit} {what}, the limit for a model")))
+    Err(ModelError::TooLarge(format!("it has more than {limit} {what}, the limit for a model")))
 }

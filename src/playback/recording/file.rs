@@ -43,7 +43,7 @@ struct Head {
 /// Floats are written as doubles, which JSON's shortest decimals give back bit for bit.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
-struct Line {
+struct FileLine {
     #[serde(skip_serializing_if = "Option::is_none")]
     frame: Option<i32>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -119,7 +119,7 @@ impl Recording {
         out.write_all(b"\n")?;
         let mut before: Option<&RecordedFrame> = None;
         for frame in &self.frames {
-            serde_json::to_writer(&mut *out, &Line::after(before, frame))?;
+            serde_json::to_writer(&mut *out, &FileLine::after(before, frame))?;
             out.write_all(b"\n")?;
             before = Some(frame);
         }
@@ -158,7 +158,7 @@ impl Recording {
             if line.len() as u64 > limits::RECORDING_LINE.bytes {
                 return Err(wrong(format!("it is larger than {}", limits::RECORDING_LINE)));
             }
-            let read: Line = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
+            let read: FileLine = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
             let has_keys = [&read.held, &read.pressed, &read.toggled].iter().any(|keys| keys.is_some());
             let (has_spectrum, has_pads) = (read.mic.is_some(), read.pads.is_some());
             let frame = read.onto(frames.last()).map_err(wrong)?;
@@ -178,7 +178,7 @@ impl Recording {
     }
 }
 
-impl Line {
+impl FileLine {
     fn after(before: Option<&RecordedFrame>, now: &RecordedFrame) -> Self {
         fn new<T: PartialEq>(before: Option<T>, now: T) -> Option<T> {
             (before.as_ref() != Some(&now)).then_some(now)

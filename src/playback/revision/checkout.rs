@@ -40,19 +40,19 @@ pub struct Checkout {
     /// The folder or file that opens the project.
     pub project: PathBuf,
     /// Names that the revision has in the project's folder and the checkout has not.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<SkippedName>,
     files: usize,
     _folder: TempDir,
 }
 
 /// A name that was left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
+pub struct SkippedName {
     pub name: String,
     pub why: &'static str,
 }
 
-impl fmt::Display for LeftOut {
+impl fmt::Display for SkippedName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is left out: it is {}", self.name, self.why)
     }
@@ -61,7 +61,7 @@ impl fmt::Display for LeftOut {
 impl Checkout {
     /// Says what was left out, a line each; of many the first alone.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes: Vec<String> = self.left_out.iter().take(NOTES).map(LeftOut::to_string).collect();
+        let mut notes: Vec<String> = self.left_out.iter().take(NOTES).map(SkippedName::to_string).collect();
         let more = self.left_out.len() - notes.len();
         notes.extend((more > 0).then(|| format!("{more} more are left out")));
         notes
@@ -113,7 +113,7 @@ pub fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checko
                 files.insert(name.clone(), id);
             }
             None => left_out
-                .push(LeftOut { name: name.clone(), why: "a link that leads to no file in the project's folder" }),
+                .push(SkippedName { name: name.clone(), why: "a link that leads to no file in the project's folder" }),
         }
     }
     writer.check_sizes(&files)?;
@@ -133,7 +133,7 @@ struct Found {
     folders: Vec<String>,
     files: BTreeMap<String, ObjectId>,
     links: BTreeMap<String, ObjectId>,
-    left_out: Vec<LeftOut>,
+    left_out: Vec<SkippedName>,
 }
 
 struct Writer<'a> {
@@ -180,7 +180,7 @@ impl Writer<'_> {
                     EntryKind::Commit => {
                         found
                             .left_out
-                            .push(LeftOut { name, why: "a submodule, whose files are in another repository" });
+                            .push(SkippedName { name, why: "a submodule, whose files are in another repository" });
                     }
                 }
             }

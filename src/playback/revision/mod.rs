@@ -15,7 +15,7 @@ mod refs;
 mod repository;
 mod spec;
 
-pub use checkout::{Checkout, LeftOut};
+pub use checkout::{Checkout, SkippedName};
 pub use error::RevisionError;
 
 use objects::Objects;

@@ -52,7 +52,7 @@ pub struct Object {
     pub bytes: Vec<u8>,
 }
 
-enum Place<'a> {
+enum ObjectLocation<'a> {
     Loose,
     Packed(&'a Pack, data::Entry),
 }
@@ -113,10 +113,10 @@ impl Objects {
         let damaged = |e: gix_error::Error| self.damaged(id, cause(&e));
         let mut bytes = Vec::new();
         match place {
-            Place::Loose => {
+            ObjectLocation::Loose => {
                 self.loose.try_find(id, &mut bytes).map_err(damaged)?.ok_or_else(|| self.missing(id))?;
             }
-            Place::Packed(pack, entry) => {
+            ObjectLocation::Packed(pack, entry) => {
                 let file = self.data(pack)?;
                 let base = |id: &oid, _: &mut Vec<u8>| Ok(entry_of(pack, file, id)?.map(ResolvedBase::InPack));
                 file.decode_entry(entry, &mut bytes, &mut Inflate::default(), &base, &mut cache::Never)
@@ -151,17 +151,17 @@ impl Objects {
         Ok(if revisions.is_empty() { found.into_iter().collect() } else { revisions })
     }
 
-    fn place(&self, id: &oid) -> Result<Option<Place<'_>>, RevisionError> {
+    fn place(&self, id: &oid) -> Result<Option<ObjectLocation<'_>>, RevisionError> {
         let hex = id.to_string();
         match confine::resolve(&self.folder, format!("objects/{}/{}", &hex[..2], &hex[2..])) {
-            Ok(_) => return Ok(Some(Place::Loose)),
+            Ok(_) => return Ok(Some(ObjectLocation::Loose)),
             Err(e) if e.is_missing() => {}
             Err(e) => return Err(RevisionError::file(&self.folder, &e)),
         }
         for pack in &self.packs {
             if pack.index.lookup(id).is_some() {
                 let entry = entry_of(pack, self.data(pack)?, id).map_err(|e| self.damaged(id, cause(&e)))?;
-                return Ok(entry.map(|entry| Place::Packed(pack, entry)));
+                return Ok(entry.map(|entry| ObjectLocation::Packed(pack, entry)));
             }
         }
         Ok(None)
@@ -178,14 +178,14 @@ impl Objects {
         Ok(pack.data.get_or_init(|| file.with_alloc_limit_bytes(Some(room))))
     }
 
-    fn announced(&self, id: &oid, place: &Place<'_>) -> Result<Announced, RevisionError> {
+    fn announced(&self, id: &oid, place: &ObjectLocation<'_>) -> Result<Announced, RevisionError> {
         match place {
-            Place::Loose => {
+            ObjectLocation::Loose => {
                 let header = self.loose.try_header(id).map_err(|e| self.damaged(id, cause(&e)))?;
                 let (size, kind) = header.ok_or_else(|| self.missing(id))?;
                 Ok(Announced { kind, size, rebuilt: 0 })
             }
-            Place::Packed(pack, entry) => self.announced_in(pack, entry, id),
+            ObjectLocation::Packed(pack, entry) => self.announced_in(pack, entry, id),
         }
     }
 

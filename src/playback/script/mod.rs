@@ -32,7 +32,7 @@ pub enum KeyAction {
 
 /// An action before a frame is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At<A> {
+pub struct ScriptedAction<A> {
     pub frame: i32,
     pub action: A,
 }
@@ -49,7 +49,7 @@ pub struct ScriptError {
 
 /// Reads `0:down 40,40; 4:move 80,45; 10:up`. Events come back in the order of their frames, those of one frame as
 /// written.
-pub fn parse_mouse(text: &str) -> Result<Vec<At<MouseAction>>, ScriptError> {
+pub fn parse_mouse(text: &str) -> Result<Vec<ScriptedAction<MouseAction>>, ScriptError> {
     parse(
         text,
         |word, r| match word {
@@ -63,7 +63,7 @@ pub fn parse_mouse(text: &str) -> Result<Vec<At<MouseAction>>, ScriptError> {
 }
 
 /// Reads `0:down 32; 3:up 32`, in order likewise.
-pub fn parse_keys(text: &str) -> Result<Vec<At<KeyAction>>, ScriptError> {
+pub fn parse_keys(text: &str) -> Result<Vec<ScriptedAction<KeyAction>>, ScriptError> {
     parse(
         text,
         |word, r| match word {
@@ -79,7 +79,7 @@ fn parse<A>(
     text: &str,
     action: impl Fn(&str, &mut Reader<'_>) -> Result<Option<A>, ScriptError>,
     actions: &str,
-) -> Result<Vec<At<A>>, ScriptError> {
+) -> Result<Vec<ScriptedAction<A>>, ScriptError> {
     let mut r = Reader { text, at: 0 };
     let mut events = Vec::new();
     loop {
@@ -98,7 +98,7 @@ fn parse<A>(
         let start = r.at;
         let word = r.word();
         let Some(action) = action(word, &mut r)? else { return Err(r.error_at(start, actions)) };
-        events.push(At { frame, action });
+        events.push(ScriptedAction { frame, action });
         r.skip_space();
         if !r.rest().is_empty() && !r.take(';') {
             return Err(r.error("`;` or the end"));
@@ -193,8 +193,8 @@ pub struct Script {
 #[derive(Clone, Debug, Default)]
 pub struct ScriptedInputs {
     fps: f64,
-    mouse_events: Vec<At<MouseAction>>,
-    key_events: Vec<At<KeyAction>>,
+    mouse_events: Vec<ScriptedAction<MouseAction>>,
+    key_events: Vec<ScriptedAction<KeyAction>>,
     date: Option<DateTime>,
     mouse: Mouse,
     keyboard: Keyboard,
@@ -209,7 +209,7 @@ impl ScriptedInputs {
     }
 
     #[must_use]
-    pub fn with_mouse(mut self, mut events: Vec<At<MouseAction>>) -> Self {
+    pub fn with_mouse(mut self, mut events: Vec<ScriptedAction<MouseAction>>) -> Self {
         events.sort_by_key(|e| e.frame);
         self.mouse_events = events;
         self
@@ -230,7 +230,7 @@ impl ScriptedInputs {
     }
 
     #[must_use]
-    pub fn with_keys(mut self, mut events: Vec<At<KeyAction>>) -> Self {
+    pub fn with_keys(mut self, mut events: Vec<ScriptedAction<KeyAction>>) -> Self {
         events.sort_by_key(|e| e.frame);
         self.key_events = events;
         self
@@ -267,12 +267,12 @@ impl ScriptedInputs {
         if self.replay.is_some() {
             return None;
         }
-        let mouse = |at: &At<MouseAction>| match at.action {
+        let mouse = |at: &ScriptedAction<MouseAction>| match at.action {
             MouseAction::Down(x, y) => format!("{}:down {x},{y}", at.frame),
             MouseAction::Move(x, y) => format!("{}:move {x},{y}", at.frame),
             MouseAction::Up => format!("{}:up", at.frame),
         };
-        let key = |at: &At<KeyAction>| match at.action {
+        let key = |at: &ScriptedAction<KeyAction>| match at.action {
             KeyAction::Down(code) => format!("{}:down {code}", at.frame),
             KeyAction::Up(code) => format!("{}:up {code}", at.frame),
         };
@@ -369,7 +369,7 @@ impl ScriptedInputs {
     }
 }
 
-fn of_frame<A: Copy>(events: &[At<A>], frame: i32) -> impl Iterator<Item = A> {
+fn of_frame<A: Copy>(events: &[ScriptedAction<A>], frame: i32) -> impl Iterator<Item = A> {
     let from = events.partition_point(|e| e.frame < frame);
     events[from..].iter().take_while(move |e| e.frame == frame).map(|e| e.action)
 }

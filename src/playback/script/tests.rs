@@ -7,14 +7,17 @@ fn reads_what_the_help_shows() {
     assert_eq!(
         parse_mouse("0:down 40,40; 4:move 80,45; 10:up").unwrap(),
         [
-            At { frame: 0, action: MouseAction::Down(40.0, 40.0) },
-            At { frame: 4, action: MouseAction::Move(80.0, 45.0) },
-            At { frame: 10, action: MouseAction::Up },
+            ScriptedAction { frame: 0, action: MouseAction::Down(40.0, 40.0) },
+            ScriptedAction { frame: 4, action: MouseAction::Move(80.0, 45.0) },
+            ScriptedAction { frame: 10, action: MouseAction::Up },
         ]
     );
     assert_eq!(
         parse_keys("0:down 32; 3:up 32").unwrap(),
-        [At { frame: 0, action: KeyAction::Down(32) }, At { frame: 3, action: KeyAction::Up(32) }]
+        [
+            ScriptedAction { frame: 0, action: KeyAction::Down(32) },
+            ScriptedAction { frame: 3, action: KeyAction::Up(32) }
+        ]
     );
 }
 
@@ -24,9 +27,9 @@ fn spaces_empty_entries_and_order_do_not_matter() {
     assert_eq!(
         events,
         [
-            At { frame: 2, action: MouseAction::Move(-1.5, 3.0) },
-            At { frame: 2, action: MouseAction::Down(1.0, 1.0) },
-            At { frame: 7, action: MouseAction::Up },
+            ScriptedAction { frame: 2, action: MouseAction::Move(-1.5, 3.0) },
+            ScriptedAction { frame: 2, action: MouseAction::Down(1.0, 1.0) },
+            ScriptedAction { frame: 7, action: MouseAction::Up },
         ]
     );
     assert!(parse_mouse("").unwrap().is_empty());

@@ -124,7 +124,7 @@ pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
     if let Ok(n) = text.parse::<i32>() {
         return Some(CustomUniformValue::Int(n));
     }
-    let mut words = Words::new(text, 0, SourceId(0));
+    let mut words = WordReader::new(text, 0, SourceId(0));
     let (mut all, size) = match words.peek() {
         Word::Name(name) => {
             let ty = CustomUniformType::ALL.into_iter().find(|t| t.name() == name)?;
@@ -157,7 +157,7 @@ pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
 /// Reads a line that [`is_declaration`], in a group.
 pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Declaration, Diagnostic> {
     let skipped = "iUniform".len();
-    let mut words = Words::new(&line.body[skipped..], line.body_at + skipped, source);
+    let mut words = WordReader::new(&line.body[skipped..], line.body_at + skipped, source);
     let ty = words.ty()?;
     let (name, span) = words.name()?;
     let (default, range, step, group) = (None, None, None, group.to_owned());
@@ -204,7 +204,7 @@ enum Word<'a> {
 }
 
 /// The words of a line.
-struct Words<'a> {
+struct WordReader<'a> {
     text: &'a str,
     /// Place of the next word, and of the one before it.
     at: usize,
@@ -214,7 +214,7 @@ struct Words<'a> {
     source: SourceId,
 }
 
-impl<'a> Words<'a> {
+impl<'a> WordReader<'a> {
     fn new(text: &'a str, base: usize, source: SourceId) -> Self {
         Self { text, at: 0, last: 0..0, base, source }
     }

@@ -8,7 +8,7 @@ pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
 
 /// The passes that a text's directives may name.
 #[derive(Clone, Copy)]
-pub(crate) struct Around<'p> {
+pub(crate) struct DirectiveScope<'p> {
     /// The pass whose text it is.
     pub id: &'p PassId,
     /// The text's own file.
@@ -17,7 +17,7 @@ pub(crate) struct Around<'p> {
     pub passes: &'p [(String, PassId)],
 }
 
-impl Around<'_> {
+impl DirectiveScope<'_> {
     /// Returns the pass whose file a path leads to.
     pub fn pass_of(&self, path: &str) -> Option<&PassId> {
         let name = confine::relative(self.file, path).ok()?;

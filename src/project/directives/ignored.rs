@@ -1,7 +1,7 @@
 //! Lines that count for nothing where they stand.
 
 use super::{
-    around::{Around, files_of_passes, is_channel},
+    around::{DirectiveScope, files_of_passes, is_channel},
     read::read,
 };
 use crate::{Channel, Dialect, Origin, Project, lines::hash_lines};
@@ -25,7 +25,7 @@ pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
             if !pass.source.text.contains("iChannel") {
                 continue;
             }
-            let around = Around { id: &pass.id, file: &pass.source.name, passes: &passes };
+            let around = DirectiveScope { id: &pass.id, file: &pass.source.name, passes: &passes };
             let declared = read(&pass.source.text, Project::pass_id(i), around, &pass.channels);
             for mut diagnostic in declared.diagnostics {
                 diagnostic.severity = Severity::Warning;

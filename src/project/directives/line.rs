@@ -1,6 +1,6 @@
 //! One `#iChannel` line: its parts, the input that it names, and the setting that it gives.
 
-use super::around::Around;
+use super::around::DirectiveScope;
 use crate::{
     Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
@@ -56,7 +56,12 @@ fn is_glsl(path: &str) -> bool {
 }
 
 /// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
-pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+pub(super) fn input(
+    value: &str,
+    around: DirectiveScope<'_>,
+    span: Span,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Channel> {
     // Which kind it is stands in its ending; an animated image plays where a `Type` line says so.
     let picture = |path: &str| {
         let kind = match kind_of_file(Path::new(path)) {
@@ -134,7 +139,7 @@ pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &m
 }
 
 /// The channel that reads a pass.
-fn pass(id: &PassId, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+fn pass(id: &PassId, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
     let (message, hint) = match id.row().input {
         Some(_) => return Some(Channel::new(Input::pass(id.clone()))),
         None if id == around.id => {

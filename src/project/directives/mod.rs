@@ -31,7 +31,7 @@ mod passes_beside;
 mod read;
 
 use super::{Source, custom_uniforms, includes, lines::hash_lines};
-pub(super) use around::{Around, files_of_passes};
+pub(super) use around::{DirectiveScope, files_of_passes};
 pub use ignored::ignored_channel_lines;
 pub(super) use passes_beside::passes_beside;
 pub(super) use read::read;

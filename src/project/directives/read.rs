@@ -1,7 +1,7 @@
 //! The directives of one pass, taken together.
 
 use super::{
-    around::{Around, is_channel},
+    around::{DirectiveScope, is_channel},
     line,
 };
 use crate::{Channel, lines::hash_lines};
@@ -18,7 +18,12 @@ pub(crate) struct Declared {
 }
 
 /// Reads the directives of a pass. `default`: what its channels read where no directive says it.
-pub(crate) fn read(text: &str, source: SourceId, around: Around<'_>, default: &[Option<Channel>; 4]) -> Declared {
+pub(crate) fn read(
+    text: &str,
+    source: SourceId,
+    around: DirectiveScope<'_>,
+    default: &[Option<Channel>; 4],
+) -> Declared {
     let mut found = Declared::default();
     // Inputs first, settings after: a setting may stand above the line that names the input.
     let mut settings: Vec<(usize, &str, &str, Span)> = Vec::new();

@@ -10,7 +10,7 @@ fn of_a(text: &str) -> Declared {
     let id = PassId::Buffer("A".into());
     let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassId::Buffer("B".into()))];
     let passes: Vec<(String, PassId)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
-    read(text, SourceId(3), Around { id: &id, file: "buffer_a.glsl", passes: &passes }, &Default::default())
+    read(text, SourceId(3), DirectiveScope { id: &id, file: "buffer_a.glsl", passes: &passes }, &Default::default())
 }
 
 fn channels(text: &str) -> [Option<Channel>; 4] {
@@ -123,7 +123,7 @@ fn every_spelling_of_a_pass_means_it() {
 #[test]
 fn a_setting_alone_is_one_of_the_usual_channels() {
     let id = PassId::Image;
-    let around = Around { id: &id, file: "image.glsl", passes: &[] };
+    let around = DirectiveScope { id: &id, file: "image.glsl", passes: &[] };
     let usual = [Some(Channel::new(Input::buffer("A"))), None, None, None];
     let found = read("#iChannel0::WrapMode \"Repeat\"\n", SourceId(1), around, &usual);
     assert_eq!(found.diagnostics, []);

@@ -25,14 +25,14 @@ use std::{
 };
 
 /// The reason why a file has no text.
-struct Trouble {
+struct IncludeFailure {
     why: String,
     is_limit: bool,
 }
 
-impl From<String> for Trouble {
+impl From<String> for IncludeFailure {
     fn from(why: String) -> Self {
-        Trouble { why, is_limit: false }
+        IncludeFailure { why, is_limit: false }
     }
 }
 
@@ -96,7 +96,7 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
                 continue;
             }
             let content = match known.len() > limits::TEXTS {
-                true => Err(Trouble {
+                true => Err(IncludeFailure {
                     why: format!("with {name} the project has more than {} files, the limit", limits::TEXTS),
                     is_limit: true,
                 }),
@@ -128,7 +128,7 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
 /// Files that are not there for which a like name is looked for: looking for one reads the folder.
 const HINTS: usize = 20;
 
-fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, Trouble> {
+fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, IncludeFailure> {
     let Some(files) = files else {
         return Err(format!("{name} cannot be found: the project has no folder yet; save it first").into());
     };
@@ -145,7 +145,7 @@ fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<Str
             Err(format!("there is no file {name}{hint}").into())
         }
         Read::Refused(e) => {
-            Err(Trouble { why: format!("{e}; {}", e.hint()), is_limit: matches!(e.reason, Reason::TooMuch(_)) })
+            Err(IncludeFailure { why: format!("{e}; {}", e.hint()), is_limit: matches!(e.reason, Reason::TooMuch(_)) })
         }
     }
 }

@@ -63,14 +63,14 @@ object! {
     Shader<'t> {
         ver: Scalar = "ver",
         info: &'t RawValue = "info",
-        renderpass: Few<RenderPass, PASSES> = "renderpass",
+        renderpass: BoundedList<RenderPass, PASSES> = "renderpass",
     }
 }
 
 object! {
     RenderPass {
-        inputs: Few<RenderInput, INPUTS> = "inputs",
-        outputs: Few<Output, INPUTS> = "outputs",
+        inputs: BoundedList<RenderInput, INPUTS> = "inputs",
+        outputs: BoundedList<Output, INPUTS> = "outputs",
         code: String = "code",
         name: Scalar = "name",
         r#type: String = "type",
@@ -163,9 +163,9 @@ impl Scalar {
 }
 
 /// A list of at most `MAX` entries.
-pub struct Few<T, const MAX: usize>(pub Vec<T>);
+pub struct BoundedList<T, const MAX: usize>(pub Vec<T>);
 
-impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX> {
+impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for BoundedList<T, MAX> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct List<T, const MAX: usize>(PhantomData<T>);
         impl<'de, T: Deserialize<'de>, const MAX: usize> Visitor<'de> for List<T, MAX> {
@@ -184,12 +184,12 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
                 Ok(all)
             }
         }
-        deserializer.deserialize_seq(List::<T, MAX>(PhantomData)).map(Few)
+        deserializer.deserialize_seq(List::<T, MAX>(PhantomData)).map(BoundedList)
     }
 }
 
 /// The content of a file before it is known to be a shader.
-pub enum Top<'t> {
+pub enum RootContent<'t> {
     Object(Object<'t>),
     List(Shaders<'t>),
     Bare,
@@ -245,7 +245,7 @@ pub struct Object<'t> {
     pub keys: Vec<String>,
 }
 
-impl<'t> Deserialize<'t> for Top<'t> {
+impl<'t> Deserialize<'t> for RootContent<'t> {
     fn deserialize<D: Deserializer<'t>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(Shape)
     }
@@ -254,13 +254,13 @@ impl<'t> Deserialize<'t> for Top<'t> {
 struct Shape;
 
 impl<'t> Visitor<'t> for Shape {
-    type Value = Top<'t>;
+    type Value = RootContent<'t>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a shader")
     }
 
-    fn visit_map<A: MapAccess<'t>>(self, mut map: A) -> Result<Top<'t>, A::Error> {
+    fn visit_map<A: MapAccess<'t>>(self, mut map: A) -> Result<RootContent<'t>, A::Error> {
         let mut object = Object::default();
         while let Some(key) = map.next_key::<String>()? {
             match key.as_str() {
@@ -276,35 +276,35 @@ impl<'t> Visitor<'t> for Shape {
                 object.keys.push(key);
             }
         }
-        Ok(Top::Object(object))
+        Ok(RootContent::Object(object))
     }
 
-    fn visit_seq<A: SeqAccess<'t>>(self, seq: A) -> Result<Top<'t>, A::Error> {
-        Shaders::read(seq).map(Top::List)
+    fn visit_seq<A: SeqAccess<'t>>(self, seq: A) -> Result<RootContent<'t>, A::Error> {
+        Shaders::read(seq).map(RootContent::List)
     }
 
-    fn visit_bool<E>(self, _: bool) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_bool<E>(self, _: bool) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 
-    fn visit_i64<E>(self, _: i64) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_i64<E>(self, _: i64) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 
-    fn visit_u64<E>(self, _: u64) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_u64<E>(self, _: u64) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 
-    fn visit_f64<E>(self, _: f64) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_f64<E>(self, _: f64) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 
-    fn visit_str<E>(self, _: &str) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_str<E>(self, _: &str) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 
-    fn visit_unit<E>(self) -> Result<Top<'t>, E> {
-        Ok(Top::Bare)
+    fn visit_unit<E>(self) -> Result<RootContent<'t>, E> {
+        Ok(RootContent::Bare)
     }
 }
 

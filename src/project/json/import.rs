@@ -5,7 +5,7 @@
 //! its name, which is free text.
 
 use super::{
-    form::{Few, Object, RenderInput, RenderPass, RenderSampler, Scalar, Shader, Shaders, Top, shown},
+    form::{BoundedList, Object, RenderInput, RenderPass, RenderSampler, RootContent, Scalar, Shader, Shaders, shown},
     ids,
     parsed::readable,
     several,
@@ -48,8 +48,8 @@ pub fn import_one(text: &str, name: &str, wanted: Option<&str>) -> Result<(Proje
 pub fn holds_several(text: &str) -> bool {
     let body = readable(text.strip_prefix('\u{feff}').unwrap_or(text));
     match serde_json::from_str(&body) {
-        Ok(Top::List(shaders)) => shaders.count > 1,
-        Ok(Top::Object(Object { renderpass: false, shader: None, shaders: Some(list), .. })) => {
+        Ok(RootContent::List(shaders)) => shaders.count > 1,
+        Ok(RootContent::Object(Object { renderpass: false, shader: None, shaders: Some(list), .. })) => {
             serde_json::from_str::<Shaders<'_>>(list.get()).is_ok_and(|shaders| shaders.count > 1)
         }
         _ => false,
@@ -90,39 +90,39 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
     let mut is_chosen = false;
     // A list may hold what the API answers, each in its own wrapping.
     let shader = loop {
-        let list = match serde_json::from_str::<Top<'_>>(part).map_err(|e| failed(part, "not JSON", &e))? {
-            Top::Object(object) if object.renderpass => {
+        let list = match serde_json::from_str::<RootContent<'_>>(part).map_err(|e| failed(part, "not JSON", &e))? {
+            RootContent::Object(object) if object.renderpass => {
                 break serde_json::from_str::<Shader<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?;
             }
-            Top::Object(Object { shader: Some(shader), .. }) => {
+            RootContent::Object(Object { shader: Some(shader), .. }) => {
                 part = shader.get();
                 break serde_json::from_str::<Shader<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?;
             }
-            Top::Object(Object { shaders: Some(list), .. }) if !is_chosen => {
+            RootContent::Object(Object { shaders: Some(list), .. }) if !is_chosen => {
                 part = list.get();
                 serde_json::from_str::<Shaders<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?
             }
-            Top::List(list) if !is_chosen => list,
-            Top::Object(Object { error: Some(error), .. }) => {
+            RootContent::List(list) if !is_chosen => list,
+            RootContent::Object(Object { error: Some(error), .. }) => {
                 let said = serde_json::from_str(error.get()).unwrap_or_else(|_| shown(error.get()));
                 let said = if said.trim().is_empty() || said == "null" { "no reason given".to_owned() } else { said };
                 let message = format!("this is an error of the API, not a shader: {}", shown(&said));
                 return refuse(at_key(part, "Error"), message, "request it again; the shader must be public + API");
             }
-            Top::Object(Object { keys, .. }) if keys.iter().any(|k| k == "Results") => {
+            RootContent::Object(Object { keys, .. }) if keys.iter().any(|k| k == "Results") => {
                 let message = "this is a list of ids, not a shader".to_owned();
                 return refuse(at_key(part, "Results"), message, "request one of them from the API");
             }
-            Top::Object(Object { keys, .. }) => {
+            RootContent::Object(Object { keys, .. }) => {
                 let keys: Vec<String> = keys.iter().map(|k| format!("\"{}\"", shown(k))).collect();
                 let has = if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::listed(&keys)) };
                 let message = format!("{NO_SHADER}: the object {has}, and no \"renderpass\"");
                 return refuse(at(begin_of(part), 0), message, EXPECTED);
             }
-            Top::List(_) => {
+            RootContent::List(_) => {
                 return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a list within a list"), EXPECTED);
             }
-            Top::Bare => {
+            RootContent::Bare => {
                 return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a bare value"), EXPECTED);
             }
         };
@@ -161,7 +161,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
         }
         Some(text) => members(text, &mut warnings).map_err(|e| failed(text, NO_SHADER, &e))?,
     };
-    let Some(Few(passes)) = shader.renderpass else {
+    let Some(BoundedList(passes)) = shader.renderpass else {
         return refuse(at_key(part, "renderpass"), format!("{NO_SHADER}: \"renderpass\" is null"), EXPECTED);
     };
     let project = project(passes, info, stem, &mut warnings).map_err(|mut d| {

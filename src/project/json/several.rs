@@ -1,6 +1,6 @@
 //! One shader of a file that holds several.
 
-use super::form::{Head, HeadInfo, Scalar, Shaders, Top, shown};
+use super::form::{Head, HeadInfo, RootContent, Scalar, Shaders, shown};
 use crate::listed;
 use eddy_diag::Diagnostic;
 use serde_json::value::RawValue;
@@ -77,8 +77,8 @@ struct Wrapped<'t>(Option<&'t RawValue>);
 
 impl<'t> serde::Deserialize<'t> for Wrapped<'t> {
     fn deserialize<D: serde::Deserializer<'t>>(deserializer: D) -> Result<Self, D::Error> {
-        match Top::deserialize(deserializer)? {
-            Top::Object(object) => Ok(Wrapped(object.shader)),
+        match RootContent::deserialize(deserializer)? {
+            RootContent::Object(object) => Ok(Wrapped(object.shader)),
             _ => Ok(Wrapped(None)),
         }
     }

@@ -25,7 +25,7 @@ pub(super) struct OutputMarker {
 }
 
 /// The device that was being opened when the program ended; `None` is the system's default one.
-pub(super) type OpenedBefore = Option<String>;
+pub(super) type UnfinishedOpen = Option<String>;
 
 impl OutputMarker {
     pub fn new(state_dir: Option<&Path>) -> Self {
@@ -33,7 +33,7 @@ impl OutputMarker {
     }
 
     /// Returns the device that the program was opening when it ended, if it did.
-    pub fn found(&self) -> Option<OpenedBefore> {
+    pub fn found(&self) -> Option<UnfinishedOpen> {
         let text = fs::read_to_string(self.file.as_ref()?).ok()?;
         let name = text.trim_end_matches('\n');
         Some((name != DEFAULT).then(|| name.to_owned()))
@@ -76,7 +76,7 @@ pub(super) struct MarkedHost {
 
 impl AudioHost for MarkedHost {
     fn output(&self) -> Box<dyn AudioOut> {
-        Box::new(MarkedOut { out: self.host.output(), marker: self.marker.clone() })
+        Box::new(MarkingOutput { out: self.host.output(), marker: self.marker.clone() })
     }
 
     fn input(&self) -> Box<dyn AudioIn> {
@@ -84,12 +84,12 @@ impl AudioHost for MarkedHost {
     }
 }
 
-struct MarkedOut {
+struct MarkingOutput {
     out: Box<dyn AudioOut>,
     marker: OutputMarker,
 }
 
-impl AudioOut for MarkedOut {
+impl AudioOut for MarkingOutput {
     fn names(&mut self) -> Vec<String> {
         self.out.names()
     }

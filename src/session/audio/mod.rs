@@ -8,7 +8,7 @@ mod marker;
 mod microphone;
 mod view;
 
-use marker::{MarkedHost, OpenedBefore, OutputMarker};
+use marker::{MarkedHost, OutputMarker, UnfinishedOpen};
 use microphone::reads_it;
 pub use view::{MicrophoneView, OutputView};
 
@@ -17,7 +17,7 @@ use crate::{
     view::{About, Level},
 };
 use eddy_audio::{
-    Desired, DeviceState, Line, Scene, Sound, Source, Spectrum, Track, host::AudioHost, microphone::Microphone,
+    DeviceState, OutputState, Scene, Sound, Source, Spectrum, Timeline, Track, host::AudioHost, microphone::Microphone,
     player::Player,
 };
 use eddy_media::ChannelSound;
@@ -47,7 +47,7 @@ pub struct Audio {
     track: Option<(u64, Arc<Track>)>,
     scene: Arc<Scene>,
     /// Holds what the player was told last.
-    told: Option<(Arc<Scene>, Option<Line>, f32)>,
+    sent: Option<(Arc<Scene>, Option<Timeline>, f32)>,
     volume: f32,
     is_muted: bool,
     is_hidden: bool,
@@ -64,7 +64,7 @@ pub struct Audio {
     /// Says to the next start that a device was being opened.
     marker: OutputMarker,
     /// Found of the run before: the device whose driver ended it. That one is not opened before a person asks.
-    ended_before: Option<OpenedBefore>,
+    ended_before: Option<UnfinishedOpen>,
     is_end_told: bool,
     /// Since when the output is open.
     open_since: Option<Instant>,
@@ -89,7 +89,7 @@ impl Audio {
             coming: None,
             track: None,
             scene: Arc::default(),
-            told: None,
+            sent: None,
             volume: 1.0,
             is_muted: false,
             is_hidden: false,
@@ -218,24 +218,24 @@ impl Audio {
     }
 
     /// Tells the player what is to be heard from now on, where that is something else than before.
-    fn play(&mut self, line: Option<Line>, wake: &Arc<dyn Fn() + Send + Sync>, now: Instant) {
+    fn play(&mut self, line: Option<Timeline>, wake: &Arc<dyn Fn() + Send + Sync>, now: Instant) {
         let scene = Scene { sources: self.sources() };
         if !scene.is(&self.scene) {
             self.scene = Arc::new(scene);
         }
         let line = line.filter(|line| SPEEDS.contains(&line.speed) && !self.is_hidden);
-        let desired = Desired { scene: self.scene.clone(), line, gain: self.gain() };
+        let desired = OutputState { scene: self.scene.clone(), line, gain: self.gain() };
         // Nothing is opened for a project without sound.
         if self.ended_before.is_some() || (self.player.is_none() && !desired.is_heard()) {
             return;
         }
         let wanted = (desired.scene.clone(), line, desired.gain);
-        let is_told = self
-            .told
+        let is_sent = self
+            .sent
             .as_ref()
-            .is_some_and(|told| Arc::ptr_eq(&told.0, &wanted.0) && (told.1, told.2) == (wanted.1, wanted.2));
+            .is_some_and(|sent| Arc::ptr_eq(&sent.0, &wanted.0) && (sent.1, sent.2) == (wanted.1, wanted.2));
         let Some(player) = self.player(wake) else { return };
-        if !is_told {
+        if !is_sent {
             player.play(desired);
         }
         player.step(now);
@@ -249,7 +249,7 @@ impl Audio {
             // It is closed, or being opened on its thread.
             DeviceState::Closed | DeviceState::Missing(_) => self.open_since = None,
         }
-        self.told = Some(wanted);
+        self.sent = Some(wanted);
     }
 }
 

@@ -1,6 +1,6 @@
 //! A pass is not drawn for one of these reasons.
 
-use eddy_engine::{PassCost, PassRole, When};
+use eddy_engine::{PassCost, PassRole, ReadTiming};
 use eddy_project::PassId;
 
 /// Returns in words why a pass was not drawn in the newest frame; `None` for one that was.
@@ -31,7 +31,7 @@ pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
     }
     let mut names: Vec<String> = readers().map(|(reader, _)| reader.pass.title()).collect();
     names.dedup();
-    let itself = cost.reads.iter().any(|read| read.pass == *pass && read.when == When::LastFrame);
+    let itself = cost.reads.iter().any(|read| read.pass == *pass && read.when == ReadTiming::LastFrame);
     Some(match (names.is_empty(), itself) {
         (false, _) => format!("not drawn: read only by {}, which is not drawn either", names.join(", ")),
         (true, true) => "not drawn: no other pass reads it".into(),
@@ -50,7 +50,7 @@ mod tests {
             channel,
             pass: id(other),
             index: 0,
-            when: if *other == name { When::LastFrame } else { When::ThisFrame },
+            when: if *other == name { ReadTiming::LastFrame } else { ReadTiming::ThisFrame },
             is_used: false,
         };
         PassCost {

@@ -12,7 +12,7 @@ use super::{
     drawing::Device,
     options::SessionOptions,
     probe::ProbePlace,
-    view::{CompileState, Meanwhile, Outcome, TabDiagnostic},
+    view::{CompileState, FallbackPicture, Outcome, TabDiagnostic},
 };
 use eddy_background::{Background, Wake};
 use eddy_diag::Severity;
@@ -264,13 +264,13 @@ impl CompileControl {
         let warnings = self.count(Severity::Warning);
         self.state.last = Some(match self.count(Severity::Error) {
             0 => Outcome::Ok { millis, warnings },
-            errors => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
+            errors => Outcome::Failed { errors, meanwhile: FallbackPicture::Newest },
         });
     }
 
     /// The newest text gave no program, for the reasons that are in the list.
     pub fn fail(&mut self, has_program: bool) {
-        let meanwhile = if has_program { Meanwhile::LastGood } else { Meanwhile::Nothing };
+        let meanwhile = if has_program { FallbackPicture::LastGood } else { FallbackPicture::Nothing };
         self.state.last = Some(Outcome::Failed { errors: self.count(Severity::Error), meanwhile });
     }
 

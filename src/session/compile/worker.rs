@@ -5,7 +5,7 @@ use crate::{
     drawing::Device,
     options::SessionOptions,
     probe::{self, ProbePlace, ProbedValue},
-    sound::Heard,
+    sound::CompiledSound,
     view::TabDiagnostic,
 };
 use eddy_background::Control;
@@ -65,7 +65,7 @@ pub struct Compiled {
     /// The value that the program draws, or why it draws none though one is asked for.
     pub probe: Option<Result<ProbedValue, String>>,
     /// The sound that it leads to.
-    pub heard: Heard,
+    pub heard: CompiledSound,
     /// The music that its channels name.
     pub sounds: Vec<ChannelSound>,
 }
@@ -130,9 +130,9 @@ pub fn work(
         let (said, is_sound) = not_built(&mut kept, &job.project);
         diag::append(&mut found, said);
         let heard = match is_sound {
-            None => Heard::Nothing,
-            Some(false) => Heard::Broken,
-            Some(true) => Heard::Sound(Box::new(media.set.clone())),
+            None => CompiledSound::Nothing,
+            Some(false) => CompiledSound::Broken,
+            Some(true) => CompiledSound::Sound(Box::new(media.set.clone())),
         };
         let took = start.elapsed();
         diag::append(&mut found, project::advice(&job.project));

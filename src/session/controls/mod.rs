@@ -10,7 +10,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_control::{
-    ControlEvent, ControlQueue, Movement, OWN_UNITS, Takeover, Waits, Wake, direct,
+    ControlEvent, ControlQueue, Movement, OWN_UNITS, PickupSide, Takeover, Wake, direct,
     midi::{MidiChoice, MidiInputs, MidiState, host::MidiHost},
     moved,
     osc::{OscInput, OscState, dispatched, is_pattern},
@@ -55,7 +55,7 @@ pub(super) struct Controls {
     is_osc_told: bool,
     is_midi_told: bool,
     /// The devices that a person was told of.
-    told: Vec<String>,
+    announced: Vec<String>,
 }
 
 /// Says what is listened to, for a front end.
@@ -98,7 +98,7 @@ impl Controls {
             takeovers: BTreeMap::new(),
             is_osc_told: false,
             is_midi_told: false,
-            told: Vec::new(),
+            announced: Vec::new(),
         }
     }
 
@@ -148,7 +148,7 @@ impl Session {
     }
 
     /// Returns the side of a number's value on which its knob waits. `None`: it does not wait.
-    pub fn control_waits(&self, target: &ControlTarget) -> Option<Waits> {
+    pub fn control_waits(&self, target: &ControlTarget) -> Option<PickupSide> {
         let target = self.as_in_texts(target);
         self.project().controls.get(&target).and_then(|_| self.controls.takeovers.get(&target)?.waits())
     }
@@ -179,7 +179,7 @@ impl Session {
             return;
         }
         self.settled(About::Midi);
-        (self.controls.is_midi_told, self.controls.told) = (false, Vec::new());
+        (self.controls.is_midi_told, self.controls.announced) = (false, Vec::new());
         self.controls.choice = choice.clone();
         if let Some(midi) = self.controls.midi() {
             midi.choose(choice);
@@ -265,11 +265,11 @@ impl Session {
             Some(midi) if self.controls.choice != MidiChoice::Off => midi.state(),
             _ => return,
         };
-        let told = std::mem::replace(&mut self.controls.told, state.open.clone());
-        for name in state.open.iter().filter(|name| !told.contains(name)) {
+        let announced = std::mem::replace(&mut self.controls.announced, state.open.clone());
+        for name in state.open.iter().filter(|name| !announced.contains(name)) {
             self.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
         }
-        for name in told.iter().filter(|name| !state.open.contains(name)) {
+        for name in announced.iter().filter(|name| !state.open.contains(name)) {
             self.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
         }
         match state.missing {

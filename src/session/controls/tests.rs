@@ -13,19 +13,19 @@ use std::net::UdpSocket;
 const TEXT: &str = "#iUniform float speed = 1.0 in { 0.0, 4.0 }\n#iUniform vec2 center in { -1.0, 1.0 }\n\
                     #iUniform bool on\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(speed, center, on ? 1.0 : 0.0); }\n";
 
-struct Room {
+struct Fixture {
     session: Session,
     midi: FakeMidi,
     pads: FakePads,
     now: Instant,
 }
 
-impl Room {
-    fn open() -> Option<Room> {
+impl Fixture {
+    fn open() -> Option<Fixture> {
         Self::with(TEXT)
     }
 
-    fn with(text: &str) -> Option<Room> {
+    fn with(text: &str) -> Option<Fixture> {
         let gpu = testing::gpu()?;
         let midi = FakeMidi::default();
         midi.plug_in("Knobs");
@@ -43,7 +43,7 @@ impl Room {
         session.apply(Command::OpenProject { project: Box::new(project), size: None });
         session.apply(Command::Pause);
         session.apply(Command::SetMidi(MidiChoice::All));
-        let mut room = Room { session, midi, pads, now: Instant::now() };
+        let mut room = Fixture { session, midi, pads, now: Instant::now() };
         room.until("a program", |session| session.drawing.has_program());
         Some(room)
     }
@@ -86,7 +86,7 @@ impl Room {
 
 #[test]
 fn a_control_is_learned_by_touching_it_moves_its_uniform_and_is_forgotten() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.send(&[0xb0, 70, 127]);
     assert_eq!((room.value("speed"), room.session.is_dirty()), (vec![1.0], false), "nobody has learned it");
@@ -118,7 +118,7 @@ fn a_control_is_learned_by_touching_it_moves_its_uniform_and_is_forgotten() {
 
 #[test]
 fn a_fine_control_is_learned_as_one_and_a_key_switches_over() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     let (speed, on) = (ControlTarget::whole("speed"), ControlTarget::whole("on"));
     // Both parts at once, and one after the other.
     room.learn(&speed, &[0xb0, 7, 64, 0xb0, 39, 1]);
@@ -143,7 +143,7 @@ fn a_fine_control_is_learned_as_one_and_a_key_switches_over() {
 
 #[test]
 fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.learn(&speed, &[0xb0, 70, 127]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0], None), "it was just learned");
@@ -151,7 +151,7 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
     let value = eddy_project::CustomUniformValue::Float(1.0);
     room.session.apply(Command::SetCustomUniform { name: "speed".into(), value: Some(value) });
     room.send(&[0xb0, 70, 120]);
-    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![1.0], Some(Waits::Above)));
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![1.0], Some(PickupSide::Above)));
     room.send(&[0xb0, 70, 40]);
     assert_eq!(room.value("speed"), [1.0]);
     room.send(&[0xb0, 70, 20]);
@@ -163,7 +163,7 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
     room.session.apply(Command::Answer(crate::Answer::Discard));
     room.until("a program", |session| session.drawing.has_program() && !session.custom_uniforms().is_empty());
     room.send(&[0xb0, 70, 21]);
-    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(Waits::Below)));
+    assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(PickupSide::Below)));
     room.session.apply(Command::ForgetControl(speed.clone()));
     assert_eq!(room.session.control_waits(&speed), None);
     // A switch and a pitch bend have nothing to pass.
@@ -174,7 +174,7 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
 
 #[test]
 fn a_parameter_is_learned_by_its_number_however_its_messages_come() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.learn(&speed, &[0xb0, 99, 2, 98, 44, 6, 64]);
     assert_eq!(room.bound(&speed).as_deref(), Some("midi 1 nrpn 300"));
@@ -189,7 +189,7 @@ fn a_parameter_is_learned_by_its_number_however_its_messages_come() {
 
 #[test]
 fn osc_moves_what_it_names_and_what_it_was_learned_for() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     room.session.apply(Command::SetOsc(Some(SocketAddr::from(([127, 0, 0, 1], 0)))));
     room.until("listening", |session| matches!(session.controls_view().osc, Some(OscState::Listening(_))));
     let Some(OscState::Listening(to)) = room.session.controls_view().osc else { unreachable!() };
@@ -227,8 +227,8 @@ fn osc_moves_what_it_names_and_what_it_was_learned_for() {
 
 #[test]
 fn devices_that_come_and_go_are_told_of_once() {
-    let Some(mut room) = Room::open() else { return };
-    let told = |room: &Room, text: &str| room.session.notices().iter().filter(|n| n.text.contains(text)).count();
+    let Some(mut room) = Fixture::open() else { return };
+    let told = |room: &Fixture, text: &str| room.session.notices().iter().filter(|n| n.text.contains(text)).count();
     assert_eq!(told(&room, "MIDI device connected: Knobs"), 1);
     room.midi.unplug("Knobs");
     room.now += Duration::from_secs(3);
@@ -243,7 +243,7 @@ fn devices_that_come_and_go_are_told_of_once() {
 /// A recording has the values of controls as it has those of a hand.
 #[test]
 fn a_recording_has_the_values_that_controls_have_set() {
-    let Some(mut room) = Room::open() else { return };
+    let Some(mut room) = Fixture::open() else { return };
     room.learn(&ControlTarget::whole("speed"), &[0xb0, 70, 0]);
     room.session.apply(Command::Record);
     room.session.apply(Command::Play);
@@ -261,8 +261,8 @@ fn a_recording_has_the_values_that_controls_have_set() {
 #[test]
 fn a_gamepad_moves_uniforms_and_is_in_the_frames_of_a_recording() {
     let text = format!("#iChannel0 \"gamepad\"\n{TEXT}");
-    let Some(mut room) = Room::with(&text) else { return };
-    let happens = |room: &Room, event: PadEvent| room.pads.happens(event);
+    let Some(mut room) = Fixture::with(&text) else { return };
+    let happens = |room: &Fixture, event: PadEvent| room.pads.happens(event);
     let moved = |part: PadPart, value: f32| PadEvent::Moved { pad: 0, part, value };
     let (stick, south) = (PadPart::Axis(0), PadPart::Button(0));
     happens(&room, PadEvent::Connected { pad: 0, name: "Pad".into() });

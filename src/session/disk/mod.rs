@@ -43,7 +43,7 @@ pub(super) struct DiskSync {
 }
 
 /// The project on disk, if it can be used.
-enum OnDisk {
+enum DiskProject {
     Project(Box<Loaded>),
     /// It makes no whole project, perhaps because somebody is writing it just now.
     Unusable(String),
@@ -117,18 +117,18 @@ impl DiskSync {
         let since = *self.unsettled_since.get_or_insert(now);
         let is_last_try = now.saturating_duration_since(since) >= self.retry_for;
         let found = Self::read(documents, is_last_try);
-        if matches!(found, Some(OnDisk::Unusable(_))) && !is_last_try {
+        if matches!(found, Some(DiskProject::Unusable(_))) && !is_last_try {
             self.changes.touch(now);
             return Check::Nothing;
         }
         self.unsettled_since = None;
         match found {
             None => Check::Nothing,
-            Some(OnDisk::Project(project)) => {
+            Some(DiskProject::Project(project)) => {
                 self.reported = None;
                 Check::Project(project)
             }
-            Some(OnDisk::Unusable(why)) => {
+            Some(DiskProject::Unusable(why)) => {
                 let is_new = self.reported.as_ref() != Some(&why);
                 self.reported = Some(why.clone());
                 Check::Unusable { why: Some(why).filter(|_| is_new) }
@@ -137,10 +137,10 @@ impl DiskSync {
     }
 
     /// `None` for a project that lies in no file. On the last try files that are gone or empty are taken as meant.
-    fn read(documents: &Documents, is_last_try: bool) -> Option<OnDisk> {
+    fn read(documents: &Documents, is_last_try: bool) -> Option<DiskProject> {
         let mut read = match project::load(&documents.saved().spec()?) {
             Ok(read) => read,
-            Err(e) => return Some(OnDisk::Unusable(e.to_string())),
+            Err(e) => return Some(DiskProject::Unusable(e.to_string())),
         };
         let loaded = &mut read.project;
         for tab in documents.saved().tabs() {
@@ -149,7 +149,7 @@ impl DiskSync {
                 // Editors truncate a file before they write it.
                 Some(source) if source.text.is_empty() && !known.text.is_empty() => {
                     if !is_last_try && !documents.is_missing(&tab) {
-                        return Some(OnDisk::Unusable(format!("{} is empty", source.name)));
+                        return Some(DiskProject::Unusable(format!("{} is empty", source.name)));
                     }
                     source.text = known.text.clone();
                 }
@@ -159,12 +159,12 @@ impl DiskSync {
                     && !documents.is_missing(&tab)
                     && known.path.as_ref().is_some_and(|p| !p.exists()) =>
                 {
-                    return Some(OnDisk::Unusable(format!("{} was removed", known.name)));
+                    return Some(DiskProject::Unusable(format!("{} was removed", known.name)));
                 }
                 None => {}
             }
         }
-        Some(OnDisk::Project(Box::new(read)))
+        Some(DiskProject::Project(Box::new(read)))
     }
 
     /// Returns whether every file is as it was read, or as it would be written.

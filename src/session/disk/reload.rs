@@ -1,6 +1,6 @@
 //! A session follows the project's files when they change under it.
 
-use super::{Check, DiskSync, OnDisk, manifest_path, manifest_text};
+use super::{Check, DiskProject, DiskSync, manifest_path, manifest_text};
 use crate::{
     Session,
     command::Question,
@@ -33,7 +33,7 @@ impl Session {
 
     /// Takes what lies on disk after texts alone were written.
     pub(crate) fn read_disk(&mut self) {
-        if let Some(OnDisk::Project(project)) = DiskSync::read(&self.documents, true) {
+        if let Some(DiskProject::Project(project)) = DiskSync::read(&self.documents, true) {
             self.merge(*project);
         }
     }
@@ -145,12 +145,12 @@ impl Session {
             return true;
         }
         match DiskSync::read(&self.documents, true) {
-            Some(OnDisk::Project(project)) => {
+            Some(DiskProject::Project(project)) => {
                 let questions = self.dialog.questions.len();
                 self.merge(*project);
                 self.dialog.questions.len() == questions
             }
-            Some(OnDisk::Unusable(why)) => {
+            Some(DiskProject::Unusable(why)) => {
                 self.notice_about(
                     About::Saving,
                     Level::Error,

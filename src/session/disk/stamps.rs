@@ -21,11 +21,11 @@ const RECENT: Duration = Duration::from_secs(2);
 /// Stamps as they were last taken, so that a file that has not changed is not read again.
 #[derive(Default)]
 pub struct Stamps {
-    taken: HashMap<PathBuf, Taken>,
+    taken: HashMap<PathBuf, StampedFile>,
 }
 
 /// A stamp, and the attributes that the file had then.
-struct Taken {
+struct StampedFile {
     attributes: Attributes,
     hash: u64,
 }
@@ -69,7 +69,7 @@ impl Stamps {
         });
         self.taken.remove(path);
         if let (Some(attributes), Some(hash)) = (attributes, hash) {
-            self.taken.insert(path.to_owned(), Taken { attributes, hash });
+            self.taken.insert(path.to_owned(), StampedFile { attributes, hash });
         }
         hash
     }

@@ -2,10 +2,10 @@
 
 use super::{
     gate::Gate,
-    history::Travelled,
+    history::SeekProgress,
     task::{Delivery, Tasks},
 };
-use crate::playback::{Goal, Reach};
+use crate::playback::{Reach, SeekTarget};
 use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime, Picture, Program, ValueLook};
 use eddy_playback::run::Frame;
 use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};
@@ -77,7 +77,7 @@ pub struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
     /// Another frame of the run is to be shown.
-    pub travel: Option<Goal>,
+    pub travel: Option<SeekTarget>,
     /// Time stands still: what the changes make other than before is drawn again, and is not a further frame.
     pub stays: bool,
     /// The frame that is shown is to be drawn again, as it would be now.
@@ -117,7 +117,7 @@ pub struct Done {
     /// The frame shows an older frame of a video than it should.
     pub is_late: bool,
     /// The frame of the run that is shown now; `Some(None)` where the goal is out of reach.
-    pub travelled: Option<Option<Result<Travelled, EngineError>>>,
+    pub travelled: Option<Option<Result<SeekProgress, EngineError>>>,
     /// The frames that one can go to.
     pub reach: Reach,
     /// The outputs of the tasks, in their order.

@@ -12,7 +12,7 @@ mod renderer;
 mod task;
 
 pub(super) use gate::FrameControl;
-pub(super) use history::Travelled;
+pub(super) use history::SeekProgress;
 pub(super) use job::{Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, TileLimit};
 pub(super) use render_thread::{Device, Open, beside};
 pub(super) use renderer::Renderer;

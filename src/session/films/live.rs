@@ -2,7 +2,7 @@
 
 use super::{
     FilmOrder,
-    heard::HeardSounds,
+    audio::HeardSounds,
     target::{Pictures, Target},
     work::Finish,
 };

@@ -4,16 +4,16 @@
 //! thread that draws a range and completes files ([`work`]), and the files' places ([`target`]). One film is made at a
 //! time.
 
+mod audio;
 mod form;
-mod heard;
 mod live;
 mod order;
 mod target;
 mod words;
 mod work;
 
+pub(super) use audio::FilmSoundPass;
 pub use form::{CheckedForm, FilmFacts, FilmField, FilmForm, FilmPreset};
-pub(super) use heard::HeardPass;
 pub use order::{FilmDone, FilmOrder, FilmPlace, FilmProgress, FilmStage, FilmView, LiveView};
 
 use super::{
@@ -23,11 +23,11 @@ use super::{
     drawing::Tasks,
     view::{About, Level},
 };
+use audio::FilmAudio;
 use eddy_background::{Background, Status, Wake};
 use eddy_film::{Cancel, FilmError};
 use eddy_playback::capture;
 use eddy_video::Tools;
-use heard::Heard;
 use live::Live;
 use std::{
     sync::Arc,
@@ -254,7 +254,7 @@ impl Session {
     pub(super) fn note_heard(&mut self, secs: f64) {
         let Some(heard) = self.films.live.as_mut().and_then(|live| live.heard.as_mut()) else { return };
         let (music, number) = (self.audio.music(), self.sounding.number());
-        heard.note(secs, (number, music), || Heard::new(music, self.sounding.heard()));
+        heard.note(secs, (number, music), || FilmAudio::new(music, self.sounding.heard()));
     }
 
     /// Takes the recording away, and gives the picture back its size and its time.

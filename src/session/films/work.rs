@@ -2,13 +2,14 @@
 
 use super::{
     FilmDone, FilmOrder, FilmProgress, FilmStage,
-    heard::{HeardPass, HeardSounds},
+    audio::{FilmSoundPass, HeardSounds},
     target::{Pictures, Target},
 };
 use eddy_background::Control;
 use eddy_engine::{BuildOptions, Pixels, Trial};
 use eddy_film::{
-    Cancel, Encoding, FilmSound, FilmTime, Rate, Seam, Shape, Shown, Still, Writer, check_tools, has_sound, soundtrack,
+    Cancel, Encoding, FilmSound, FilmTime, Rate, Seam, Shape, ShownPass, Still, Writer, check_tools, has_sound,
+    soundtrack,
 };
 use eddy_gpu::{self as gpu, Gpu, GpuOptions};
 use eddy_media::{self as media, MediaSet};
@@ -29,7 +30,7 @@ use std::{
 /// Steps that the thread takes back where a processor draws: the picture in the window goes first, which takes 5.
 const STEPS_BACK: i32 = 10;
 /// Progress is told at most this often.
-const TOLD: Duration = Duration::from_millis(100);
+const REPORT_EVERY: Duration = Duration::from_millis(100);
 
 pub(super) enum Work {
     Range(Box<RangeJob>),
@@ -80,7 +81,7 @@ impl LateSound {
         control: &Control<FilmProgress>,
     ) -> Result<Option<Vec<[i16; 2]>>, Stopped> {
         let Self { gpu, trial, heard } = self;
-        let open = |pass: &HeardPass| {
+        let open = |pass: &FilmSoundPass| {
             let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or_else(|_| gpu.clone());
             let mut offline = Offline::new(&gpu, (16, 16), ScriptedInputs::new(60.0)).map_err(OfflineError::from)?;
             offline.set_sound_date(pass.date);
@@ -168,7 +169,7 @@ impl From<String> for Stopped {
 
 fn draw(job: RangeJob, control: &Control<FilmProgress>) -> Result<FilmDone, String> {
     let pictures = Pictures::new(&job.target);
-    let mut drawing = Drawing { job, control, pictures, told: None, began: None };
+    let mut drawing = Drawing { job, control, pictures, reported_at: None, began: None };
     let done = drawing.run().map_err(|Stopped(why)| why)?;
     still_wanted(control, &drawing.job.target)?;
     if let Some(pictures) = drawing.pictures {
@@ -182,7 +183,7 @@ struct Drawing<'a> {
     job: RangeJob,
     control: &'a Control<FilmProgress>,
     pictures: Option<Pictures>,
-    told: Option<Instant>,
+    reported_at: Option<Instant>,
     /// The first frame is done since, and it took another time than the others.
     began: Option<Instant>,
 }
@@ -204,7 +205,7 @@ impl Drawing<'_> {
         let mut offline = self.open(&gpu, &media, self.job.pass.clone())?;
         let has_state = offline.has_state().map_err(OfflineError::from)?;
         let source = self.source(&offline, has_state)?;
-        let shown = Shown { pass: self.job.pass.clone(), layer: 0, factor: 1 };
+        let shown = ShownPass { pass: self.job.pass.clone(), layer: 0, factor: 1 };
         let mut seam = match order.fade_secs {
             Some(secs) => {
                 let fade = Seam::fade_frames(secs, order.rate, count)?;
@@ -314,10 +315,10 @@ impl Drawing<'_> {
     fn tell(&mut self, done: u32, of: u32, (drawn, draws): (u32, u32)) {
         let now = Instant::now();
         let since = *self.began.get_or_insert(now);
-        if self.told.is_some_and(|told| now.duration_since(told) < TOLD) && done != of {
+        if self.reported_at.is_some_and(|reported_at| now.duration_since(reported_at) < REPORT_EVERY) && done != of {
             return;
         }
-        self.told = Some(now);
+        self.reported_at = Some(now);
         let left = left(now.duration_since(since), drawn.saturating_sub(1), draws.saturating_sub(drawn));
         self.control.report(FilmProgress { stage: FilmStage::Drawing, done, of, left });
     }

@@ -4,7 +4,7 @@ use super::super::{
     Command, SessionOptions,
     compile::{BRIEF, Job},
     drawing::Drawing,
-    view::{Meanwhile, Outcome},
+    view::{FallbackPicture, Outcome},
 };
 use super::*;
 use eddy_background::Background;
@@ -42,7 +42,7 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
     tick_until(&mut session, "the panic to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
     let notice = session.notices().last().unwrap();
     assert!(notice.text.starts_with("this is a bug in Eddy: the compiler failed"), "{}", notice.text);
-    let last = Outcome::Failed { errors: 1, meanwhile: Meanwhile::LastGood };
+    let last = Outcome::Failed { errors: 1, meanwhile: FallbackPicture::LastGood };
     assert_eq!((session.compile_state().last.clone(), session.compile_state().compiling), (Some(last), false));
     assert!(session.is_dirty());
     assert_eq!(session.text(&tab), text);

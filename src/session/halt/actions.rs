@@ -1,6 +1,6 @@
 //! A session halts its picture, goes on with it, and gives up a device that does not come back.
 
-use super::{HaltControl, Overdue, Verdict};
+use super::{HaltControl, OverdueAction, Verdict};
 use crate::{
     Session,
     drawing::ProgramOrigin,
@@ -20,8 +20,8 @@ impl Session {
             self.halt_with(Halt::Drawing { limit: self.halting.limit(), since });
         }
         match self.halting.judge_overdue(age, self.is_newer_wanted()) {
-            Overdue::Wait => {}
-            Overdue::MakeRoom => {
+            OverdueAction::Wait => {}
+            OverdueAction::MakeRoom => {
                 let lost = self.drawing.lost_threads();
                 if HaltControl::may_take_device(self.now, self.compile.edited_at, lost) {
                     self.start_anew();
@@ -29,7 +29,7 @@ impl Session {
                     self.compile_soon();
                 }
             }
-            Overdue::GiveUp => self.give_up_frame(age),
+            OverdueAction::GiveUp => self.give_up_frame(age),
         }
     }
 

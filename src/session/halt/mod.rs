@@ -63,7 +63,7 @@ pub(super) enum Verdict {
 
 /// A device still draws a frame that takes too long.
 #[derive(Debug, PartialEq)]
-pub(super) enum Overdue {
+pub(super) enum OverdueAction {
     Wait,
     /// Newer code has its device, or may not take it yet.
     MakeRoom,
@@ -200,11 +200,11 @@ impl HaltControl {
     }
 
     /// Returns what is done about a frame that is overdue by such an age.
-    pub fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> Overdue {
+    pub fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> OverdueAction {
         match () {
-            () if is_newer_wanted => Overdue::MakeRoom,
-            () if age >= self.patience() => Overdue::GiveUp,
-            () => Overdue::Wait,
+            () if is_newer_wanted => OverdueAction::MakeRoom,
+            () if age >= self.patience() => OverdueAction::GiveUp,
+            () => OverdueAction::Wait,
         }
     }
 
@@ -319,9 +319,12 @@ mod tests {
         let at = |secs| since + Duration::from_secs(secs);
         assert_eq!(control.overdue(at(1), Some(since)), None);
         let age = control.overdue(at(10), Some(since)).unwrap();
-        assert_eq!([true, false].map(|newer| control.judge_overdue(age, newer)), [Overdue::MakeRoom, Overdue::GiveUp]);
+        assert_eq!(
+            [true, false].map(|newer| control.judge_overdue(age, newer)),
+            [OverdueAction::MakeRoom, OverdueAction::GiveUp]
+        );
         control.begin_code(None);
-        assert_eq!(control.judge_overdue(age, false), Overdue::Wait);
+        assert_eq!(control.judge_overdue(age, false), OverdueAction::Wait);
         assert_eq!(control.deadline(at(0), Some(since), false), Some(at(2)));
         control.start(Halt::Drawing { limit: LIMIT, since }, true, None);
         assert_eq!(control.deadline(at(10), Some(since), false), Some(at(30)));

@@ -133,7 +133,7 @@ fn project(image: &str) -> Project {
 }
 
 /// Comments, each with its line.
-fn told(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
+fn summaries(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
     measuring
         .measures()
         .iter()
@@ -161,19 +161,19 @@ fn a_comment_keeps_its_record_until_its_text_changes() {
     measuring.watch(vec![1, 2]);
     draw(&mut measuring, 0, now, false);
     assert_eq!(draw(&mut measuring, 1, now, false), Some(2));
-    assert_eq!(told(&measuring), [(1, "max(image.x)", 1, true), (2, "min(image)", 2, true)]);
+    assert_eq!(summaries(&measuring), [(1, "max(image.x)", 1, true), (2, "min(image)", 2, true)]);
     // Of another text, further down, and the second one once more.
     let more = "float a;\n//@probe max(image.x)\n//@probe min(image)\n//@probe min(image)\n";
     assert!(measuring.follow(&project(more), (1, 2)) && !measuring.follow(&project(more), (1, 2)));
     assert_eq!(
-        told(&measuring),
+        summaries(&measuring),
         [(1, "max(image.x)", 2, true), (2, "min(image)", 3, true), (3, "min(image)", 4, false)]
     );
     measuring.follow(&project("//@probe max(image.y)\n//@probe min(image)\n"), (1, 3));
-    assert_eq!(told(&measuring), [(4, "max(image.y)", 1, false), (2, "min(image)", 2, true)]);
+    assert_eq!(summaries(&measuring), [(4, "max(image.y)", 1, false), (2, "min(image)", 2, true)]);
     measuring.begin_next_project();
     measuring.follow(&project("//@probe min(image)\n"), (2, 3));
-    assert_eq!(told(&measuring), [(5, "min(image)", 1, false)]);
+    assert_eq!(summaries(&measuring), [(5, "min(image)", 1, false)]);
 }
 
 #[test]

@@ -11,10 +11,10 @@ mod seek;
 
 pub use record::Recorder;
 pub use replay::{Reading, Replay, ReplayView, ReplayedFrame, name};
-pub use seek::{Goal, Reach, Seeking, TimeRange};
+pub use seek::{Reach, SeekTarget, Seeking, TimeRange};
 
 use clock::{Clock, FrameTime};
-use eddy_audio::Line;
+use eddy_audio::Timeline;
 use eddy_engine::FrameInputs;
 use eddy_media::{Gamepads, Keyboard};
 use eddy_playback::{date, mouse::Mouse};
@@ -65,7 +65,7 @@ impl Playback {
     }
 
     /// Returns how `iTime` runs, while it does: for what is heard with the picture.
-    pub fn line(&self) -> Option<Line> {
+    pub fn line(&self) -> Option<Timeline> {
         if !self.is_running() || self.is_seeking() {
             return None;
         }
@@ -74,7 +74,7 @@ impl Playback {
             Some(playing) => playing.anchor()?,
             None => self.clock.anchor()?,
         };
-        Some(Line { at, secs, speed })
+        Some(Timeline { at, secs, speed })
     }
 
     /// Nothing but what is done to the project or the window changes the picture.

@@ -9,7 +9,7 @@
 
 use super::{
     Playback,
-    seek::{Goal, Reach},
+    seek::{Reach, SeekTarget},
 };
 use eddy_playback::recording::{Change, ReadError, RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
@@ -287,7 +287,7 @@ impl Playback {
         self.steps = 0;
         self.clock.pause();
         if !is_at_start {
-            self.seeking.goal = Some(Goal::Time(secs));
+            self.seeking.goal = Some(SeekTarget::Time(secs));
         }
         self.seeking.until = (is_at_start || secs > reach.last_secs).then_some(secs);
         self.seeking.resumes = resumes;

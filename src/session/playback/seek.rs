@@ -5,12 +5,12 @@
 //! is reached by drawing every frame on the way, at a fixed step.
 
 use super::Playback;
-use crate::drawing::Travelled;
+use crate::drawing::SeekProgress;
 use std::mem::take;
 
 /// A frame of the run that is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
+pub enum SeekTarget {
     /// So many frames after the one that is shown; negative: before it.
     By(i64),
     /// The frame of this number, the run's first being 0.
@@ -53,7 +53,7 @@ impl TimeRange {
 #[derive(Default)]
 pub struct Seeking {
     /// The frame that the engine is to be asked for.
-    pub goal: Option<Goal>,
+    pub goal: Option<SeekTarget>,
     /// The engine has been asked.
     pub is_under_way: bool,
     /// The project has just been opened: its first program goes there.
@@ -88,7 +88,7 @@ impl Playback {
         self.clock.pause();
         self.steps = 0;
         let before = self.take_steps_of_goal();
-        self.seeking.goal = Some(Goal::By(before.saturating_sub(i64::try_from(by).unwrap_or(i64::MAX))));
+        self.seeking.goal = Some(SeekTarget::By(before.saturating_sub(i64::try_from(by).unwrap_or(i64::MAX))));
     }
 
     /// One frame further: the next one of the run, where one has gone back, else a new one. `ahead`: the frames of the
@@ -98,7 +98,7 @@ impl Playback {
         let before = self.take_steps_of_goal();
         let is_ahead = i64::try_from(ahead).is_ok_and(|ahead| ahead > before);
         if self.steps == 0 && is_ahead && !self.is_frame_due {
-            self.seeking.goal = Some(Goal::By(before + 1));
+            self.seeking.goal = Some(SeekTarget::By(before + 1));
         } else {
             self.steps = self.steps.saturating_add(1);
         }
@@ -108,7 +108,7 @@ impl Playback {
     fn take_steps_of_goal(&mut self) -> i64 {
         let goal = self.seeking.goal;
         self.seeking.cancel();
-        if let Some(Goal::By(frames)) = goal { frames } else { 0 }
+        if let Some(SeekTarget::By(frames)) = goal { frames } else { 0 }
     }
 
     /// Shows the picture at a time. Playing or paused stays as it is. Returns whether frames are drawn from the beginning:
@@ -127,7 +127,7 @@ impl Playback {
         if is_from_reset {
             self.reset();
         } else {
-            self.seeking.goal = Some(Goal::Time(secs));
+            self.seeking.goal = Some(SeekTarget::Time(secs));
         }
         self.seeking.until = (is_from_reset || secs > reach.last_secs).then_some(secs);
         self.seeking.resumes = resumes;
@@ -140,7 +140,7 @@ impl Playback {
         self.seeking.cancel();
         self.clock.pause();
         self.forget_due_frames();
-        self.seeking.goal = Some(Goal::Anew(shown));
+        self.seeking.goal = Some(SeekTarget::Anew(shown));
         self.seeking.resumes = resumes;
     }
 
@@ -151,14 +151,14 @@ impl Playback {
     }
 
     /// Returns the frame that the engine is to be asked for, once.
-    pub fn take_goal(&mut self) -> Option<Goal> {
+    pub fn take_goal(&mut self) -> Option<SeekTarget> {
         let goal = self.seeking.goal.take();
         self.seeking.is_under_way |= goal.is_some();
         goal
     }
 
     /// The engine shows another frame of the run, whose number is `shown`. Returns whether that is the goal.
-    pub fn travelled(&mut self, travelled: &Travelled, shown: u64) -> bool {
+    pub fn travelled(&mut self, travelled: &SeekProgress, shown: u64) -> bool {
         let is_wanted = take(&mut self.seeking.is_under_way);
         self.forget_due_frames();
         self.clock.go_to(travelled.inputs.frame, travelled.inputs.time_secs);
@@ -169,7 +169,7 @@ impl Playback {
             return false;
         }
         if travelled.left > 0 {
-            self.seeking.goal = Some(Goal::Frame(travelled.goal));
+            self.seeking.goal = Some(SeekTarget::Frame(travelled.goal));
             return false;
         }
         // On its own canvas it was another picture.
@@ -231,11 +231,11 @@ mod tests {
         let (mut playback, reach) = paused_at(7);
         playback.step_back(2);
         playback.step_back(1);
-        assert_eq!(playback.take_goal(), Some(Goal::By(-3)));
+        assert_eq!(playback.take_goal(), Some(SeekTarget::By(-3)));
         assert!(playback.take_goal().is_none() && playback.is_seeking());
         let (mut playback, _) = paused_at(7);
         (0..2).for_each(|_| playback.step_forward(reach.ahead));
-        assert_eq!(playback.take_goal(), Some(Goal::By(2)));
+        assert_eq!(playback.take_goal(), Some(SeekTarget::By(2)));
         assert!(!playback.take_step(), "the goal is being reached");
         let (mut playback, reach) = paused_at(9);
         playback.step_forward(reach.ahead);
@@ -249,11 +249,11 @@ mod tests {
         assert_eq!(playback.clock.time_secs(), 2.0, "a picture without a state has one for each time");
         let (mut playback, reach) = paused_at(5);
         assert!(!playback.seek(0.05, reach, true));
-        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(Goal::Time(0.05)), None));
+        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(SeekTarget::Time(0.05)), None));
         let (mut playback, reach) = paused_at(5);
         playback.play();
         assert!(!playback.seek(0.5, reach, true) && playback.is_playing() && !playback.clock.is_playing());
-        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(Goal::Time(0.5)), Some(0.5)));
+        assert_eq!((playback.take_goal(), playback.seeking.until), (Some(SeekTarget::Time(0.5)), Some(0.5)));
         let late = Reach { first_secs: 0.05, ..reach };
         assert!(playback.seek(0.01, late, true), "from the beginning");
         assert_eq!((playback.clock.next_frame_number(), playback.seeking.until), (0, Some(0.01)));

@@ -79,7 +79,7 @@ pub struct ProbeNumbers {
 /// A probe, if there is one.
 #[derive(Default)]
 pub(super) struct Probing {
-    wanted: Option<Wanted>,
+    wanted: Option<ProbeRequest>,
     /// The value of the running program.
     built: Option<Result<ProbedValue, String>>,
     look: ProbeLook,
@@ -95,7 +95,7 @@ pub(super) struct Probing {
     has_news: bool,
 }
 
-struct Wanted {
+struct ProbeRequest {
     place: ProbePlace,
     /// The text that the place is in.
     text: Arc<str>,
@@ -133,7 +133,7 @@ impl Probing {
         }
         self.wanted = place.and_then(|place| {
             let text = project.source(&place.tab)?.text.clone();
-            Some(Wanted { place, text, is_gone: false })
+            Some(ProbeRequest { place, text, is_gone: false })
         });
         if self.wanted.is_none() {
             self.built = None;

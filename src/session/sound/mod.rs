@@ -10,7 +10,7 @@ mod save;
 use super::{
     Session, SessionOptions,
     drawing::Open,
-    films::HeardPass,
+    films::FilmSoundPass,
     view::{About, Level},
 };
 use eddy_audio::Track;
@@ -31,7 +31,7 @@ use std::{
 const STEP_LIMIT: Duration = Duration::from_secs(20);
 
 /// The sound that a compile of the newest text leads to.
-pub(super) enum Heard {
+pub(super) enum CompiledSound {
     /// There is no sound pass.
     Nothing,
     /// The sound pass has errors: what was made before stays.
@@ -89,10 +89,10 @@ impl Source {
 
 /// The state that the thread and the session both know.
 #[derive(Default)]
-pub(super) struct Shared(Mutex<Now>);
+pub(super) struct Shared(Mutex<SoundState>);
 
 #[derive(Clone, Default)]
-struct Now {
+struct SoundState {
     /// The number of the order whose track it is, or shall be; 0: nothing is to be heard.
     order: u64,
     revision: u64,
@@ -104,22 +104,22 @@ struct Now {
 }
 
 /// The thread is at work while this lives.
-struct AtWork<'s>(&'s Shared);
+struct BusyGuard<'s>(&'s Shared);
 
-impl Drop for AtWork<'_> {
+impl Drop for BusyGuard<'_> {
     fn drop(&mut self) {
         self.0.now().since = None;
     }
 }
 
 impl Shared {
-    fn now(&self) -> MutexGuard<'_, Now> {
+    fn now(&self) -> MutexGuard<'_, SoundState> {
         self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    fn begin(&self) -> AtWork<'_> {
+    fn begin(&self) -> BusyGuard<'_> {
         self.goes_on();
-        AtWork(self)
+        BusyGuard(self)
     }
 
     fn goes_on(&self) {
@@ -248,7 +248,7 @@ impl Sounding {
         if let Some(mut thread) = self.thread.take() {
             self.has_lost |= !thread.end(Duration::ZERO);
         }
-        let now = Now { since: None, ..self.shared.now().clone() };
+        let now = SoundState { since: None, ..self.shared.now().clone() };
         self.shared = Arc::new(Shared(Mutex::new(now)));
     }
 
@@ -318,9 +318,9 @@ impl Sounding {
     }
 
     /// Returns the sound that is heard, for a film.
-    pub fn heard(&self) -> Option<HeardPass> {
+    pub fn heard(&self) -> Option<FilmSoundPass> {
         let (project, media, date) = self.kept.as_ref()?;
-        Some(HeardPass { code: self.codes, project: project.clone(), media: media.clone(), date: *date })
+        Some(FilmSoundPass { code: self.codes, project: project.clone(), media: media.clone(), date: *date })
     }
 
     fn is_making(&self) -> bool {
@@ -360,11 +360,11 @@ impl Session {
     }
 
     /// A compile of the newest text has ended.
-    pub(super) fn follow_sound(&mut self, project: &Project, heard: Heard) {
+    pub(super) fn follow_sound(&mut self, project: &Project, heard: CompiledSound) {
         match heard {
-            Heard::Nothing => self.sounding.silence(),
-            Heard::Broken => {}
-            Heard::Sound(media) => {
+            CompiledSound::Nothing => self.sounding.silence(),
+            CompiledSound::Broken => {}
+            CompiledSound::Sound(media) => {
                 let mut project = project.clone();
                 // They may have been turned while it was being compiled.
                 project.custom_uniform_values.clone_from(&self.documents.current().custom_uniform_values);

@@ -151,7 +151,7 @@ fn numbered_images_play_at_the_rate_of_their_folder() {
     fs::write(walk.join("024.png"), png(99)).unwrap();
     let home = folder.path().to_owned();
     let read = move |path: &Path| eddy_project::confine::read(&home, path, eddy_project::limits::MEDIA_FILE);
-    let place = Place { path: Path::new("walk-10fps/008.png"), read: Arc::new(read) };
+    let place = FileLocation { path: Path::new("walk-10fps/008.png"), read: Arc::new(read) };
     let video = Video::of_sequence(&place, &png(0), &Pool::default()).unwrap();
     assert!((video.info().seconds - 1.5).abs() < 1e-9, "the gap ends it: {:?}", video.info());
     for at in [0.0, 0.05, 0.1, 0.31, 1.45, 1.5, 2.95, 0.65] {

@@ -9,5 +9,5 @@ mod recorder;
 mod turns;
 mod values;
 
-pub use record::{Call, History, Moment, MomentKind, Shown, Turn, Value};
+pub use record::{Call, History, Iteration, Moment, MomentKind, NamedValue, Value};
 pub(super) use recorder::HistoryRecorder;

@@ -11,7 +11,9 @@ impl History {
         let statement = self.walkable.statements().get(moment.statement)?;
         Some(match moment.kind {
             MomentKind::Statement | MomentKind::Return => statement.head,
-            MomentKind::Turn(1) | MomentKind::Turn(_) | MomentKind::Test => statement.test.unwrap_or(statement.head),
+            MomentKind::Iteration(1) | MomentKind::Iteration(_) | MomentKind::Test => {
+                statement.test.unwrap_or(statement.head)
+            }
             MomentKind::Step => statement.step.unwrap_or(statement.head),
         })
     }
@@ -22,7 +24,7 @@ impl History {
         let Some(statement) = self.walkable.statements().get(moment.statement) else { return false };
         match moment.kind {
             MomentKind::Statement => !statement.is_init,
-            MomentKind::Turn(turn) => turn > 1 && statement.tests_first,
+            MomentKind::Iteration(turn) => turn > 1 && statement.tests_first,
             MomentKind::Test | MomentKind::Return => true,
             MomentKind::Step => false,
         }

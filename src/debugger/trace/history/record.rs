@@ -20,7 +20,7 @@ pub enum MomentKind {
     /// A statement is about to run.
     Statement,
     /// A loop is about to begin a turn, from 1: with its test, if that stands before its body.
-    Turn(u32),
+    Iteration(u32),
     /// A loop is about to do the test behind its body.
     Test,
     /// A loop is about to do what it does between two turns.
@@ -70,7 +70,7 @@ pub(super) struct Variable {
 
 /// A turn of a loop, by moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Turn {
+pub struct Iteration {
     pub first: usize,
     /// Its last statement.
     pub last: usize,
@@ -80,7 +80,7 @@ pub struct Turn {
 
 /// Holds what a name stands for at a moment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub struct NamedValue {
     pub name: String,
     pub value: Value,
 }

@@ -213,7 +213,7 @@ impl<'w> HistoryRecorder<'w> {
                         1
                     }
                 };
-                (MomentKind::Turn(turn), statement)
+                (MomentKind::Iteration(turn), statement)
             }
             StatementEvent::Test(statement) => (MomentKind::Test, statement),
             StatementEvent::Step(statement) => (MomentKind::Step, statement),

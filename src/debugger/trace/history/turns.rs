@@ -1,7 +1,7 @@
 //! The turns of a loop.
 
-use super::record::{History, Moment, MomentKind, Shown, Turn};
-use eddy_glsl::statements::When;
+use super::record::{History, Iteration, Moment, MomentKind, NamedValue};
+use eddy_glsl::statements::StatementPoint;
 
 impl History {
     /// The loop that a moment lies in, the innermost.
@@ -9,7 +9,7 @@ impl History {
         let statements = self.walkable.statements();
         let mut at = match moment.kind {
             // The head of a loop is of the loop.
-            MomentKind::Turn(_) | MomentKind::Test | MomentKind::Step => Some(moment.statement),
+            MomentKind::Iteration(_) | MomentKind::Test | MomentKind::Step => Some(moment.statement),
             MomentKind::Statement | MomentKind::Return => statements.get(moment.statement)?.parent,
         };
         while let Some(index) = at {
@@ -23,7 +23,7 @@ impl History {
     }
 
     /// The turns of the innermost loop around a moment. Empty outside of loops.
-    pub fn turns(&self, at: usize) -> Vec<Turn> {
+    pub fn turns(&self, at: usize) -> Vec<Iteration> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let Some(of) = self.loop_of(moment) else { return Vec::new() };
         let statements = self.walkable.statements();
@@ -31,7 +31,7 @@ impl History {
         let begins =
             |other: &Moment| mine(other) && other.statement == of && matches!(other.kind, MomentKind::Statement);
         let begin = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
-        let mut found: Vec<Turn> = Vec::new();
+        let mut found: Vec<Iteration> = Vec::new();
         // The turn under way: where it began, and its last statement.
         let (mut first, mut last) = (begin + 1, None);
         for (index, other) in self.moments.iter().enumerate().skip(begin + 1).filter(|(_, other)| mine(other)) {
@@ -40,31 +40,31 @@ impl History {
                 break;
             }
             match other.kind {
-                MomentKind::Turn(_) if is_head => {
-                    found.extend(last.take().map(|last| Turn { first, last, end: last }));
+                MomentKind::Iteration(_) if is_head => {
+                    found.extend(last.take().map(|last| Iteration { first, last, end: last }));
                     first = index;
                 }
                 MomentKind::Step if is_head => {
-                    found.extend(last.take().map(|last| Turn { first, last, end: index }));
+                    found.extend(last.take().map(|last| Iteration { first, last, end: index }));
                 }
                 MomentKind::Return => break,
                 MomentKind::Statement if statements.get(other.statement).is_none_or(|s| s.is_init) => {}
                 _ => last = Some(index),
             }
         }
-        found.extend(last.map(|last| Turn { first, last, end: last }));
+        found.extend(last.map(|last| Iteration { first, last, end: last }));
         found
     }
 
     /// Returns what the function's variables hold at the end of a turn, those of the loop's body too.
-    pub fn turn_values(&self, turn: &Turn) -> Vec<Shown> {
+    pub fn turn_values(&self, turn: &Iteration) -> Vec<NamedValue> {
         let moment = &self.moments[turn.last];
         let slots = self.calls[moment.call as usize].slots as usize;
-        let mut found: Vec<Shown> = Vec::new();
-        for (variable, slot) in self.locals_when(moment, When::After).into_iter().rev() {
+        let mut found: Vec<NamedValue> = Vec::new();
+        for (variable, slot) in self.locals_when(moment, StatementPoint::After).into_iter().rev() {
             if found.iter().all(|shown| shown.name != variable.name) {
                 let words = self.held(turn.end, variable, slots + slot.unwrap_or_default());
-                found.push(Shown { name: variable.name.clone(), value: self.of(variable.ty, words) });
+                found.push(NamedValue { name: variable.name.clone(), value: self.of(variable.ty, words) });
             }
         }
         found.reverse();

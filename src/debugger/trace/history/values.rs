@@ -2,10 +2,10 @@
 
 use super::{
     super::number::Number,
-    record::{Call, History, Moment, MomentKind, NONE, Shown, Value, Variable, Write},
+    record::{Call, History, Moment, MomentKind, NONE, NamedValue, Value, Variable, Write},
 };
 use eddy_glsl::{
-    statements::When,
+    statements::StatementPoint,
     types::{Scalar, Type, TypeId},
     walk::cells,
 };
@@ -25,9 +25,12 @@ impl History {
     }
 
     /// Returns what can be named at a moment, the function's own first, each by its name once.
-    pub fn visible(&self, at: usize) -> Vec<Shown> {
+    pub fn visible(&self, at: usize) -> Vec<NamedValue> {
         let names = self.names(at);
-        names.into_iter().filter_map(|(name, _)| self.value(at, &name).map(|value| Shown { name, value })).collect()
+        names
+            .into_iter()
+            .filter_map(|(name, _)| self.value(at, &name).map(|value| NamedValue { name, value }))
+            .collect()
     }
 
     /// The variables that can be named, with their types; of those of one name the one that is meant.
@@ -62,14 +65,14 @@ impl History {
     fn locals(&self, at: usize) -> Vec<(&Variable, Option<usize>)> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let when = match moment.kind {
-            MomentKind::Statement => When::Before,
-            MomentKind::Turn(_) | MomentKind::Test | MomentKind::Step => When::Within,
-            MomentKind::Return => When::After,
+            MomentKind::Statement => StatementPoint::Before,
+            MomentKind::Iteration(_) | MomentKind::Test | MomentKind::Step => StatementPoint::Within,
+            MomentKind::Return => StatementPoint::After,
         };
         self.locals_when(moment, when)
     }
 
-    pub(super) fn locals_when(&self, moment: &Moment, when: When) -> Vec<(&Variable, Option<usize>)> {
+    pub(super) fn locals_when(&self, moment: &Moment, when: StatementPoint) -> Vec<(&Variable, Option<usize>)> {
         let variables = &self.variables[self.calls[moment.call as usize].function as usize];
         let statements = self.walkable.statements();
         let find = |local: u32| {

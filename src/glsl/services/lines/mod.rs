@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// The construct that a place of a line lies in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Inside {
+pub enum LineContext {
     /// Nothing but blanks stands before it in its line: a `#` here begins a directive.
     #[default]
     Indent,
@@ -22,7 +22,7 @@ pub enum Inside {
 /// The facts about the text before a place that lexing needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LexState {
-    pub inside: Inside,
+    pub inside: LineContext,
     /// The line belongs to a directive, its own or one that an earlier line began and continued by a backslash.
     pub in_directive: bool,
 }
@@ -32,11 +32,11 @@ impl LexState {
     pub fn next_line(self, line: &str) -> LexState {
         let continues = line.ends_with('\\');
         match self.inside {
-            Inside::LineComment if continues => LexState { inside: Inside::LineComment, in_directive: false },
-            Inside::LineComment => LexState::default(),
-            Inside::BlockComment => self,
-            Inside::Indent | Inside::Code => {
-                LexState { inside: Inside::Indent, in_directive: self.in_directive && continues }
+            LineContext::LineComment if continues => LexState { inside: LineContext::LineComment, in_directive: false },
+            LineContext::LineComment => LexState::default(),
+            LineContext::BlockComment => self,
+            LineContext::Indent | LineContext::Code => {
+                LexState { inside: LineContext::Indent, in_directive: self.in_directive && continues }
             }
         }
     }
@@ -57,19 +57,19 @@ const LOOK_AHEAD: usize = 256;
 pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&str) -> bool) -> Vec<Token> {
     let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
     let mut state = state;
-    if state.inside == Inside::LineComment {
+    if state.inside == LineContext::LineComment {
         lexer.push(range.len(), Class::Comment);
     }
-    if state.inside == Inside::BlockComment {
+    if state.inside == LineContext::BlockComment {
         lexer.block_comment(0);
-        state.inside = Inside::Code;
+        state.inside = LineContext::Code;
     }
     let mut names_macro = false;
     while let Some(c) = lexer.line[lexer.at..].chars().next() {
         let rest = &lexer.line[lexer.at..];
-        let is_indent = state.inside == Inside::Indent;
+        let is_indent = state.inside == LineContext::Indent;
         if !c.is_whitespace() {
-            state.inside = Inside::Code;
+            state.inside = LineContext::Code;
         }
         if rest.starts_with("//") {
             lexer.push(rest.len(), Class::Comment);
@@ -130,26 +130,26 @@ impl<'a> Scanner<'a> {
         let next = self.line.get(self.at + 1);
         let mut len = 1;
         match self.state.inside {
-            Inside::LineComment => {}
-            Inside::BlockComment if byte == b'*' && next == Some(&b'/') => {
-                self.state.inside = Inside::Code;
+            LineContext::LineComment => {}
+            LineContext::BlockComment if byte == b'*' && next == Some(&b'/') => {
+                self.state.inside = LineContext::Code;
                 len = 2;
             }
-            Inside::BlockComment => {}
-            Inside::Indent if byte.is_ascii_whitespace() => {}
-            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'/') => {
-                self.state.inside = Inside::LineComment;
+            LineContext::BlockComment => {}
+            LineContext::Indent if byte.is_ascii_whitespace() => {}
+            LineContext::Indent | LineContext::Code if byte == b'/' && next == Some(&b'/') => {
+                self.state.inside = LineContext::LineComment;
                 len = 2;
             }
-            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'*') => {
-                self.state.inside = Inside::BlockComment;
+            LineContext::Indent | LineContext::Code if byte == b'/' && next == Some(&b'*') => {
+                self.state.inside = LineContext::BlockComment;
                 len = 2;
             }
-            Inside::Indent => {
-                self.state.inside = Inside::Code;
+            LineContext::Indent => {
+                self.state.inside = LineContext::Code;
                 self.state.in_directive |= byte == b'#';
             }
-            Inside::Code => {}
+            LineContext::Code => {}
         }
         self.at += len;
     }

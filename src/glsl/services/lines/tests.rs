@@ -58,21 +58,21 @@ fn states(line: &str, state: LexState) -> (Vec<(usize, LexState)>, LexState) {
 #[test]
 fn lexer_and_scanner_agree_on_what_is_comment() {
     let lines = [
-        ("float a; /* one", Inside::BlockComment, false),
-        ("still */ float b; // two \\", Inside::LineComment, false),
-        ("comment goes on", Inside::Indent, false),
-        ("float c; /* x */ /* y", Inside::BlockComment, false),
-        ("*/ d // /*", Inside::Indent, false),
-        ("e / f", Inside::Indent, false),
-        ("#define A \\", Inside::Indent, true),
-        ("  b /* c", Inside::BlockComment, true),
-        ("*/ \\", Inside::Indent, true),
-        ("g", Inside::Indent, false),
-        ("ünïcode /*ä*/ ö", Inside::Indent, false),
-        ("/*/", Inside::BlockComment, false),
-        ("*/ # h \\", Inside::Indent, false),
-        ("// *\\", Inside::LineComment, false),
-        ("/* in a line comment", Inside::Indent, false),
+        ("float a; /* one", LineContext::BlockComment, false),
+        ("still */ float b; // two \\", LineContext::LineComment, false),
+        ("comment goes on", LineContext::Indent, false),
+        ("float c; /* x */ /* y", LineContext::BlockComment, false),
+        ("*/ d // /*", LineContext::Indent, false),
+        ("e / f", LineContext::Indent, false),
+        ("#define A \\", LineContext::Indent, true),
+        ("  b /* c", LineContext::BlockComment, true),
+        ("*/ \\", LineContext::Indent, true),
+        ("g", LineContext::Indent, false),
+        ("ünïcode /*ä*/ ö", LineContext::Indent, false),
+        ("/*/", LineContext::BlockComment, false),
+        ("*/ # h \\", LineContext::Indent, false),
+        ("// *\\", LineContext::LineComment, false),
+        ("/* in a line comment", LineContext::Indent, false),
     ];
     let mut state = LexState::default();
     for (line, inside, in_directive) in lines {
@@ -80,7 +80,7 @@ fn lexer_and_scanner_agree_on_what_is_comment() {
         let mut at = 0;
         for (text, kind) in kinds(line, state) {
             for (_, s) in states.iter().filter(|(i, _)| (at + 2..at + text.len()).contains(i)) {
-                let is_comment = matches!(s.inside, Inside::LineComment | Inside::BlockComment);
+                let is_comment = matches!(s.inside, LineContext::LineComment | LineContext::BlockComment);
                 assert_eq!(is_comment, kind == Class::Comment, "{text:?} in {line:?}");
             }
             at += text.len();

@@ -2,10 +2,10 @@
 
 use super::layout::{LEGIBLE, Layout};
 use crate::{
-    engine::{PassRead, PassRole, When},
+    engine::{PassRead, PassRole, ReadTiming},
     gui::{
         accessible,
-        buffers::{state::Buffers, zoom::Placed},
+        buffers::{state::Buffers, zoom::PlacedPicture},
         costs::{bytes, millis_text},
         theme::{self, Palette},
         ui_output::UiOutput,
@@ -41,7 +41,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOut
     arrows.retain(|arrow| arrow.read.is_used || !is_drawn(arrow.from) || !is_drawn(arrow.to));
     // What is read in this frame was drawn before: these go round in no circle.
     let (forth, back): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
-        arrows.iter().partition(|arrow| arrow.read.when == When::ThisFrame && arrow.from != arrow.to);
+        arrows.iter().partition(|arrow| arrow.read.when == ReadTiming::ThisFrame && arrow.from != arrow.to);
     let ends = |arrows: &[&Arrow<'_>]| arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect::<Vec<_>>();
     let room = ui.available_rect_before_wrap();
     let area = room.with_max_y(room.bottom() - LEGEND);
@@ -68,7 +68,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOut
     let mut chosen = None;
     for ((node, pass), response) in passes.iter().enumerate().zip(responses) {
         let why = reason(&pass.cost.pass, &costs);
-        let words = Words::new(pass, why.as_deref());
+        let words = NodeLabels::new(pass, why.as_deref());
         let (rect, name) = (sheet.rect(layout.nodes[node]), pass.cost.pass.title());
         let spoken = why.as_ref().map_or_else(String::new, |why| format!(", {why}"));
         accessible::name(&response, egui::Role::Button, format!("{name}, {}, {}{spoken}", words.shape, words.cost));
@@ -133,7 +133,7 @@ fn placed(
 
 /// Says where the sheet of the layout is on the screen.
 struct Sheet {
-    placed: Placed,
+    placed: PlacedPicture,
     height: f32,
 }
 
@@ -153,7 +153,7 @@ impl Sheet {
 }
 
 /// Holds what a node says.
-struct Words {
+struct NodeLabels {
     name: String,
     shape: String,
     cost: String,
@@ -161,7 +161,7 @@ struct Words {
     is_drawn: bool,
 }
 
-impl Words {
+impl NodeLabels {
     fn new(pass: &TimedPass, why: Option<&str>) -> Self {
         let cost = &pass.cost;
         let steps = if cost.steps > 1 { format!("  ×{}", cost.steps) } else { String::new() };
@@ -188,7 +188,7 @@ type Look = (bool, bool, bool);
 fn paint(
     painter: &Painter,
     rect: Rect,
-    words: &Words,
+    words: &NodeLabels,
     ((is_shown, is_hot, has_focus), scale): (Look, f32),
     p: &Palette,
 ) {
@@ -228,7 +228,7 @@ fn paint(
     }
 }
 
-fn tip(ui: &mut Ui, pass: &TimedPass, words: &Words) {
+fn tip(ui: &mut Ui, pass: &TimedPass, words: &NodeLabels) {
     let p = theme::of(ui);
     ui.label(words.name.as_str());
     if let Some(why) = &words.why {
@@ -242,7 +242,7 @@ fn tip(ui: &mut Ui, pass: &TimedPass, words: &Words) {
         bytes(pass.cost.moved_bytes)
     ));
     for read in &pass.cost.reads {
-        let when = if read.when == When::ThisFrame { "this frame's" } else { "last frame's" };
+        let when = if read.when == ReadTiming::ThisFrame { "this frame's" } else { "last frame's" };
         let unused = if read.is_used { "" } else { ", not read by the code" };
         ui.label(format!("iChannel{}: {when} {}{unused}", read.channel, read.pass.title()));
     }
@@ -258,7 +258,7 @@ fn edge(
     (is_lit, is_any_lit): (bool, bool),
     p: &Palette,
 ) {
-    let is_this = read.when == When::ThisFrame;
+    let is_this = read.when == ReadTiming::ThisFrame;
     let mut color = if is_this { p.text } else { p.accent };
     if !read.is_used {
         color = p.weak.gamma_multiply(0.5);

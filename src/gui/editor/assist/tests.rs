@@ -5,7 +5,7 @@ use crate::{
     diag::SourceId,
     glsl::{PassKind, PassSource, Text, services::Analysis},
     gui::{
-        actions::{Action, Keymap, Listening},
+        actions::{Action, KeyFocus, Keymap},
         editor::{EditorAction, input},
     },
 };
@@ -35,7 +35,7 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
         };
         rest = behind;
         if !assist.take(&event, &mut buffer) {
-            let entry = Keymap::default().pressed(&event, Listening { code: true, ..Listening::default() });
+            let entry = Keymap::default().pressed(&event, KeyFocus { code: true, ..KeyFocus::default() });
             match entry.map(|e| e.action) {
                 Some(Action::Code(EditorAction::Propose)) => assist.propose(),
                 Some(Action::Code(EditorAction::Definition)) => assist.go_to_definition(),

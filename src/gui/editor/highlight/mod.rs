@@ -7,7 +7,7 @@ use super::{
     pieces::{self, Cut, Piece, Reusable},
     wrap::{self, Breaks},
 };
-use crate::glsl::services::lines::{self, Inside, LexState, Scanner, Token};
+use crate::glsl::services::lines::{self, LexState, LineContext, Scanner, Token};
 use std::{
     collections::{HashMap, HashSet},
     ops::Range,
@@ -16,7 +16,7 @@ use std::{
 /// Kept in step with a [`Buffer`] by [`Highlight::update`].
 #[derive(Clone, Debug, Default)]
 pub struct Highlight {
-    lines: Vec<Line>,
+    lines: Vec<HighlightedLine>,
     /// Macros of this text, and how many lines define each.
     macros: HashMap<Box<str>, usize>,
     /// Macros of `shared_text`.
@@ -40,7 +40,7 @@ pub struct Replaced {
 }
 
 #[derive(Clone, Debug, Default)]
-struct Line {
+struct HighlightedLine {
     /// The state at its beginning.
     state: LexState,
     cut: Cut,
@@ -104,7 +104,7 @@ impl Highlight {
         // The line break before such a line is unchanged too.
         let kept = if self.lines.is_empty() { 0 } else { count - 1 - buffer.line_of(length - unchanged.tail) };
         let old = &self.lines[first..self.lines.len() - kept];
-        let mut new: Vec<Line> = Vec::new();
+        let mut new: Vec<HighlightedLine> = Vec::new();
         let mut state = if first == 0 { LexState::default() } else { self.state_after(buffer, first - 1) };
         for line in first..count - kept {
             let range = buffer.line_range(line);
@@ -122,14 +122,14 @@ impl Highlight {
             let beginning = &text[..text.floor_char_boundary(pieces::PIECE)];
             let defines = lines::defined_name(beginning).map(Box::from);
             let next = cut.end.next_line(text);
-            new.push(Line { state, cut, columns, defines, rows: 1 });
+            new.push(HighlightedLine { state, cut, columns, defines, rows: 1 });
             state = next;
         }
         for name in new.iter().filter_map(|l| l.defines.clone()) {
             *self.macros.entry(name).or_default() += 1;
         }
         let added = new.len();
-        let old: Vec<Line> = self.lines.splice(first..self.lines.len() - kept, new).collect();
+        let old: Vec<HighlightedLine> = self.lines.splice(first..self.lines.len() - kept, new).collect();
         self.replaced = Some(Replaced { first, old: old.len(), new: added });
         for name in old.iter().filter_map(|l| l.defines.as_ref()) {
             if let Some(times) = self.macros.get_mut(name) {
@@ -171,7 +171,8 @@ impl Highlight {
             let beginning = &text[..text.floor_char_boundary(pieces::PIECE)];
             let defines = lines::defined_name(beginning).map(Box::from);
             let next = cut.end.next_line(text);
-            let old = std::mem::replace(&mut self.lines[line], Line { state, cut, columns, defines, rows: 1 });
+            let old =
+                std::mem::replace(&mut self.lines[line], HighlightedLine { state, cut, columns, defines, rows: 1 });
             self.recount_macro(old.defines, line);
             (line, state) = (line + 1, next);
         }
@@ -279,7 +280,7 @@ impl Highlight {
 
     /// Returns whether a byte lies in a comment.
     pub fn is_comment(&self, buffer: &Buffer, at: usize) -> bool {
-        matches!(self.state_at(buffer, at).inside, Inside::LineComment | Inside::BlockComment)
+        matches!(self.state_at(buffer, at).inside, LineContext::LineComment | LineContext::BlockComment)
     }
 
     /// Tokens of a piece of a line: `range` bytes of `text`, which begin in `state`.

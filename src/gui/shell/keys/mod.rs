@@ -4,13 +4,13 @@
 //! The text can come in a later pass than the key (see [`steps`](crate::gui::steps)), so that one has to be remembered
 //! in between.
 
-use crate::gui::actions::{Action, Keymap, Listening};
+use crate::gui::actions::{Action, KeyFocus, Keymap};
 use egui::{Event, Key, Modifiers};
 
 /// The one who has the keyboard.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Keyboard {
-    pub listening: Listening,
+    pub listening: KeyFocus,
     /// A field has it, whose letters are its own.
     pub field: bool,
 }

@@ -19,7 +19,7 @@ fn is_typed(events: &[Event]) -> bool {
 }
 
 fn places() -> Vec<(&'static str, Keyboard)> {
-    let at = |code, find_bar, trace, field| Keyboard { listening: Listening { code, find_bar, trace }, field };
+    let at = |code, find_bar, trace, field| Keyboard { listening: KeyFocus { code, find_bar, trace }, field };
     vec![
         ("code", at(true, false, false, false)),
         ("code with the find bar and a trace", at(true, true, true, false)),

@@ -258,7 +258,7 @@ impl Table {
         best(from, kept, Some([beyond - 1, beyond].map(|i| rows[i].0.point.setting)))
     }
 
-    /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
+    /// The study's [`SpeedComparison`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
     /// pass their hard cases: it is their best that counts.
     pub fn verdict(&self) -> Option<String> {
         let race = self.study.race?;

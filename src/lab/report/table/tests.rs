@@ -1,5 +1,5 @@
 use super::*;
-use crate::{HardCase, Race, cost::Clock, metrics::Norms};
+use crate::{HardCase, SpeedComparison, cost::Clock, metrics::Norms};
 
 const METHODS: [Method; 3] = [
     Method { name: "own", title: "Own", settings: &[1.0, 2.0], usual: 1.0 },
@@ -40,7 +40,7 @@ fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
     let study = Box::leak(Box::new(Study {
         parameter: "dt",
         signed: Some("energy_error"),
-        race: Some(Race { method: "own", peers, peers_are: "one-pass settings" }),
+        race: Some(SpeedComparison { method: "own", peers, peers_are: "one-pass settings" }),
         ..Study::of(|_| unreachable!(), |_, _| unreachable!())
     }));
     Table { study, grid: 1, rows, convergence: Vec::new() }

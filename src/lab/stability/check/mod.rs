@@ -110,7 +110,7 @@ impl Allowed {
 
 /// Holds what a case is drawn with, as far as a bound depends on it.
 #[derive(Clone, Debug)]
-pub struct Situation {
+pub struct CaseConditions {
     /// Canvas.
     pub size: (u32, u32),
     /// The longest `iTimeDelta` of the case, in seconds.
@@ -121,7 +121,7 @@ pub struct Situation {
     pub sliders: std::collections::BTreeMap<String, Vec<f64>>,
 }
 
-impl Situation {
+impl CaseConditions {
     /// A slider's value: of several components the largest. 0 for a slider that is not there.
     pub fn slider(&self, name: &str) -> f64 {
         let all = self.sliders.get(name).map_or(&[][..], |v| v);
@@ -144,7 +144,7 @@ pub struct Check {
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
     Always(Allowed),
-    Of(fn(&Situation) -> Allowed),
+    Of(fn(&CaseConditions) -> Allowed),
 }
 
 impl Check {
@@ -152,10 +152,10 @@ impl Check {
         format!("{} {}", self.pass.key(), self.quantity.name())
     }
 
-    pub fn allowed(&self, situation: &Situation) -> Allowed {
+    pub fn allowed(&self, conditions: &CaseConditions) -> Allowed {
         match self.allowed {
             Rule::Always(allowed) => allowed,
-            Rule::Of(rule) => rule(situation),
+            Rule::Of(rule) => rule(conditions),
         }
     }
 }
@@ -168,11 +168,11 @@ pub struct Found {
     pub high: f64,
     pub rms: f64,
     /// The value that is furthest outside of the range, a number that is none before all others.
-    pub worst: Option<Worst>,
+    pub worst: Option<WorstTexel>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Worst {
+pub struct WorstTexel {
     /// `None`: the quantity belongs to the whole picture.
     pub texel: Option<(u32, u32)>,
     pub value: f64,
@@ -199,11 +199,11 @@ pub fn find(quantity: Quantity, area: Area, pixels: &Pixels, low: f64, high: f64
             let is_worse = outside > furthest;
             furthest = furthest.max(outside);
             let kept = if is_worse {
-                Worst { texel, value, count: 0 }
+                WorstTexel { texel, value, count: 0 }
             } else {
-                found.worst.unwrap_or(Worst { texel, value, count: 0 })
+                found.worst.unwrap_or(WorstTexel { texel, value, count: 0 })
             };
-            found.worst = Some(Worst { count: before + 1, ..kept });
+            found.worst = Some(WorstTexel { count: before + 1, ..kept });
         }
     };
     match quantity {

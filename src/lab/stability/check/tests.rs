@@ -14,7 +14,7 @@ fn the_texel_furthest_outside_is_found_and_all_are_counted() {
         _ => 0.5,
     });
     let found = find(Quantity::Component(0), Area::All, &picture, 0.0, 1.0);
-    assert_eq!(found.worst, Some(Worst { texel: Some((6, 3)), value: -3.0, count: 3 }));
+    assert_eq!(found.worst, Some(WorstTexel { texel: Some((6, 3)), value: -3.0, count: 3 }));
     assert_eq!((found.low, found.high), (-3.0, 2.0));
     assert_eq!(find(Quantity::Component(0), Area::All, &picture, -3.0, 2.0).worst, None);
 }

@@ -1,7 +1,7 @@
 //! The words in which the presets' bounds are declared.
 
 use crate::{
-    stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    stability::check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
     stability_record::Kind,
 };
 use eddy_project::PassId;
@@ -16,14 +16,14 @@ pub struct Courant {
     /// The check whose largest value is the speed, by its place in the list.
     pub speed: usize,
     /// Cells a step at that speed.
-    pub cells: fn(speed: f64, situation: &Situation) -> f64,
+    pub cells: fn(speed: f64, conditions: &CaseConditions) -> f64,
     /// Says what keeps it below what the cases ask for, where something does.
     pub limit: Option<&'static str>,
 }
 
 /// A case of a preset's own: what the cases that all projects have leave out.
 #[derive(Clone, Debug)]
-pub struct Extra {
+pub struct PresetCase {
     pub kind: Kind,
     /// Sliders that are not at their defaults.
     pub values: Vec<(&'static str, f64)>,
@@ -31,9 +31,9 @@ pub struct Extra {
     pub large: Option<((u32, u32), u32)>,
 }
 
-impl Extra {
-    pub(super) fn new(kind: Kind, values: &[(&'static str, f64)]) -> Extra {
-        Extra { kind, values: values.into(), large: None }
+impl PresetCase {
+    pub(super) fn new(kind: Kind, values: &[(&'static str, f64)]) -> PresetCase {
+        PresetCase { kind, values: values.into(), large: None }
     }
 }
 
@@ -48,7 +48,7 @@ pub(super) fn picture(most: f64, reason: &str) -> Check {
     Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
-pub(super) fn picture_by(rule: fn(&Situation) -> Allowed, reason: &str) -> Check {
+pub(super) fn picture_by(rule: fn(&CaseConditions) -> Allowed, reason: &str) -> Check {
     let allowed = Rule::Of(rule);
     Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
@@ -58,7 +58,13 @@ pub(super) fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f6
     Check { pass: buffer(name), quantity, area, allowed, reason: reason.into() }
 }
 
-pub(super) fn by(name: &str, quantity: Quantity, area: Area, rule: fn(&Situation) -> Allowed, reason: &str) -> Check {
+pub(super) fn by(
+    name: &str,
+    quantity: Quantity,
+    area: Area,
+    rule: fn(&CaseConditions) -> Allowed,
+    reason: &str,
+) -> Check {
     Check { pass: buffer(name), quantity, area, allowed: Rule::Of(rule), reason: reason.into() }
 }
 

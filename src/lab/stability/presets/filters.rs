@@ -2,12 +2,12 @@
 //! more than its lights.
 
 use super::declare::{always, by, picture, picture_by};
-use crate::stability::check::{Allowed, Area, Check, Quantity, Situation};
+use crate::stability::check::{Allowed, Area, CaseConditions, Check, Quantity};
 
 const MEAN: &str = "means of the light, by weights that are positive and sum to 1";
 
 /// The root of Reinhard's curve: what the bloom presets show of a light.
-fn shown(light: f64, s: &Situation) -> Allowed {
+fn shown(light: f64, s: &CaseConditions) -> Allowed {
     let (light, white) = (light * s.slider("exposure").exp2(), s.slider("white"));
     let mapped = light * (1.0 + light / (white * white)) / (1.0 + light);
     Allowed::new(0.0, mapped.sqrt().max(1.0) * 1.001)
@@ -16,7 +16,7 @@ fn shown(light: f64, s: &Situation) -> Allowed {
 const SHOWN: &str = "the curve's value for the brightest light; above `white` it is more than a screen can show";
 
 /// The brightest light of neon before a brick wall.
-fn neon(s: &Situation) -> f64 {
+fn neon(s: &CaseConditions) -> f64 {
     // A lamp half as bright again, and the wall behind it. Where a pixel is as wide as the tubes are apart it may hold a
     // part of all four.
     let tubes = if s.size.0.min(s.size.1) < 64 { 5.3 } else { 2.0 };
@@ -25,7 +25,7 @@ fn neon(s: &Situation) -> f64 {
 
 pub fn denoise() -> Vec<Check> {
     // Of 2^24 numbers the farthest is 5.9 deviations out.
-    let noisy = |s: &Situation| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise"));
+    let noisy = |s: &CaseConditions| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise"));
     vec![
         by("a", Quantity::Colour, Area::All, noisy, "a picture from 0 to 1, and noise"),
         by("b", Quantity::Colour, Area::All, noisy, MEAN),
@@ -41,8 +41,8 @@ pub fn sky_spheres() -> Vec<Check> {
 }
 
 pub fn bloom() -> Vec<Check> {
-    let light = |s: &Situation| Allowed::new(0.0, neon(s));
-    let spread = |s: &Situation| Allowed::new(0.0, neon(s).min(s.slider("brightest")) * 1.0001);
+    let light = |s: &CaseConditions| Allowed::new(0.0, neon(s));
+    let spread = |s: &CaseConditions| Allowed::new(0.0, neon(s).min(s.slider("brightest")) * 1.0001);
     let shines = "a tube's radiance and its core's, half as much again for the lamp, before a lit wall";
     vec![
         by("a", Quantity::Colour, Area::All, light, shines),
@@ -55,14 +55,14 @@ pub fn bloom() -> Vec<Check> {
 }
 
 /// The brightest light of lanterns over water, stored in 16 bits.
-fn lanterns(s: &Situation) -> f64 {
+fn lanterns(s: &CaseConditions) -> f64 {
     (2.28 * s.slider("flame")).max(1.3).max(s.slider("constant")) * 1.001
 }
 
 pub fn bloom_sized() -> Vec<Check> {
-    let light = |s: &Situation| Allowed::new(0.0, lanterns(s));
+    let light = |s: &CaseConditions| Allowed::new(0.0, lanterns(s));
     // Light is scaled so that the brightest that counts fills 15 of the 16 bits' powers of two.
-    let spread = |s: &Situation| {
+    let spread = |s: &CaseConditions| {
         let brightest = s.slider("brightest");
         let scale = (32_768.0 / brightest).log2().floor().exp2();
         // A level's light by its weight, each rounded to 11 bits.
@@ -79,7 +79,7 @@ pub fn bloom_sized() -> Vec<Check> {
 }
 
 pub fn gaussian_blur() -> Vec<Check> {
-    let magnified = |s: &Situation| {
+    let magnified = |s: &CaseConditions| {
         // The response to a texel is told in parts of the bell's peak; a narrow card's sparks reach into it.
         let peak = 1.0 / (std::f64::consts::TAU * s.slider("sigma").powi(2));
         Allowed::new(0.0, (1.6 / peak.min(1.0) + 0.012).sqrt() * 1.001)
@@ -112,11 +112,11 @@ pub fn gbuffer_edges() -> Vec<Check> {
 pub fn gbuffer_ssao_ssr() -> Vec<Check> {
     // Paint of at most 0.83 in the sky's light and the sun's, the room it mirrors, and a highlight as high as it is
     // narrow.
-    fn light(s: &Situation) -> f64 {
+    fn light(s: &CaseConditions) -> f64 {
         0.83 * (0.61 + 2.3) + 2.9 + (s.slider("shininess") + 8.0) / 8.0
     }
     // Reflections by themselves are shown without a curve.
-    fn screen(s: &Situation) -> Allowed {
+    fn screen(s: &CaseConditions) -> Allowed {
         Allowed::new(0.0, if s.slider("show") == 2.0 { light(s).sqrt() } else { 1.001 })
     }
     let mut checks = gbuffer(6.0);
@@ -137,7 +137,7 @@ pub fn gbuffer_ssao_ssr() -> Vec<Check> {
 pub fn toon_outline() -> Vec<Check> {
     // The sheet is shaded from its foot to its head by a tenth of its shade a unit, a unit being the height of a
     // picture that is wide enough.
-    let sheet = |s: &Situation| {
+    let sheet = |s: &CaseConditions| {
         let (w, h) = (f64::from(s.size.0), f64::from(s.size.1));
         let shade = 0.05 * h / h.min(w / 1.5);
         Allowed::new((1.0 - shade).min(0.0), (1.0 + shade) * 1.001)

@@ -1,8 +1,8 @@
 //! Fluids, and what is carried by a flow.
 
-use super::declare::{Courant, Extra, always, by, mouse, picture};
+use super::declare::{Courant, PresetCase, always, by, mouse, picture};
 use crate::{
-    stability::check::{Allowed, Area, Check, Quantity, Situation},
+    stability::check::{Allowed, Area, CaseConditions, Check, Quantity},
     stability_record::Kind,
 };
 
@@ -12,7 +12,7 @@ type Bounds = (Vec<Check>, Option<Courant>);
 const FLUID: Area = Area::FromRow(1);
 
 /// c dt, nu dt and the time step of the compressible fluids, as solver.glsl has them: (nu dt, K dt, dt).
-fn steps(s: &Situation) -> (f64, f64, f64) {
+fn steps(s: &CaseConditions) -> (f64, f64, f64) {
     let (dt, nu, k) = (s.slider("dt"), s.slider("viscosity"), s.slider("stiffness"));
     match is_classic(s) {
         true => (nu * dt, k * dt, dt),
@@ -20,7 +20,7 @@ fn steps(s: &Situation) -> (f64, f64, f64) {
     }
 }
 
-fn is_classic(s: &Situation) -> bool {
+fn is_classic(s: &CaseConditions) -> bool {
     s.slider("form") == 0.0
 }
 
@@ -28,13 +28,13 @@ const CLASSIC: &str = "the published form is unstable at rest where nu < K or nu
 const SUPERSONIC: &str = "the published form lets a flow of speed 3 be faster than 0.4 of its sound here";
 const NO_PRESSURE: &str = "without stiffness there is no pressure, and nothing keeps mass from piling up";
 
-fn is_beyond_classic(s: &Situation) -> bool {
+fn is_beyond_classic(s: &CaseConditions) -> bool {
     let (nu, k) = (s.slider("viscosity"), s.slider("stiffness"));
     is_classic(s) && (nu < k || nu * s.slider("dt") > 0.25)
 }
 
 /// The published form's only limit is a speed. Where that is slow against the sound, its flow is as the other form's.
-fn is_supersonic(s: &Situation) -> bool {
+fn is_supersonic(s: &CaseConditions) -> bool {
     let (_, k, dt) = steps(s);
     is_classic(s) && 0.4 * k.sqrt() / dt < CLASSIC_SPEED
 }
@@ -43,7 +43,7 @@ fn is_supersonic(s: &Situation) -> bool {
 const CLASSIC_SPEED: f64 = 3.0;
 
 /// A range that is kept wherever the theory of sound in a fluid holds.
-fn unless_theory(s: &Situation, allowed: Allowed) -> Allowed {
+fn unless_theory(s: &CaseConditions, allowed: Allowed) -> Allowed {
     allowed
         .unless(is_beyond_classic(s), CLASSIC)
         .unless(s.slider("stiffness") == 0.0, NO_PRESSURE)
@@ -51,7 +51,7 @@ fn unless_theory(s: &Situation, allowed: Allowed) -> Allowed {
 }
 
 /// The speed up to which the step is stable, and to which all forces push at most.
-fn speed(s: &Situation) -> Allowed {
+fn speed(s: &CaseConditions) -> Allowed {
     let (nu, k, dt) = steps(s);
     let sound = k.sqrt() / dt;
     let most = if is_classic(s) { CLASSIC_SPEED } else { (0.4 * sound).max(0.05) };
@@ -62,15 +62,15 @@ fn speed(s: &Situation) -> Allowed {
 }
 
 /// A flow of Mach M makes differences of M^2 / 2 to M^2 in density, sound waves of it differences of M: 0.4 at most.
-fn density(s: &Situation) -> Allowed {
+fn density(s: &CaseConditions) -> Allowed {
     unless_theory(s, Allowed::new(0.6, 1.6))
 }
 
-fn mass(s: &Situation) -> Allowed {
+fn mass(s: &CaseConditions) -> Allowed {
     unless_theory(s, Allowed::new(0.98, 1.02))
 }
 
-fn smooth(s: &Situation) -> Allowed {
+fn smooth(s: &CaseConditions) -> Allowed {
     unless_theory(s, Allowed::new(0.0, 0.25))
 }
 
@@ -106,8 +106,8 @@ const COMPRESSIBLE: Courant = Courant {
 
 /// A case in which theory says that the published form is stable: nu >= K, nu dt <= 1/4, and the limit of speed is below
 /// 0.4 of the sound's.
-pub fn stable_classic() -> Extra {
-    Extra::new(Kind::Pairs, &[("form", 0.0), ("viscosity", 1.25), ("stiffness", 1.2), ("dt", 0.02)])
+pub fn stable_classic() -> PresetCase {
+    PresetCase::new(Kind::Pairs, &[("form", 0.0), ("viscosity", 1.25), ("stiffness", 1.2), ("dt", 0.02)])
 }
 
 pub fn fluid() -> Bounds {
@@ -123,7 +123,7 @@ pub fn fluid_dye() -> Bounds {
     let mut checks = compressible("a");
     // Two nozzles and a brush of twice their weight, and what each pours until it has decayed.
     let rule =
-        |s: &Situation| Allowed::new(0.0, 4.0 * s.slider("pours") * (s.slider("decay_seconds") + s.longest_step));
+        |s: &CaseConditions| Allowed::new(0.0, 4.0 * s.slider("pours") * (s.slider("decay_seconds") + s.longest_step));
     checks.push(by("dye", Quantity::Colour, FLUID, rule, "what is poured out in one place until it has decayed"));
     checks.push(picture(1.02, "film is white at 1, over water of 0.034, to the power 1/1.8"));
     (checks, Some(COMPRESSIBLE))
@@ -134,7 +134,7 @@ pub fn fluid_lit() -> Bounds {
     // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have
     // dented much. Vorticity confinement feeds the smallest ones, the more the greater it is (the slider ends at 2), up
     // to eddies of a few cells at the limit of speed: their vorticity is that speed over a cell.
-    let rule = |s: &Situation| {
+    let rule = |s: &CaseConditions| {
         let dented =
             s.slider("dent") * s.slider("settle_seconds").max(s.longest_step) * f64::from(s.size.1.max(90)) / 90.0;
         let vorticity = (s.slider("confinement") / 2.0 * speed(s).high).max(0.2);
@@ -149,13 +149,13 @@ pub fn fluid_lit() -> Bounds {
 
 pub fn fluid_accurate() -> Bounds {
     // Without forces the energy cannot grow. Jets, hand and lid push to a speed and no further.
-    fn jets(s: &Situation) -> f64 {
+    fn jets(s: &CaseConditions) -> f64 {
         if s.slider("jets") > 0.0 { s.slider("jet_speed") } else { 0.0 }
     }
-    fn lid(s: &Situation) -> f64 {
+    fn lid(s: &CaseConditions) -> f64 {
         if s.slider("walls") == 1.0 { s.slider("lid_speed").abs() } else { 0.0 }
     }
-    fn hand(s: &Situation) -> f64 {
+    fn hand(s: &CaseConditions) -> f64 {
         if s.is_dragged { 3.0 } else { 0.0 }
     }
     // A lid shears what is below it, and nothing in its box is faster; a tenth is for what a projection leaves at the
@@ -163,10 +163,10 @@ pub fn fluid_accurate() -> Bounds {
     // drives them. Left alone for 2,000 frames the jets make 2.5 times their speed. A hand across the whole picture each
     // frame makes 2.1 times its own, 6.26, 6.36 and 6.31 on canvases of 180, 360 and 720 rows: that is the flow, not its
     // cells.
-    let speed = |s: &Situation| Allowed::new(0.0, (1.15 * lid(s)).max(3.0 * jets(s)).max(2.3 * hand(s)).max(0.01));
-    let energy = |s: &Situation| Allowed::new(0.0, 0.5 * lid(s).max(jets(s)).max(hand(s)).powi(2).max(1e-4));
+    let speed = |s: &CaseConditions| Allowed::new(0.0, (1.15 * lid(s)).max(3.0 * jets(s)).max(2.3 * hand(s)).max(0.01));
+    let energy = |s: &CaseConditions| Allowed::new(0.0, 0.5 * lid(s).max(jets(s)).max(hand(s)).powi(2).max(1e-4));
     // Jets are 0.028 heights wide, on half of the rows.
-    let resolved = |s: &Situation| {
+    let resolved = |s: &CaseConditions| {
         let is_sheet = s.slider("walls") == 1.0 && s.slider("viscosity") == 0.0;
         Allowed::new(0.0, 0.25)
             .unless(s.size.1 < 72, "on fewer than 72 rows a jet is narrower than a cell")
@@ -217,25 +217,25 @@ pub fn fluid_accurate() -> Bounds {
 
 /// Returns what a covering array of ends cannot have: the box to whose walls the fluid sticks, with its lid, is between
 /// the ends of `walls`; and viscosities that a splitting is known to explode at are between those of `viscosity`.
-pub fn of_fluid_accurate() -> Vec<Extra> {
+pub fn of_fluid_accurate() -> Vec<PresetCase> {
     let mut all = Vec::new();
     for lid in [-2.0, 2.0] {
         for viscosity in [0.0, 0.01] {
             for speed in [0.0, 10.0] {
                 let values = [("walls", 1.0), ("lid_speed", lid), ("viscosity", viscosity), ("speed", speed)];
-                all.push(Extra::new(Kind::Pairs, &values));
+                all.push(PresetCase::new(Kind::Pairs, &values));
             }
         }
     }
     // The lid, for as long as it takes to feed an instability, at the size of a window and at twice that.
     for (size, frames) in [((640, 360), 600), ((1280, 720), 300)] {
         let values = [("walls", 1.0), ("lid_speed", 2.0), ("viscosity", 0.0), ("speed", 10.0)];
-        all.push(Extra { large: Some((size, frames)), ..Extra::new(Kind::Pairs, &values) });
+        all.push(PresetCase { large: Some((size, frames)), ..PresetCase::new(Kind::Pairs, &values) });
     }
     for viscosity in [0.0, 0.000_19, 0.000_37, 0.000_46, 0.002, 0.01] {
         for speed in [1.0, 4.0, 10.0] {
-            let case = Extra::new(Kind::Viscosity, &[("viscosity", viscosity), ("speed", speed)]);
-            all.push(Extra { large: Some(((1920, 1080), 60)), ..case });
+            let case = PresetCase::new(Kind::Viscosity, &[("viscosity", viscosity), ("speed", speed)]);
+            all.push(PresetCase { large: Some(((1920, 1080), 60)), ..case });
         }
     }
     all
@@ -285,7 +285,7 @@ pub fn mip_fluid() -> Bounds {
 
 /// Pixels a frame on a canvas 270 pixels high that the largest ring of self-advection moves paint by, where vectors
 /// have length 1.
-fn leap(s: &Situation) -> f64 {
+fn leap(s: &CaseConditions) -> f64 {
     let rings = ((0.35 * f64::from(s.size.1)).ln() / s.slider("growth").ln()).floor();
     s.slider("strength") * s.slider("slope").powf(rings.clamp(0.0, (s.slider("scales") - 1.0).max(0.0))).max(1.0)
 }
@@ -293,7 +293,7 @@ fn leap(s: &Situation) -> f64 {
 pub fn self_advection() -> Bounds {
     const FRAYS: &str =
         "at a strength above 10, or as much by the weight of large rings, paint leaps over its eddies and frays";
-    let smooth = |s: &Situation| Allowed::new(0.0, 0.25).unless(leap(s) > 60.0, FRAYS);
+    let smooth = |s: &CaseConditions| Allowed::new(0.0, 0.25).unless(leap(s) > 60.0, FRAYS);
     let checks = vec![
         always(
             "paint",

@@ -11,7 +11,7 @@ mod filters;
 mod flows;
 mod others;
 
-pub use declare::{Courant, Extra};
+pub use declare::{Courant, PresetCase};
 
 use super::check::Check;
 use eddy_project::{Project, presets};
@@ -20,7 +20,7 @@ use eddy_project::{Project, presets};
 pub struct Declared {
     pub checks: Vec<Check>,
     pub courant: Option<Courant>,
-    pub extras: Vec<Extra>,
+    pub extras: Vec<PresetCase>,
 }
 
 /// Returns the bounds of a preset.
@@ -103,14 +103,14 @@ pub fn declared_for_copy(project: &Project) -> Option<Declared> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::{Quantity, Subject};
+    use crate::stability::{CheckedProject, Quantity};
     use eddy_project::{PassId, presets as library};
 
     #[test]
     fn every_preset_is_declared_with_its_picture_and_those_with_a_state_come_first() {
         for name in library::names() {
             let Some(place) = NAMES.iter().position(|n| n == name) else { panic!("{name} is not declared") };
-            let has_state = !Subject::load(name, &[]).unwrap().stateful().is_empty();
+            let has_state = !CheckedProject::load(name, &[]).unwrap().stateful().is_empty();
             assert_eq!(place < WITH_STATE, has_state, "{name}");
             let declared = declared(name).unwrap();
             let pictures: Vec<&Check> = declared.checks.iter().filter(|c| c.pass == PassId::Image).collect();
@@ -136,7 +136,7 @@ mod tests {
     fn a_courant_number_is_set_by_a_slider_that_is_there_and_measured_at_a_length() {
         for name in NAMES {
             let Some(courant) = declared(name).unwrap().courant else { continue };
-            let subject = Subject::load(name, &[]).unwrap();
+            let subject = CheckedProject::load(name, &[]).unwrap();
             assert!(subject.sliders().iter().any(|k| k.name == courant.slider), "{name}: {}", courant.slider);
             let quantity = subject.checks[courant.speed].quantity;
             assert!(matches!(quantity, Quantity::Length(..)), "{name}: {quantity:?}");

@@ -1,7 +1,7 @@
 //! Presets whose state is no flow.
 
 use super::declare::{Courant, always, by, mouse, picture};
-use crate::stability::check::{Allowed, Area, Check, Quantity, Situation};
+use crate::stability::check::{Allowed, Area, CaseConditions, Check, Quantity};
 
 pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
     let checks = vec![
@@ -60,7 +60,7 @@ pub fn nocturne() -> Vec<Check> {
 pub fn brick_breaker() -> Vec<Check> {
     const CUT: &str = "a canvas of fewer than 16 x 7 pixels has no room for the game's state";
     // A canvas that has room for the state.
-    fn room(s: &Situation, low: f64, high: f64) -> Allowed {
+    fn room(s: &CaseConditions, low: f64, high: f64) -> Allowed {
         Allowed::new(low, high).unless(s.size.0 < 16 || s.size.1 < 7, CUT)
     }
     vec![
@@ -99,16 +99,16 @@ pub fn brick_breaker() -> Vec<Check> {
 }
 
 pub fn particles() -> Vec<Check> {
-    let lifetime = |s: &Situation| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
+    let lifetime = |s: &CaseConditions| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
     // Flung up at 0.75 heights a second, for the longest life of a spark, from within the canvas (or the wider one that
     // it was before).
-    let reach = |s: &Situation| {
+    let reach = |s: &CaseConditions| {
         let half_width = 0.5 * f64::from(s.size.0) / f64::from(s.size.1);
         let far = 0.75 * 3.7 * s.slider("lifetime") + half_width.max(3.0);
         Allowed::new(-far, far)
     };
     // A tile has room for 64; a streak gives 12 times its colour a second, which fades.
-    let light = |s: &Situation| {
+    let light = |s: &CaseConditions| {
         let kept = (12.0 * (s.slider("exposure_seconds") + 2.0 * s.longest_step)).max(1.0);
         Allowed::new(0.0, (64.0 * 2.6 * s.slider("brightness") * kept).max(1.0))
     };
@@ -178,7 +178,7 @@ pub fn taa() -> Vec<Check> {
 }
 
 pub fn scene_bloom_taa() -> Vec<Check> {
-    let light = |s: &Situation| Allowed::new(0.0, 8.0 + 4.0 * s.slider("lamps"));
+    let light = |s: &CaseConditions| Allowed::new(0.0, 8.0 + 4.0 * s.slider("lamps"));
     vec![
         by(
             "b",

@@ -4,7 +4,7 @@ use super::{
     buffers::Buffers,
     document::{Accessor, Dimensions, Index, Root},
 };
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use Component::{F32, I8, I16, U8, U16, U32};
 use Dimensions::{Mat4, Scalar, Vec2, Vec3, Vec4};
 
@@ -143,12 +143,12 @@ impl<'a> Bytes<'a> {
 
 impl<'a> Source<'a> {
     /// Returns the elements of an accessor that must be of this kind. Its index is in range.
-    pub fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, Trouble> {
+    pub fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, ModelError> {
         let accessor = &self.root.accessors[index as usize];
         let number = accessor.component_type;
         let Some(component) = Component::of(number) else {
             let why = format!("accessor {index} has the componentType {number}, which glTF 2.0 does not know");
-            return Err(Trouble::broken(why));
+            return Err(ModelError::broken(why));
         };
         let dimensions = accessor.dimensions;
         let is_quantized = kind.quantized.contains(&component);
@@ -158,12 +158,12 @@ impl<'a> Source<'a> {
                 true => " without KHR_mesh_quantization",
                 false => "",
             };
-            return Err(Trouble::broken(format!(
+            return Err(ModelError::broken(format!(
                 "accessor {index} has {dimensions:?} of {component:?}, which {what} cannot have{without}"
             )));
         }
         if accessor.count == 0 {
-            return Err(Trouble::broken(format!("accessor {index} has no elements")));
+            return Err(ModelError::broken(format!("accessor {index} has no elements")));
         }
         let width = match dimensions {
             Scalar => 1,
@@ -188,16 +188,18 @@ impl<'a> Source<'a> {
     }
 
     /// As many indices as values, each greater than the one before and less than the count (section 3.6.2.3).
-    fn sparse(&self, index: Index, accessor: &Accessor, size: usize) -> Result<Option<SparseValues<'a>>, Trouble> {
+    fn sparse(&self, index: Index, accessor: &Accessor, size: usize) -> Result<Option<SparseValues<'a>>, ModelError> {
         let Some(sparse) = &accessor.sparse else { return Ok(None) };
         let (all, count) = (accessor.count, sparse.count);
         if count > all {
-            return Err(Trouble::broken(format!("accessor {index} has {all} elements and replaces {count} of them")));
+            return Err(ModelError::broken(format!(
+                "accessor {index} has {all} elements and replaces {count} of them"
+            )));
         }
         let place = Component::of(sparse.indices.component_type).filter(|c| [U8, U16, U32].contains(c));
         let Some(place) = place else {
             let number = sparse.indices.component_type;
-            return Err(Trouble::broken(format!(
+            return Err(ModelError::broken(format!(
                 "accessor {index} replaces elements by indices of the componentType {number}"
             )));
         };
@@ -208,7 +210,7 @@ impl<'a> Source<'a> {
         let mut least = 0;
         for at in (0..replaced.count).map(|i| replaced.at(i)) {
             if at < least || at >= all {
-                return Err(Trouble::broken(format!(
+                return Err(ModelError::broken(format!(
                     "accessor {index} replaces its elements out of order or beyond its end"
                 )));
             }
@@ -218,11 +220,18 @@ impl<'a> Source<'a> {
     }
 
     /// The bytes of `count` elements of `size` bytes in a view.
-    fn elements(&self, index: Index, view: Index, offset: u64, count: u64, size: usize) -> Result<Bytes<'a>, Trouble> {
+    fn elements(
+        &self,
+        index: Index,
+        view: Index,
+        offset: u64,
+        count: u64,
+        size: usize,
+    ) -> Result<Bytes<'a>, ModelError> {
         let stride = self.root.buffer_views[view as usize].byte_stride.unwrap_or(size as u64);
         if stride < size as u64 {
             let why = format!("accessor {index} has elements of {size} bytes with a stride of {stride}");
-            return Err(Trouble::broken(why));
+            return Err(ModelError::broken(why));
         }
         let view = self.buffers.view(self.root, view)?;
         let find = || {
@@ -232,7 +241,7 @@ impl<'a> Source<'a> {
             };
             view.get(usize::try_from(offset).ok()?..usize::try_from(offset.checked_add(length)?).ok()?)
         };
-        let all = find().ok_or_else(|| Trouble::broken(format!("accessor {index} reaches beyond its buffer")))?;
+        let all = find().ok_or_else(|| ModelError::broken(format!("accessor {index} reaches beyond its buffer")))?;
         Ok(Bytes { all: Some(all), stride: stride as usize, size })
     }
 }

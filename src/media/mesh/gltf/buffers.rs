@@ -4,7 +4,7 @@ use super::{
     document::{Index, Root},
     extensions,
 };
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use data_url::DataUrl;
 use eddy_project::{
     confine::FileError,
@@ -30,7 +30,7 @@ impl<'a> Buffers<'a> {
         mut binary: Option<&'a [u8]>,
         named: Named<'_>,
         taken: u64,
-    ) -> Result<Buffers<'a>, Trouble> {
+    ) -> Result<Buffers<'a>, ModelError> {
         let mut left = limits::MODEL_FILES.bytes.saturating_sub(taken);
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (n, buffer) in root.buffers.iter().enumerate() {
@@ -47,19 +47,19 @@ impl<'a> Buffers<'a> {
                 // Its length is bounded by that of the file, which holds it in 4 bytes for 3, or in one for one.
                 Some(uri) if is_data(uri) => match data(uri) {
                     Ok(bytes) => bytes.into(),
-                    Err(why) => return Err(Trouble::broken(format!("the data: address of buffer {n} {why}"))),
+                    Err(why) => return Err(ModelError::broken(format!("the data: address of buffer {n} {why}"))),
                 },
                 Some(uri) if uri.len() > LONGEST_NAME => {
-                    return Err(Trouble::broken(format!("buffer {n} has a file name of {} bytes", uri.len())));
+                    return Err(ModelError::broken(format!("buffer {n} has a file name of {} bytes", uri.len())));
                 }
                 Some(uri) if uri.contains(':') => {
-                    return Err(Trouble::broken(format!(
+                    return Err(ModelError::broken(format!(
                         "buffer {n} refers to {uri}, which is neither a file nor data"
                     )));
                 }
                 Some(uri) => {
                     let limit = Limit { bytes: left, ..limits::MODEL_FILES };
-                    let bytes = named(&unescaped(uri), limit).map_err(Trouble::Named)?;
+                    let bytes = named(&unescaped(uri), limit).map_err(ModelError::Named)?;
                     left -= bytes.len() as u64;
                     bytes.into()
                 }
@@ -69,10 +69,10 @@ impl<'a> Buffers<'a> {
                 let whose = match uri {
                     None => "the binary chunk".into(),
                     Some(uri) if is_data(uri) => "its data: address".into(),
-                    Some(uri) => format!("its file {}", Trouble::short(&unescaped(uri))),
+                    Some(uri) => format!("its file {}", ModelError::short(&unescaped(uri))),
                 };
                 let (said, there) = (buffer.byte_length, bytes.len());
-                return Err(Trouble::broken(format!(
+                return Err(ModelError::broken(format!(
                     "buffer {n} has {said} bytes by its byteLength, and {whose} {there}"
                 )));
             }
@@ -86,21 +86,21 @@ impl<'a> Buffers<'a> {
     }
 
     /// The bytes of a buffer view, whose index is in range.
-    pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], Trouble> {
+    pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], ModelError> {
         let described = &root.buffer_views[view as usize];
         let buffer = described.buffer;
         let Some(whole) = &self.0[buffer as usize] else {
             return Err(match (&described.extensions.ext_meshopt, &described.extensions.khr_meshopt) {
                 (Some(_), _) => extensions::meshopt("EXT_meshopt_compression"),
                 (_, Some(_)) => extensions::meshopt("KHR_meshopt_compression"),
-                _ => Trouble::broken(format!("buffer {buffer} has no file, and there is no binary chunk for it")),
+                _ => ModelError::broken(format!("buffer {buffer} has no file, and there is no binary chunk for it")),
             });
         };
         let range = || {
             let start = usize::try_from(described.byte_offset).ok()?;
             whole.get(start..start.checked_add(usize::try_from(described.byte_length).ok()?)?)
         };
-        range().ok_or_else(|| Trouble::broken(format!("bufferView {view} reaches beyond buffer {buffer}")))
+        range().ok_or_else(|| ModelError::broken(format!("bufferView {view} reaches beyond buffer {buffer}")))
     }
 }
 

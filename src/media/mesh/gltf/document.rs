@@ -246,16 +246,16 @@ impl<'de> Deserialize<'de> for Attributes {
                         "COLOR_0" => &mut found.color,
                         _ => {
                             if let Some(set) = set("JOINTS_") {
-                                found.joints.push((set, map.next_value::<Whole<Index>>()?.0));
+                                found.joints.push((set, map.next_value::<IntegerLike<Index>>()?.0));
                             } else if let Some(set) = set("WEIGHTS_") {
-                                found.weights.push((set, map.next_value::<Whole<Index>>()?.0));
+                                found.weights.push((set, map.next_value::<IntegerLike<Index>>()?.0));
                             } else {
                                 map.next_value::<IgnoredAny>()?;
                             }
                             continue;
                         }
                     };
-                    if place.replace(map.next_value::<Whole<Index>>()?.0).is_some() {
+                    if place.replace(map.next_value::<IntegerLike<Index>>()?.0).is_some() {
                         return Err(A::Error::custom(format_args!("{name} is there twice")));
                     }
                 }
@@ -349,23 +349,23 @@ pub(super) struct Skin {
 }
 
 /// An integer, which may be written with a fraction of zero: `3.0`. Some programs do.
-struct Whole<T>(T);
+struct IntegerLike<T>(T);
 
-impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
+impl<'de, T: TryFrom<u64>> Deserialize<'de> for IntegerLike<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Number<T>(PhantomData<T>);
         impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {
-            type Value = Whole<T>;
+            type Value = IntegerLike<T>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a whole number from 0 on")
             }
 
-            fn visit_u64<E: Error>(self, n: u64) -> Result<Whole<T>, E> {
-                T::try_from(n).map(Whole).map_err(|_| E::invalid_value(Unexpected::Unsigned(n), &self))
+            fn visit_u64<E: Error>(self, n: u64) -> Result<IntegerLike<T>, E> {
+                T::try_from(n).map(IntegerLike).map_err(|_| E::invalid_value(Unexpected::Unsigned(n), &self))
             }
 
-            fn visit_f64<E: Error>(self, x: f64) -> Result<Whole<T>, E> {
+            fn visit_f64<E: Error>(self, x: f64) -> Result<IntegerLike<T>, E> {
                 // Beyond this not every whole number is one of the floats.
                 const MOST: f64 = (1u64 << 53) as f64;
                 if x.fract() == 0.0 && (0.0..=MOST).contains(&x) {
@@ -379,11 +379,11 @@ impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
 }
 
 fn whole<'de, D: Deserializer<'de>, T: TryFrom<u64>>(deserializer: D) -> Result<T, D::Error> {
-    Whole::deserialize(deserializer).map(|whole| whole.0)
+    IntegerLike::deserialize(deserializer).map(|whole| whole.0)
 }
 
 fn maybe_whole<'de, D: Deserializer<'de>, T: TryFrom<u64>>(deserializer: D) -> Result<Option<T>, D::Error> {
-    Ok(Option::<Whole<T>>::deserialize(deserializer)?.map(|whole| whole.0))
+    Ok(Option::<IntegerLike<T>>::deserialize(deserializer)?.map(|whole| whole.0))
 }
 
 fn whole_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Index>, D::Error> {
@@ -397,7 +397,7 @@ fn whole_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Index>, 
 
         fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Index>, A::Error> {
             let mut all = Vec::new();
-            while let Some(Whole(index)) = list.next_element()? {
+            while let Some(IntegerLike(index)) = list.next_element()? {
                 all.push(index);
             }
             Ok(all)

@@ -1,7 +1,7 @@
 //! Extensions that a file says it needs, and which of them matter to a shape.
 
 use super::document::Root;
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use eddy_project::listed;
 
 /// Extensions that change where vertices lie or which are drawn, and that this module reads, or tells of where they
@@ -56,7 +56,7 @@ const AREAS: [&str; 12] = [
 ];
 
 /// Checks that the file needs nothing that Eddy cannot read.
-pub(super) fn check(root: &Root<'_>) -> Result<(), Trouble> {
+pub(super) fn check(root: &Root<'_>) -> Result<(), ModelError> {
     let mut unknown: Vec<&str> = root.extensions_required.iter().map(|name| &*name.0).collect();
     unknown.retain(|name| !is_known(name));
     unknown.sort_unstable();
@@ -67,12 +67,12 @@ pub(super) fn check(root: &Root<'_>) -> Result<(), Trouble> {
     // A list of thousands says no more than its start does.
     const SHOWN: usize = 5;
     let more = unknown.len().saturating_sub(SHOWN);
-    let mut shown: Vec<String> = unknown.into_iter().take(SHOWN).map(Trouble::short).collect();
+    let mut shown: Vec<String> = unknown.into_iter().take(SHOWN).map(ModelError::short).collect();
     if more > 0 {
         shown.push(format!("{more} more"));
     }
     let which = if shown.len() == 1 { "it" } else { "them" };
-    Err(Trouble::Needs {
+    Err(ModelError::Needs {
         what: listed(&shown),
         because: String::new(),
         mend: format!("re-export the model without {which}"),
@@ -91,8 +91,8 @@ pub(super) fn is_quantized(root: &Root<'_>) -> bool {
 }
 
 /// The trouble of a mesh that is there in Draco's form alone.
-pub(super) fn draco() -> Trouble {
-    Trouble::Needs {
+pub(super) fn draco() -> ModelError {
+    ModelError::Needs {
         what: "KHR_draco_mesh_compression".into(),
         because: "its mesh is Draco compressed".into(),
         mend: "re-export the model without compression, or unpack it: gltf-transform copy IN.glb OUT.glb".into(),
@@ -100,8 +100,8 @@ pub(super) fn draco() -> Trouble {
 }
 
 /// The trouble of a buffer view that is there in meshoptimizer's form alone.
-pub(super) fn meshopt(extension: &str) -> Trouble {
-    Trouble::Needs {
+pub(super) fn meshopt(extension: &str) -> ModelError {
+    ModelError::Needs {
         what: extension.into(),
         because: "its mesh is meshopt compressed".into(),
         mend: "re-export the model without compression (gltfpack without -c), or unpack it: gltf-transform copy \

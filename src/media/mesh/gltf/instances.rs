@@ -3,9 +3,9 @@
 use super::{
     accessors::{Elements, Source},
     document::{Index, Instancing},
-    nodes::{Placed, placement},
+    nodes::{MeshInstance, placement},
 };
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use glam::{DAffine3, DVec3};
 
 fn of(source: Source<'_>, node: Option<Index>) -> Option<&Instancing> {
@@ -13,7 +13,7 @@ fn of(source: Source<'_>, node: Option<Index>) -> Option<&Instancing> {
 }
 
 /// Returns how often a node shows its mesh.
-pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, Trouble> {
+pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, ModelError> {
     let Some(instancing) = of(source, node) else { return Ok(1) };
     let mut counts =
         instancing.attributes.all().map(|(name, index)| (name, source.root.accessors[index as usize].count));
@@ -21,7 +21,7 @@ pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, Trou
     match counts.find(|(_, count)| *count != first) {
         Some((name, count)) => {
             let node = node.unwrap_or_default();
-            Err(Trouble::broken(format!("node {node} has {first} instances by one attribute and {count} by {name}")))
+            Err(ModelError::broken(format!("node {node} has {first} instances by one attribute and {count} by {name}")))
         }
         None => Ok(first),
     }
@@ -30,9 +30,9 @@ pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, Trou
 /// Hands the transform of each of a node's instances to `take`; of a node without, its own.
 pub(super) fn each(
     source: Source<'_>,
-    placed: &Placed,
-    mut take: impl FnMut(DAffine3) -> Result<(), Trouble>,
-) -> Result<(), Trouble> {
+    placed: &MeshInstance,
+    mut take: impl FnMut(DAffine3) -> Result<(), ModelError>,
+) -> Result<(), ModelError> {
     let Some(attributes) = of(source, placed.node).map(|one| &one.attributes) else { return take(placed.to_world) };
     let values = |index: Option<Index>, kind, what: &str| {
         index.map(|index| source.values(index, kind, &format!("the {what} of instances"))).transpose()

@@ -4,38 +4,38 @@ use super::{
     document::{Asset, Attributes, Head, Index, Root},
     extensions,
 };
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use eddy_project::limits;
 use serde_json::value::RawValue;
 
 /// Reads and checks the text. After this every index that Eddy follows is in range.
-pub(super) fn document(text: &[u8]) -> Result<Root<'_>, Trouble> {
+pub(super) fn document(text: &[u8]) -> Result<Root<'_>, ModelError> {
     let text = plain(text)?;
     measure(text)?;
-    let head: Head<'_> = serde_json::from_slice(text).map_err(Trouble::broken)?;
+    let head: Head<'_> = serde_json::from_slice(text).map_err(ModelError::broken)?;
     check_version(&head)?;
-    let root: Root<'_> = serde_json::from_slice(text).map_err(Trouble::broken)?;
+    let root: Root<'_> = serde_json::from_slice(text).map_err(ModelError::broken)?;
     extensions::check(&root)?;
-    check_indices(&root).map_err(Trouble::broken)?;
+    check_indices(&root).map_err(ModelError::broken)?;
     Ok(root)
 }
 
 /// The text without the mark that some editors begin it with (section 2.3 forbids it, and readers may skip it), and
 /// without the zeros that some programs fill a chunk up with.
-fn plain(text: &[u8]) -> Result<&[u8], Trouble> {
+fn plain(text: &[u8]) -> Result<&[u8], ModelError> {
     if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
-        return Err(Trouble::broken("its JSON is UTF-16 text, and glTF's is UTF-8"));
+        return Err(ModelError::broken("its JSON is UTF-16 text, and glTF's is UTF-8"));
     }
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let end = text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
     if text[..end].iter().all(u8::is_ascii_whitespace) {
-        return Err(Trouble::broken("it is empty"));
+        return Err(ModelError::broken("it is empty"));
     }
     Ok(&text[..end])
 }
 
 /// Counts objects and values before they are made: an empty object is two bytes of text and hundreds in memory.
-fn measure(text: &[u8]) -> Result<(), Trouble> {
+fn measure(text: &[u8]) -> Result<(), ModelError> {
     let (mut objects, mut values) = (0, 0);
     let (mut is_string, mut is_escaped) = (false, false);
     for byte in text {
@@ -52,21 +52,21 @@ fn measure(text: &[u8]) -> Result<(), Trouble> {
     for (count, limit, what) in [(objects, limits::GLTF_OBJECTS, "objects"), (values, limits::GLTF_VALUES, "values")] {
         if count > limit {
             let excess = format!("its JSON has {count} {what}, but the limit is {limit}");
-            return Err(Trouble::TooLarge(excess));
+            return Err(ModelError::TooLarge(excess));
         }
     }
     Ok(())
 }
 
 /// As the note of section 3.2 has it: `minVersion` where it is there, else the major version.
-fn check_version(head: &Head<'_>) -> Result<(), Trouble> {
+fn check_version(head: &Head<'_>) -> Result<(), ModelError> {
     const NONE: Asset<'_> = Asset { version: None, min_version: None };
     let asset = head.asset.as_ref().unwrap_or(&NONE);
     let Some(version) = asset.version.map(words) else {
         return Err(match head.nodes {
             // glTF 1.0 had objects for lists, and its asset might be left out.
-            Some(nodes) if nodes.get().starts_with('{') => Trouble::Version("1.0".into()),
-            _ => Trouble::broken("it has no asset.version, which glTF requires"),
+            Some(nodes) if nodes.get().starts_with('{') => ModelError::Version("1.0".into()),
+            _ => ModelError::broken("it has no asset.version, which glTF requires"),
         });
     };
     let numbers = |text: &str| {
@@ -75,13 +75,13 @@ fn check_version(head: &Head<'_>) -> Result<(), Trouble> {
     };
     let major = version.split('.').next().unwrap_or_default().parse::<u32>();
     match asset.min_version.map(words) {
-        Some(least) if numbers(least).is_some_and(|least| least > (2, 0)) => Err(Trouble::Version(least.into())),
+        Some(least) if numbers(least).is_some_and(|least| least > (2, 0)) => Err(ModelError::Version(least.into())),
         _ if major == Ok(2) => Ok(()),
         _ if major.is_ok() => {
             let minor = if version.contains('.') { "" } else { ".0" };
-            Err(Trouble::Version(format!("{version}{minor}")))
+            Err(ModelError::Version(format!("{version}{minor}")))
         }
-        _ => Err(Trouble::broken(format!("its asset.version is {version:?}, not \"2.0\""))),
+        _ => Err(ModelError::broken(format!("its asset.version is {version:?}, not \"2.0\""))),
     }
 }
 

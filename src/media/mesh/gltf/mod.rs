@@ -25,12 +25,12 @@ mod texture;
 
 use super::{
     model::Raw,
-    trouble::{Counts, Trouble},
+    trouble::{Counts, ModelError},
 };
 use accessors::Source;
 use buffers::{Buffers, Named};
 use document::{Index, Root};
-use nodes::{Placed, Stage};
+use nodes::{MeshInstance, Stage};
 use primitive::{Mode, Part, Pose};
 use skins::{Bound, Skins, skin_of};
 use texture::Transform;
@@ -41,8 +41,8 @@ pub(super) fn load(
     bytes: &[u8],
     named: Named<'_>,
     room: u64,
-    take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
-) -> Result<LeftOut, Trouble> {
+    take: &mut dyn FnMut(Raw) -> Result<(), ModelError>,
+) -> Result<IgnoredParts, ModelError> {
     let chunks = container::split(bytes)?;
     let root = json::document(chunks.json)?;
     let stage = Stage::of(&root)?;
@@ -64,7 +64,7 @@ pub(super) fn load(
 
 /// The kinds of things in a file that are no triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct LeftOut {
+pub(super) struct IgnoredParts {
     pub points: bool,
     pub lines: bool,
     /// Triangles without positions, which section 3.7.2.1 lets readers skip.
@@ -73,7 +73,7 @@ pub(super) struct LeftOut {
     pub unseen: bool,
 }
 
-impl LeftOut {
+impl IgnoredParts {
     /// The words for what a file without triangles holds, behind "holds no triangles".
     pub fn only(self) -> String {
         match self.beside() {
@@ -96,7 +96,7 @@ impl LeftOut {
 }
 
 /// The words for where a primitive is.
-fn place(primitive: usize, placed: &Placed) -> String {
+fn place(primitive: usize, placed: &MeshInstance) -> String {
     match placed.node {
         Some(node) => format!("primitive {primitive} of node {node}"),
         None => format!("primitive {primitive} of mesh {}", placed.mesh),
@@ -111,7 +111,7 @@ struct Model<'a> {
 
 impl<'a> Model<'a> {
     /// The primitives of a placed mesh by their numbers.
-    fn parts(self, placed: &Placed) -> impl Iterator<Item = (usize, Result<Part<'a>, Trouble>)> {
+    fn parts(self, placed: &MeshInstance) -> impl Iterator<Item = (usize, Result<Part<'a>, ModelError>)> {
         let root: &'a Root<'a> = self.source.root;
         let mesh = &root.meshes[placed.mesh as usize];
         let of_node = placed.node.and_then(|node| root.nodes[node as usize].weights.as_deref());
@@ -123,10 +123,10 @@ impl<'a> Model<'a> {
     }
 
     /// Counts what all parts come to, by what accessors say.
-    fn count(self, stage: &Stage, counts: &mut Counts) -> Result<LeftOut, Trouble> {
+    fn count(self, stage: &Stage, counts: &mut Counts) -> Result<IgnoredParts, ModelError> {
         let root: &Root<'_> = self.source.root;
         let count = |index: Index| root.accessors[index as usize].count;
-        let mut left_out = LeftOut::default();
+        let mut left_out = IgnoredParts::default();
         for placed in &stage.placed {
             let instances = instances::count(self.source, placed.node)?;
             for (n, part) in self.parts(placed) {
@@ -158,11 +158,11 @@ impl<'a> Model<'a> {
     /// Hands a part to `take`, wherever its mesh is placed.
     fn take(
         self,
-        placed: &Placed,
-        part: Result<Part<'a>, Trouble>,
+        placed: &MeshInstance,
+        part: Result<Part<'a>, ModelError>,
         skins: &'a Skins,
-        take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
+        take: &mut dyn FnMut(Raw) -> Result<(), ModelError>,
+    ) -> Result<(), ModelError> {
         let part = part?;
         if matches!(part.mode, Mode::Points | Mode::Lines) || part.attributes().position.is_none() {
             return Ok(());

@@ -1,11 +1,11 @@
 //! The node hierarchy: a set of strict trees (section 3.5.2), which a file may not keep to.
 
 use super::document::{Index, Node, Root};
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 
 /// A mesh in its place.
-pub(super) struct Placed {
+pub(super) struct MeshInstance {
     pub mesh: Index,
     /// `None` where a file has meshes and no nodes.
     pub node: Option<Index>,
@@ -15,13 +15,13 @@ pub(super) struct Placed {
 /// The nodes that are drawn, and where every node stands.
 pub(super) struct Stage {
     /// Parents before children.
-    pub placed: Vec<Placed>,
+    pub placed: Vec<MeshInstance>,
     /// By node; `None` for those that are their own ancestors.
     pub worlds: Vec<Option<DAffine3>>,
 }
 
 impl Stage {
-    pub fn of(root: &Root<'_>) -> Result<Stage, Trouble> {
+    pub fn of(root: &Root<'_>) -> Result<Stage, ModelError> {
         let nodes = &root.nodes;
         let mut walk = Walk { nodes, reached: vec![None; nodes.len()], worlds: vec![None; nodes.len()] };
         let mut placed = Vec::new();
@@ -33,7 +33,7 @@ impl Stage {
         }
         if nodes.is_empty() {
             // A library of meshes (section 3.5.1), all of which are wanted by whoever draws the file.
-            let mesh = |mesh| Placed { mesh, node: None, to_world: DAffine3::IDENTITY };
+            let mesh = |mesh| MeshInstance { mesh, node: None, to_world: DAffine3::IDENTITY };
             placed.extend((0..root.meshes.len() as Index).map(mesh));
         }
         Ok(Stage { placed, worlds: walk.worlds })
@@ -60,7 +60,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    fn from(&mut self, roots: &[Index], placed: &mut Vec<Placed>) -> Result<(), Trouble> {
+    fn from(&mut self, roots: &[Index], placed: &mut Vec<MeshInstance>) -> Result<(), ModelError> {
         struct Open {
             node: Index,
             parent: Option<Index>,
@@ -74,7 +74,7 @@ impl Walk<'_> {
         while let Some(Open { node: index, parent, parent_to_world, is_shown }) = stack.pop() {
             let n = index as usize;
             if let Some(earlier) = self.reached[n] {
-                return Err(Trouble::broken(twice(index, earlier, parent, &self.reached)));
+                return Err(ModelError::broken(twice(index, earlier, parent, &self.reached)));
             }
             self.reached[n] = Some(parent);
             let node = &self.nodes[n];
@@ -86,7 +86,7 @@ impl Walk<'_> {
             let child = |node: &Index| Open { node: *node, parent, parent_to_world: to_world, is_shown };
             stack.extend(node.children.iter().rev().map(child));
             if let Some(mesh) = node.mesh.filter(|_| is_shown) {
-                placed.push(Placed { mesh, node: Some(index), to_world });
+                placed.push(MeshInstance { mesh, node: Some(index), to_world });
             }
         }
         Ok(())

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::mesh::{
     model::{Raw, Vertex},
-    trouble::Trouble,
+    trouble::ModelError,
 };
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -25,14 +25,14 @@ pub(super) enum Mode {
 }
 
 impl Mode {
-    pub fn of(primitive: &Primitive) -> Result<Mode, Trouble> {
+    pub fn of(primitive: &Primitive) -> Result<Mode, ModelError> {
         Ok(match primitive.mode {
             0 => Mode::Points,
             1..=3 => Mode::Lines,
             4 => Mode::Triangles,
             5 => Mode::Strip,
             6 => Mode::Fan,
-            other => return Err(Trouble::broken(format!("its mode is {other}, but glTF has 0 to 6"))),
+            other => return Err(ModelError::broken(format!("its mode is {other}, but glTF has 0 to 6"))),
         })
     }
 
@@ -74,7 +74,7 @@ impl<'a> Part<'a> {
         &self.primitive.attributes
     }
 
-    fn values(&self, index: Index, kind: Elements, what: &str, count: u64) -> Result<Values<'a>, Trouble> {
+    fn values(&self, index: Index, kind: Elements, what: &str, count: u64) -> Result<Values<'a>, ModelError> {
         let accessor = &self.source.root.accessors[index as usize];
         if self.primitive.extensions.draco.is_some() && accessor.buffer_view.is_none() && accessor.sparse.is_none() {
             return Err(extensions::draco());
@@ -83,18 +83,18 @@ impl<'a> Part<'a> {
         if values.count as u64 == count {
             return Ok(values);
         }
-        Err(Trouble::broken(format!("it has {count} positions but {} {what}", values.count)))
+        Err(ModelError::broken(format!("it has {count} positions but {} {what}", values.count)))
     }
 
     /// Reads it where `pose` has it.
-    pub fn raw(&self, pose: &Pose<'a>) -> Result<Raw, Trouble> {
+    pub fn raw(&self, pose: &Pose<'a>) -> Result<Raw, ModelError> {
         let attributes = self.attributes();
         let mut raw = self.modelled()?;
         if let Pose::Bound(bound) = pose {
             let count = raw.vertices.len();
             for (what, there) in bound.counts() {
                 if there != count {
-                    return Err(Trouble::broken(format!("it has {count} positions but {there} {what}")));
+                    return Err(ModelError::broken(format!("it has {count} positions but {there} {what}")));
                 }
             }
         }
@@ -131,7 +131,7 @@ impl<'a> Part<'a> {
     }
 
     /// The vertices with their morph targets, in the mesh's own space.
-    fn modelled(&self) -> Result<Raw, Trouble> {
+    fn modelled(&self) -> Result<Raw, ModelError> {
         let attributes = self.attributes();
         let Some(position) = attributes.position else { return Ok(Raw::default()) };
         let count = self.source.root.accessors[position as usize].count;
@@ -175,7 +175,7 @@ impl<'a> Part<'a> {
 
     /// Adds a target's displacements (section 3.7.2.2). One of an attribute that the primitive lacks has nothing to
     /// displace.
-    fn morph(&self, vertices: &mut [Vertex], target: &Attributes, weight: f32, count: u64) -> Result<(), Trouble> {
+    fn morph(&self, vertices: &mut [Vertex], target: &Attributes, weight: f32, count: u64) -> Result<(), ModelError> {
         fn add<const N: usize>(
             vertices: &mut [Vertex],
             values: &Values<'_>,
@@ -213,7 +213,7 @@ impl<'a> Part<'a> {
     }
 
     /// The corners of its triangles, three by three.
-    fn corners(&self, count: usize) -> Result<Vec<u32>, Trouble> {
+    fn corners(&self, count: usize) -> Result<Vec<u32>, ModelError> {
         let Some(index) = self.primitive.indices else {
             return Ok(triangles(self.mode, (0..count as u32).collect()));
         };
@@ -222,7 +222,7 @@ impl<'a> Part<'a> {
         let corners: Vec<u32> = indices.integers().collect();
         let restart = indices.restart();
         if (restart as usize) >= count && corners.contains(&restart) {
-            return Err(Trouble::broken(format!(
+            return Err(ModelError::broken(format!(
                 "its indices use primitive restart at {restart}, which glTF 2.0 does not allow"
             )));
         }

@@ -3,9 +3,9 @@
 use super::{
     accessors::{Elements, Source, Values},
     document::{Attributes, Index},
-    nodes::{Placed, Stage},
+    nodes::{MeshInstance, Stage},
 };
-use crate::mesh::trouble::{Counts, Trouble};
+use crate::mesh::trouble::{Counts, ModelError};
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ pub(super) struct Skins(HashMap<Index, Vec<DAffine3>>);
 
 impl Skins {
     /// Reads those that placed meshes wear. `counts` has counted their joints.
-    pub fn load(source: Source<'_>, stage: &Stage) -> Result<Skins, Trouble> {
+    pub fn load(source: Source<'_>, stage: &Stage) -> Result<Skins, ModelError> {
         let mut skins = HashMap::new();
         for index in worn(source, &stage.placed) {
             if let std::collections::hash_map::Entry::Vacant(free) = skins.entry(index) {
@@ -26,7 +26,7 @@ impl Skins {
     }
 
     /// Counts the joints of the skins that placed meshes wear.
-    pub fn count(source: Source<'_>, stage: &Stage, counts: &mut Counts) -> Result<(), Trouble> {
+    pub fn count(source: Source<'_>, stage: &Stage, counts: &mut Counts) -> Result<(), ModelError> {
         let mut is_counted = vec![false; source.root.skins.len()];
         for index in worn(source, &stage.placed) {
             if !std::mem::replace(&mut is_counted[index as usize], true) {
@@ -42,20 +42,20 @@ impl Skins {
 }
 
 /// The skin of a placed mesh.
-pub(super) fn skin_of(source: Source<'_>, placed: &Placed) -> Option<Index> {
+pub(super) fn skin_of(source: Source<'_>, placed: &MeshInstance) -> Option<Index> {
     source.root.nodes[placed.node? as usize].skin
 }
 
-fn worn<'a>(source: Source<'a>, placed: &'a [Placed]) -> impl Iterator<Item = Index> + 'a {
+fn worn<'a>(source: Source<'a>, placed: &'a [MeshInstance]) -> impl Iterator<Item = Index> + 'a {
     placed.iter().filter_map(move |placed| skin_of(source, placed))
 }
 
-fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine3>, Trouble> {
+fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine3>, ModelError> {
     let skin = &source.root.skins[index as usize];
     let mut posed = Vec::with_capacity(skin.joints.len());
     for joint in &skin.joints {
         let Some(world) = stage.worlds[*joint as usize] else {
-            return Err(Trouble::broken(format!("joint {joint} of skin {index} is its own descendant")));
+            return Err(ModelError::broken(format!("joint {joint} of skin {index} is its own descendant")));
         };
         posed.push(world);
     }
@@ -63,7 +63,7 @@ fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine
     let bind = source.values(bind, Elements::MATRICES, "inverseBindMatrices")?;
     if bind.count < posed.len() {
         let (joints, there) = (posed.len(), bind.count);
-        return Err(Trouble::broken(format!("skin {index} has {joints} joints and {there} inverseBindMatrices")));
+        return Err(ModelError::broken(format!("skin {index} has {joints} joints and {there} inverseBindMatrices")));
     }
     for (joint, bind) in posed.iter_mut().zip(bind.floats([0.0; 16])) {
         *joint *= DAffine3::from_mat4(DMat4::from_cols_array(&bind.map(f64::from)));
@@ -85,12 +85,12 @@ impl<'a> Bound<'a> {
         attributes: &Attributes,
         skin: Index,
         joints: &'a [DAffine3],
-    ) -> Result<Option<Bound<'a>>, Trouble> {
+    ) -> Result<Option<Bound<'a>>, ModelError> {
         let (of_joints, of_weights) = (&attributes.joints, &attributes.weights);
         if !of_joints.iter().map(|(set, _)| set).eq(of_weights.iter().map(|(set, _)| set)) {
             let (a, b) = (of_joints.len(), of_weights.len());
             let why = format!("it has {a} attributes JOINTS_n and {b} WEIGHTS_n, which are not the same sets");
-            return Err(Trouble::broken(why));
+            return Err(ModelError::broken(why));
         }
         let mut sets = Vec::with_capacity(of_joints.len());
         for ((set, joints), (_, weights)) in of_joints.iter().zip(of_weights) {
@@ -109,14 +109,14 @@ impl<'a> Bound<'a> {
     /// Hands the transform of each vertex to `take`, in order: the mean of its joints' by their weights. Their sum is 1
     /// in files that keep to section 3.7.3.3. A vertex that is bound to nothing goes with its first joint, as in other
     /// viewers.
-    pub fn each(&self, mut take: impl FnMut(usize, DAffine3)) -> Result<(), Trouble> {
+    pub fn each(&self, mut take: impl FnMut(usize, DAffine3)) -> Result<(), ModelError> {
         let count = self.sets.first().map_or(0, |(joints, _)| joints.count);
         let mut sets: Vec<_> = self.sets.iter().map(|(j, w)| j.floats([0.0; 4]).zip(w.floats([0.0; 4]))).collect();
         for vertex in 0..count {
             let joint = |joint: f32| {
                 self.joints.get(joint as usize).ok_or_else(|| {
                     let (skin, there) = (self.skin, self.joints.len());
-                    Trouble::broken(format!(
+                    ModelError::broken(format!(
                         "vertex {vertex} is bound to joint {joint} of skin {skin}, which has {there}"
                     ))
                 })

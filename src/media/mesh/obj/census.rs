@@ -6,7 +6,7 @@ use super::{
 };
 use crate::mesh::{
     error::MeshWarning,
-    trouble::{Counts, Trouble},
+    trouble::{Counts, ModelError},
 };
 
 /// The sizes of a file, and the first of its oddities.
@@ -31,7 +31,7 @@ pub(super) struct Census {
 }
 
 impl Census {
-    pub fn of(text: &[u8]) -> Result<Census, Trouble> {
+    pub fn of(text: &[u8]) -> Result<Census, ModelError> {
         let mut census = Census::default();
         for statement in statements(text) {
             if let Some(keyword) = statement.words().next() {
@@ -41,7 +41,7 @@ impl Census {
         Ok(census)
     }
 
-    fn add(&mut self, keyword: &[u8], statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add(&mut self, keyword: &[u8], statement: Statement<'_>) -> Result<(), ModelError> {
         match keyword {
             b"v" => self.counts.add(1, 0)?,
             b"vt" => self.uvs += 1,
@@ -58,7 +58,7 @@ impl Census {
         Ok(())
     }
 
-    fn add_face(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add_face(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut corners: u64 = 0;
         for corner in statement.words().skip(1) {
             corners += 1;
@@ -92,9 +92,9 @@ impl Census {
     }
 
     /// Returns what is to be said of a file without triangles, which is an error where it is no OBJ file at all.
-    pub fn no_triangles(&self) -> Result<MeshWarning, Trouble> {
+    pub fn no_triangles(&self) -> Result<MeshWarning, ModelError> {
         if !self.is_obj {
-            return Err(Trouble::broken("it has no triangles"));
+            return Err(ModelError::broken("it has no triangles"));
         }
         let (vertices, lines, points) = (self.counts.vertices, self.lines, self.points);
         Ok(MeshWarning {

@@ -5,7 +5,7 @@ use super::{
     numbers::numbers,
     text::{Statement, quoted, statements},
 };
-use crate::mesh::{error::MeshWarning, model::Vertex, trouble::Trouble};
+use crate::mesh::{error::MeshWarning, model::Vertex, trouble::ModelError};
 
 /// The elements that the faces of a file name by number.
 pub(super) struct Elements {
@@ -28,7 +28,7 @@ enum Kind {
 }
 
 impl Elements {
-    pub fn of(text: &[u8], census: &Census) -> Result<Elements, Trouble> {
+    pub fn of(text: &[u8], census: &Census) -> Result<Elements, ModelError> {
         let mut elements = Elements {
             positions: Vec::with_capacity(census.counts.vertices as usize),
             colors: Vec::new(),
@@ -48,7 +48,7 @@ impl Elements {
     }
 
     /// A position, and behind it a weight, which only curves have a use for, or a colour.
-    fn add_position(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add_position(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut read = [0.0; 6];
         let count = numbers(statement, &mut read)?;
         if count < 3 || count == 5 {
@@ -67,7 +67,7 @@ impl Elements {
     }
 
     /// Texture coordinates of one, two or three dimensions, of which two count.
-    fn add_uv(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add_uv(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut uv = [0.0; 2];
         if numbers(statement, &mut uv)? == 0 {
             let reason = "a texture coordinate has 1 to 3 numbers, but this has none";
@@ -78,7 +78,7 @@ impl Elements {
         Ok(())
     }
 
-    fn add_normal(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add_normal(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut normal = [0.0; 3];
         let count = numbers(statement, &mut normal)?;
         if count < 3 {
@@ -141,10 +141,10 @@ impl Elements {
     }
 
     /// Returns the error of a file in which every face has a position that is not a number.
-    pub fn no_places(&self) -> Trouble {
+    pub fn no_places(&self) -> ModelError {
         let (line, word) = self.broken[Kind::Position as usize].clone().unwrap_or_default();
         let reason = format!("the position of a vertex is not a number ({word}), and every face has such a vertex");
-        Trouble::Line { line, reason, mend: "fix the model and re-export it".into() }
+        ModelError::Line { line, reason, mend: "fix the model and re-export it".into() }
     }
 }
 

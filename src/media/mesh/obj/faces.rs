@@ -9,7 +9,7 @@ use super::{
 };
 use crate::mesh::{
     model::Raw,
-    trouble::{Counts, Trouble},
+    trouble::{Counts, ModelError},
 };
 use rustc_hash::FxHashMap;
 
@@ -66,7 +66,11 @@ impl<'f> Faces<'f> {
     }
 
     /// Hands over the faces of a text, part by part, and returns how many triangles they are.
-    pub fn hand_over(mut self, text: &[u8], take: &mut dyn FnMut(Raw) -> Result<(), Trouble>) -> Result<u64, Trouble> {
+    pub fn hand_over(
+        mut self,
+        text: &[u8],
+        take: &mut dyn FnMut(Raw) -> Result<(), ModelError>,
+    ) -> Result<u64, ModelError> {
         for statement in statements(text) {
             match statement.words().next() {
                 Some(b"v") => self.passed[0] += 1,
@@ -81,13 +85,13 @@ impl<'f> Faces<'f> {
         Ok(self.made.triangles)
     }
 
-    fn end_part(&mut self, take: &mut dyn FnMut(Raw) -> Result<(), Trouble>) -> Result<(), Trouble> {
+    fn end_part(&mut self, take: &mut dyn FnMut(Raw) -> Result<(), ModelError>) -> Result<(), ModelError> {
         let kinds = self.part.iter_mut().filter(|kind| !kind.raw.indices.is_empty());
         kinds.map(std::mem::take).try_for_each(|kind| take(kind.raw))
     }
 
     /// Adds a face. One of fewer than three corners is a point or a line.
-    fn add(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+    fn add(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         self.corners.clear();
         for word in statement.words().skip(1) {
             let corner = self.corner(statement, word)?;
@@ -121,7 +125,7 @@ impl<'f> Faces<'f> {
     }
 
     /// Reads a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    fn corner(&self, statement: Statement<'_>, word: &[u8]) -> Result<Corner, Trouble> {
+    fn corner(&self, statement: Statement<'_>, word: &[u8]) -> Result<Corner, ModelError> {
         let mut found = [None; 3];
         for (kind, number) in word.split(|b| *b == b'/').enumerate() {
             if kind > 2 || kind == 0 && number.is_empty() {
@@ -142,7 +146,7 @@ impl<'f> Faces<'f> {
         statement: Statement<'_>,
         (word, text): (&[u8], &[u8]),
         kind: usize,
-    ) -> Result<Option<u32>, Trouble> {
+    ) -> Result<Option<u32>, ModelError> {
         let Some(number) = whole(text) else { return Err(no_corner(statement, word)) };
         let all = [self.elements.positions.len(), self.elements.uvs.len(), self.elements.normals.len()][kind];
         if kind > 0 && (all == 0 || number == 0 && self.first == 1) {
@@ -169,7 +173,7 @@ impl<'f> Faces<'f> {
     }
 }
 
-fn no_corner(statement: Statement<'_>, word: &[u8]) -> Trouble {
+fn no_corner(statement: Statement<'_>, word: &[u8]) -> ModelError {
     let reason = format!("{} is not a corner of a face", quoted(word));
     statement.error(word, reason, "write corners as v, v/vt, v//vn or v/vt/vn, all whole numbers: 1/2/3")
 }

@@ -18,7 +18,7 @@ mod text;
 use super::{
     error::MeshWarning,
     model::{Raw, Vertex},
-    trouble::Trouble,
+    trouble::ModelError,
 };
 use census::Census;
 use elements::Elements;
@@ -29,8 +29,8 @@ use faces::Faces;
 pub(super) fn load(
     bytes: &[u8],
     room: u64,
-    take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
-) -> Result<Vec<MeshWarning>, Trouble> {
+    take: &mut dyn FnMut(Raw) -> Result<(), ModelError>,
+) -> Result<Vec<MeshWarning>, ModelError> {
     let text = text::decoded(bytes);
     let census = Census::of(&text)?;
     census.counts.fit(room)?;

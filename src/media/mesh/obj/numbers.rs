@@ -1,11 +1,11 @@
 //! The numbers of an OBJ file as exporters write them.
 
 use super::text::{Statement, quoted};
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 
 /// Reads the numbers of a statement behind its keyword, as many as there is room for, and returns how many it has.
 /// One that is not finite is none in the file either, or more than a float holds.
-pub(super) fn numbers(statement: Statement<'_>, into: &mut [f32]) -> Result<usize, Trouble> {
+pub(super) fn numbers(statement: Statement<'_>, into: &mut [f32]) -> Result<usize, ModelError> {
     let mut count = 0;
     for word in statement.words().skip(1) {
         if let Some(place) = into.get_mut(count) {
@@ -51,7 +51,7 @@ fn fortran(text: &str) -> Option<f32> {
     (is_mark && is_whole).then(|| format!("{mantissa}e{minus}{digits}").parse().ok())?
 }
 
-fn not_a_number(statement: Statement<'_>, word: &[u8]) -> Trouble {
+fn not_a_number(statement: Statement<'_>, word: &[u8]) -> ModelError {
     let shown = quoted(word);
     let reason = format!("{shown} is not a number");
     let commas = word.iter().filter(|b| **b == b',').count();

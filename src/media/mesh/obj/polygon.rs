@@ -3,7 +3,7 @@
 //! Cut by ears and not by a crate: what there is drops corners that lie on a line with their neighbours, which leaves
 //! gaps beside the faces that meet there.
 
-use crate::mesh::trouble::{Trouble, at_most};
+use crate::mesh::trouble::{ModelError, at_most};
 use eddy_project::limits;
 use glam::{DVec2, DVec3};
 
@@ -21,7 +21,7 @@ pub(super) struct Cutter {
 impl Cutter {
     /// Gives the corners of the triangles of a face whose corners lie at these places: a fan where that covers the face
     /// and nothing beside it. There are two less than corners.
-    pub fn triangles(&mut self, places: &[[f32; 3]], out: &mut Vec<u32>) -> Result<(), Trouble> {
+    pub fn triangles(&mut self, places: &[[f32; 3]], out: &mut Vec<u32>) -> Result<(), ModelError> {
         out.clear();
         let count = places.len() as u32;
         let fan = |first: u32| (2..count).map(move |i| [0, i - 1, i].map(|corner| (corner + first) % count));
@@ -46,7 +46,7 @@ impl Cutter {
 
     /// Takes one ear after the other: a corner whose triangle with its neighbours has no corner of the rest in it. One
     /// without an area waits until nothing else is left, and so does any corner of a face that crosses itself.
-    fn cut_ears(&mut self, out: &mut Vec<u32>) -> Result<(), Trouble> {
+    fn cut_ears(&mut self, out: &mut Vec<u32>) -> Result<(), ModelError> {
         self.ring.clear();
         self.ring.extend(0..self.flat.len() as u32);
         let mut next = 0;
@@ -174,6 +174,6 @@ mod tests {
         cutter.triangles(&star(100), &mut out).unwrap();
         assert_eq!(out.len(), 3 * 98);
         let error = cutter.triangles(&star(400), &mut out).unwrap_err();
-        assert!(matches!(error, Trouble::TooLarge(reason) if reason.contains("not convex")));
+        assert!(matches!(error, ModelError::TooLarge(reason) if reason.contains("not convex")));
     }
 }

@@ -6,7 +6,7 @@ use super::*;
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
 /// The triangles of a text by their corners' positions, and its warnings.
-fn read(text: impl AsRef<[u8]>) -> Result<(Vec<Vertex>, Vec<MeshWarning>), Trouble> {
+fn read(text: impl AsRef<[u8]>) -> Result<(Vec<Vertex>, Vec<MeshWarning>), ModelError> {
     let mut corners = Vec::new();
     let warnings = load(text.as_ref(), 1 << 30, &mut |raw| {
         corners.extend(raw.indices.iter().map(|i| raw.vertices[*i as usize]));
@@ -29,7 +29,7 @@ fn quad() -> Vec<[f32; 3]> {
 /// The line of an error, what it says and how to mend it.
 fn error(text: impl AsRef<[u8]>) -> (usize, String, String) {
     match read(text) {
-        Err(Trouble::Line { line, reason, mend }) => (line, reason, mend),
+        Err(ModelError::Line { line, reason, mend }) => (line, reason, mend),
         other => panic!("{other:?}"),
     }
 }
@@ -155,6 +155,6 @@ fn what_is_left_out_of_a_model_is_a_warning() {
     let all = error(format!("{QUAD}v 0 inf 0\nf 1 2 5\n"));
     assert!(all.0 == 5 && all.1.contains("the position of a vertex is not a number (inf)"), "{all:?}");
     for text in ["", "# nothing but words\n", "what this is\nnobody knows\n"] {
-        assert!(matches!(read(text), Err(Trouble::Broken(reason)) if reason.contains("no triangles")), "{text}");
+        assert!(matches!(read(text), Err(ModelError::Broken(reason)) if reason.contains("no triangles")), "{text}");
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! OBJ is words of ASCII, and the names between them are of any encoding: what is no number stays bytes.
 
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use std::borrow::Cow;
 
 /// Returns the text in an encoding of which ASCII is a part, without its byte order mark.
@@ -102,12 +102,12 @@ impl<'t> Statement<'t> {
     }
 
     /// Returns an error at a word of the statement.
-    pub fn error(self, word: &[u8], reason: impl Into<String>, mend: impl Into<String>) -> Trouble {
-        Trouble::Line { line: self.line_of(word), reason: reason.into(), mend: mend.into() }
+    pub fn error(self, word: &[u8], reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
+        ModelError::Line { line: self.line_of(word), reason: reason.into(), mend: mend.into() }
     }
 
     /// Returns an error of the whole statement.
-    pub fn whole_error(self, reason: impl Into<String>, mend: impl Into<String>) -> Trouble {
+    pub fn whole_error(self, reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
         let first = self.words().next().unwrap_or(self.text);
         self.error(first, reason, mend)
     }

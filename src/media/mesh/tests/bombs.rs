@@ -1,7 +1,7 @@
 //! Models made to do harm: small files that ask for much, and files that a reader stumbles over.
 
 use super::*;
-use crate::mesh::trouble::Trouble;
+use crate::mesh::trouble::ModelError;
 use eddy_project::confine::Reason;
 use std::fs;
 
@@ -122,7 +122,7 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
         let error = named(uri);
         says(&error, "m.gltf refers to a file", "");
         assert!(
-            matches!(&error, MeshError::Model { trouble: Trouble::Named(error), .. } if error.reason == reason),
+            matches!(&error, MeshError::Model { trouble: ModelError::Named(error), .. } if error.reason == reason),
             "{error}"
         );
     }

@@ -45,7 +45,7 @@ impl History {
         if (1..=BUDGET).contains(&engine.checkpoint_bytes()) {
             // A device without room keeps none.
             let kept = engine.checkpoint().ok();
-            *before = kept.map(|kept| Before { number, size: engine.size(), snapshot: Arc::new(kept) });
+            *before = kept.map(|kept| PriorState { number, size: engine.size(), snapshot: Arc::new(kept) });
         }
     }
 
@@ -133,7 +133,7 @@ impl History {
 }
 
 /// Holds what the targets held before a frame, on the canvas that they had then.
-pub struct Before {
+pub struct PriorState {
     /// The frame's number in the run.
     pub number: u64,
     pub size: (u32, u32),
@@ -145,7 +145,7 @@ pub struct Before {
 pub struct Again {
     /// The targets hold what they held before this frame, which is the one that is shown.
     pub rewound: Option<u64>,
-    pub before: Option<Before>,
+    pub before: Option<PriorState>,
 }
 
 impl Again {

@@ -5,7 +5,7 @@
 mod again;
 mod thinning;
 
-use crate::playback::{Goal, Reach};
+use crate::playback::{Reach, SeekTarget};
 use again::Again;
 use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
 use eddy_media::Gamepads;
@@ -36,7 +36,7 @@ const KEPT_HEARD: usize = 1 << 16;
 
 /// The way to a goal, or a part of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Travelled {
+pub struct SeekProgress {
     /// The inputs of the frame that is shown now.
     pub inputs: FrameInputs,
     /// The number of the frame that is to be shown.
@@ -113,7 +113,7 @@ impl History {
         (self.floor, self.canvas) = (self.drawn, None);
     }
 
-    /// Another program draws from now on. What the frames were drawn with is kept: [`Goal::Anew`] draws them by the new
+    /// Another program draws from now on. What the frames were drawn with is kept: [`SeekTarget::Anew`] draws them by the new
     /// program.
     pub fn change_program(&mut self) {
         self.snapshots.clear();
@@ -268,14 +268,14 @@ impl History {
         }
     }
 
-    fn number(&self, goal: Goal) -> Option<u64> {
+    fn number(&self, goal: SeekTarget) -> Option<u64> {
         let first = self.first();
         let number = match goal {
-            Goal::By(frames) => self.shown()?.checked_add_signed(frames)?,
-            Goal::Frame(number) => number,
-            Goal::Anew(number) => return (number < self.end() && self.is_whole).then_some(number),
+            SeekTarget::By(frames) => self.shown()?.checked_add_signed(frames)?,
+            SeekTarget::Frame(number) => number,
+            SeekTarget::Anew(number) => return (number < self.end() && self.is_whole).then_some(number),
             // Time may have been set back on the way.
-            Goal::Time(secs) => {
+            SeekTarget::Time(secs) => {
                 let found = self.frames.iter().rposition(|frame| frame.inputs.time_secs <= secs);
                 found.map_or(first, |found| (found as u64 + self.forgotten).max(first))
             }
@@ -288,12 +288,12 @@ impl History {
     pub fn travel(
         &mut self,
         engine: &mut Engine,
-        goal: Goal,
+        goal: SeekTarget,
         patience: Duration,
-    ) -> Option<Result<Travelled, EngineError>> {
+    ) -> Option<Result<SeekProgress, EngineError>> {
         let number = self.number(goal)?;
         self.again.rewound = None;
-        if let Goal::Anew(_) = goal {
+        if let SeekTarget::Anew(_) = goal {
             engine.reset();
             self.snapshots.clear();
             self.again = Again::default();
@@ -335,7 +335,7 @@ impl History {
         // The values that stand now are those that a person turned, not those of that frame.
         engine.set_custom_uniforms(&self.values);
         let inputs = self.frame(self.drawn.checked_sub(1)?)?.inputs.clone();
-        Some(Ok(Travelled { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn), is_display_new }))
+        Some(Ok(SeekProgress { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn), is_display_new }))
     }
 
     /// Puts back what is nearest before a frame, if that is nearer than what the targets hold. False: a snapshot does

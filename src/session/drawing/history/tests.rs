@@ -18,10 +18,13 @@ fn of_a_long_run_the_newest_frames_are_kept() {
         assert_eq!((reach.shown, reach.ahead), (frame as u64, 0));
         assert_eq!(reach.is_whole, frame < 100);
         assert_eq!(reach.last_secs, f64::from(frame) / 60.0);
-        assert!(history.frames.len() <= 100 && history.number(Goal::By(0)) == Some(frame as u64));
+        assert!(history.frames.len() <= 100 && history.number(SeekTarget::By(0)) == Some(frame as u64));
     }
     // Without a snapshot nothing before the frame that is shown can be.
-    assert_eq!((history.reach().back, history.number(Goal::By(-1)), history.number(Goal::Anew(5))), (0, None, None));
+    assert_eq!(
+        (history.reach().back, history.number(SeekTarget::By(-1)), history.number(SeekTarget::Anew(5))),
+        (0, None, None)
+    );
 }
 
 #[test]
@@ -30,10 +33,10 @@ fn a_time_is_that_of_the_last_frame_which_is_not_later() {
     for frame in 0..100 {
         history.frame_drawn(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
     }
-    let number = |secs| history.number(Goal::Time(secs));
+    let number = |secs| history.number(SeekTarget::Time(secs));
     assert_eq!([number(0.0), number(2.05), number(2.1), number(99.0)], [0, 20, 21, 99].map(Some));
     assert_eq!(
-        [history.number(Goal::By(-99)), history.number(Goal::By(-100)), history.number(Goal::By(1))],
+        [history.number(SeekTarget::By(-99)), history.number(SeekTarget::By(-100)), history.number(SeekTarget::By(1))],
         [Some(0), None, None]
     );
 }
@@ -73,18 +76,18 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
     assert_eq!((history.reach().back, history.interval()), (199, 6), "the snapshots together have 96 frames");
     for (back, most) in [(1, 6), (30, 6), (47, 6), (63, 6), (100, 50), (150, 80), (199, 1)] {
         // One frame is drawn.
-        let travelled = history.travel(&mut engine, Goal::By(-back), Duration::ZERO).unwrap().unwrap();
+        let travelled = history.travel(&mut engine, SeekTarget::By(-back), Duration::ZERO).unwrap().unwrap();
         assert!(travelled.left < most, "{back} frames back: {} more are drawn", travelled.left);
-        history.travel(&mut engine, Goal::Frame(199 - back as u64), Duration::MAX).unwrap().unwrap();
+        history.travel(&mut engine, SeekTarget::Frame(199 - back as u64), Duration::MAX).unwrap().unwrap();
         assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199 - back as usize], "{back} back");
-        history.travel(&mut engine, Goal::Frame(199), Duration::MAX).unwrap().unwrap();
+        history.travel(&mut engine, SeekTarget::Frame(199), Duration::MAX).unwrap().unwrap();
         assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199], "{back} back, and on");
     }
     // Where the first frames have been forgotten, so are their snapshots.
     history.forget(200);
     let first = history.reach();
     assert!((100..199).contains(&first.back) && !first.is_whole, "{first:?}");
-    let travelled = history.travel(&mut engine, Goal::By(-(first.back as i64)), Duration::MAX);
+    let travelled = history.travel(&mut engine, SeekTarget::By(-(first.back as i64)), Duration::MAX);
     assert_eq!(travelled.unwrap().unwrap().left, 0);
     assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199 - first.back as usize]);
 }
@@ -98,17 +101,17 @@ fn new_code_draws_each_frame_on_the_canvas_that_it_had() {
     engine.resize(large.0, large.1).unwrap();
     history.resize();
     (5..10).for_each(|frame| step(&mut history, &mut engine, frame));
-    let travel = |history: &mut History, engine: &mut Engine, goal: Goal, secs: u64| {
+    let travel = |history: &mut History, engine: &mut Engine, goal: SeekTarget, secs: u64| {
         let travelled = history.travel(engine, goal, Duration::from_secs(secs)).unwrap().unwrap();
         (travelled.left, travelled.is_display_new, engine.size())
     };
-    assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
-    assert_eq!(travel(&mut history, &mut engine, Goal::Frame(9), 60), (0, true, large));
-    assert_eq!(travel(&mut history, &mut engine, Goal::By(-4), 60), (0, false, large));
-    assert_eq!(history.number(Goal::By(-1)), None, "that one is on the small canvas");
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(9), 0), (9, true, small));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Frame(9), 60), (0, true, large));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::By(-4), 60), (0, false, large));
+    assert_eq!(history.number(SeekTarget::By(-1)), None, "that one is on the small canvas");
     // Something else is drawn before it is there.
-    assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(9), 0), (9, true, small));
     step(&mut history, &mut engine, 1);
     assert_eq!((engine.size(), history.reach().shown, history.reach().ahead), (large, 1, 0));
-    assert_eq!(travel(&mut history, &mut engine, Goal::Anew(1), 60), (0, true, large));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(1), 60), (0, true, large));
 }

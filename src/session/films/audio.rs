@@ -11,14 +11,14 @@ use eddy_project::Project;
 use std::sync::Arc;
 
 /// The music and the sound pass of some frames.
-pub(super) struct Heard {
+pub(super) struct FilmAudio {
     music: Vec<Arc<Sound>>,
-    pass: Option<HeardPass>,
+    pass: Option<FilmSoundPass>,
 }
 
 /// A sound pass with the values of its uniforms.
 #[derive(Clone)]
-pub(in super::super) struct HeardPass {
+pub(in super::super) struct FilmSoundPass {
     /// Passes of the same number differ in the values alone.
     pub code: u64,
     pub project: Project,
@@ -27,8 +27,8 @@ pub(in super::super) struct HeardPass {
     pub date: [f32; 4],
 }
 
-impl Heard {
-    pub fn new(music: &[ChannelSound], pass: Option<HeardPass>) -> Self {
+impl FilmAudio {
+    pub fn new(music: &[ChannelSound], pass: Option<FilmSoundPass>) -> Self {
         let mut different: Vec<Arc<Sound>> = Vec::new();
         for sound in music.iter().map(|music| &music.sound) {
             if !different.iter().any(|known| Arc::ptr_eq(known, sound)) {
@@ -43,14 +43,14 @@ impl Heard {
 #[derive(Default)]
 pub(super) struct HeardSounds {
     moments: Vec<Moment>,
-    heard: Vec<Heard>,
+    heard: Vec<FilmAudio>,
     /// The order of the sound pass and the music of the newest frame.
     newest: Option<(u64, Vec<Arc<Sound>>)>,
 }
 
 impl HeardSounds {
     /// A frame has a time. `key` tells whether it sounds as the frame before did.
-    pub fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> Heard) {
+    pub fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> FilmAudio) {
         let (number, music) = key;
         let is_same = self.newest.as_ref().is_some_and(|(newest, known)| {
             let mut pairs = known.iter().zip(music);
@@ -69,7 +69,7 @@ impl HeardSounds {
         mut self,
         frames: u32,
         rate: Rate,
-        open: impl Fn(&HeardPass) -> Result<Offline, E>,
+        open: impl Fn(&FilmSoundPass) -> Result<Offline, E>,
         mut goes_on: impl FnMut() -> Result<(), E>,
     ) -> Result<Option<Vec<[i16; 2]>>, E> {
         self.moments.truncate(frames as usize);
