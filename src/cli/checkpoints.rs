@@ -1,6 +1,6 @@
 //! States of a run on disk: written every so many frames by one call of `eddy render`, and gone on from by others.
 
-use super::{args::RenderArgs, machine::RunError};
+use super::{args::RenderArgs, machine::RunError, written::make_folder};
 use crate::{
     engine::BuildOptions,
     media::MediaSet,
@@ -11,10 +11,7 @@ use crate::{
     },
     project::{self, PassId, Project},
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// The checkpoints of one project of a call.
 pub struct Checkpoints<'a> {
@@ -45,8 +42,7 @@ impl<'a> Checkpoints<'a> {
         let made = Self { args, stem, moment };
         if args.checkpoint_every.is_some() {
             let folder = made.folder();
-            fs::create_dir_all(folder)
-                .map_err(|error| anyhow::anyhow!("cannot create the folder {}: {error}", folder.display()))?;
+            make_folder("--checkpoints", folder)?;
         }
         Ok(made)
     }

@@ -70,7 +70,7 @@ fn probed(
         return Err(anyhow::anyhow!("a sound pass has no pixels to probe").into());
     }
     let face = args.face().map_err(anyhow::Error::msg)?;
-    let out = args.file();
+    let (out, format) = (args.file(), args.format().map_err(anyhow::Error::msg)?);
     // A file that nobody named is written over nothing.
     if let Some(path) = out.as_ref().filter(|path| args.out.is_none() && path.exists()) {
         let path = path.display();
@@ -91,7 +91,7 @@ fn probed(
         return Err(anyhow::anyhow!("pixel {x},{y} is outside the pass, which has {width} x {height} texels").into());
     }
     if let Some(path) = &out {
-        targets::write(path, &pixels, args.format())?;
+        targets::write(path, &pixels, format)?;
     }
     Ok(Probed { written: out, ..summary(args, &pixels) })
 }

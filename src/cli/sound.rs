@@ -7,6 +7,7 @@ use super::{
     progress::CallProgress,
     report::{Printer, Report},
     targets::{check_folder, check_within, stems, tells_case_apart},
+    written::make_folder,
 };
 use crate::{
     audio::{SAMPLE_RATE, flac, wav},
@@ -17,7 +18,6 @@ use crate::{
 use anyhow::Context;
 use serde::Serialize;
 use std::{
-    fs,
     io::{self, Write},
     path::{Path, PathBuf},
     time::Instant,
@@ -106,9 +106,7 @@ impl Sounds {
         match &self.place {
             Output::Nowhere => Ok(()),
             Output::File(file) => check_folder(file),
-            Output::Folder(folder, _) => {
-                fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))
-            }
+            Output::Folder(folder, _) => make_folder("--out", folder),
         }
     }
 

@@ -3,6 +3,22 @@
 use crate::project::{self, ProjectError};
 use std::{fs, io::Write, path::Path};
 
+/// Makes the folder that `option` names, unless it is there.
+pub fn make_folder(option: &str, folder: &Path) -> anyhow::Result<()> {
+    check_is_no_file(option, folder)?;
+    fs::create_dir_all(folder)
+        .map_err(|error| anyhow::anyhow!("{option} {}: the folder cannot be made: {error}", folder.display()))
+}
+
+fn check_is_no_file(option: &str, folder: &Path) -> anyhow::Result<()> {
+    anyhow::ensure!(
+        folder.is_dir() || !folder.exists(),
+        "{option} {}: this is a file; give a folder",
+        folder.display()
+    );
+    Ok(())
+}
+
 /// Writes files into a folder, which is made where it is not there. One that is there already with other content is an
 /// error, unless `force` allows it; nothing is written then. The files are regular ones within the folder.
 pub fn write_all<'a>(
@@ -10,9 +26,7 @@ pub fn write_all<'a>(
     files: impl IntoIterator<Item = (&'a str, &'a [u8])> + Clone,
     force: bool,
 ) -> anyhow::Result<()> {
-    if folder.exists() && !folder.is_dir() {
-        anyhow::bail!("--out {}: this is a file; give a folder", folder.display());
-    }
+    check_is_no_file("--out", folder)?;
     if !force {
         let is_other = |(name, bytes): &(&str, &[u8])| {
             let path = folder.join(name);
@@ -23,7 +37,7 @@ pub fn write_all<'a>(
             return Err(ProjectError::WouldOverwrite { paths }.into());
         }
     }
-    fs::create_dir_all(folder).map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
+    make_folder("--out", folder)?;
     for (name, bytes) in files {
         project::write_into(folder, name, |file| file.write_all(bytes))
             .map_err(|error| anyhow::anyhow!("{}: {error}", folder.join(name).display()))?;

@@ -5,7 +5,10 @@ use eddy_engine::{BuildError, EngineError};
 use eddy_gpu::GpuError;
 use eddy_playback::shard::ShardError;
 use eddy_project::ProjectError;
-use std::{io, path::PathBuf};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
 
 #[derive(Debug, thiserror::Error)]
 pub enum LabError {
@@ -48,6 +51,15 @@ pub enum LabError {
     Stopped,
     #[error("a plot could not be drawn: {0}")]
     Plot(String),
+}
+
+/// Makes a folder, unless it is there.
+pub(super) fn make_folder(folder: &Path) -> Result<(), LabError> {
+    let made = match fs::create_dir_all(folder) {
+        Err(_) if folder.exists() && !folder.is_dir() => Err(io::Error::other("this is a file; give a folder")),
+        made => made,
+    };
+    made.map_err(LabError::io("make", folder))
 }
 
 impl LabError {

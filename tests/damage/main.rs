@@ -1,9 +1,10 @@
-//! Damaged files: projects, pictures, sounds, videos and models with bits turned, parts cut out, doubled and mixed, numbers and lengths
-//! changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and `eddy render` do: none
-//! may panic, nor take more than 2 s or 1 GiB.
+//! Damaged files: projects, pictures, sounds, videos and models with bits turned, parts cut out, doubled and mixed,
+//! numbers and lengths changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and
+//! `eddy render` do: none may panic, nor take more than 2 s or 1 GiB.
 //!
 //! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` begins at a
-//! case; what fails is kept in a folder that the message names.
+//! case, `EDDY_DAMAGE_DRAW_EVERY=1` draws all of them and not one of 40; what fails is kept in a folder that the message
+//! names.
 
 mod media_seeds;
 mod memory;
@@ -43,7 +44,7 @@ const MOST_TIME: Duration = Duration::from_secs(2);
 /// By the wall's clock, with room for a machine that does much else.
 const MOST_WAITING: Duration = Duration::from_secs(15);
 const MOST_BYTES: usize = 1 << 30;
-/// Every so many cases one is drawn: a device takes a hundred times as long as the rest.
+/// One of so many cases is drawn: a device takes a hundred times as long as the rest.
 const DRAW_EVERY: u64 = 40;
 
 /// What the cases of one kind of file came to.
@@ -63,6 +64,7 @@ struct Tally {
 fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
     let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().expect(name));
     let (first, cases) = (number("EDDY_DAMAGE_FIRST").unwrap_or(0), number("EDDY_DAMAGE_CASES").unwrap_or(400));
+    let draw_every = number("EDDY_DAMAGE_DRAW_EVERY").unwrap_or(DRAW_EVERY);
     let gpu = support::gpu();
     let seeds = seeds::all();
     let dir = tempfile::tempdir().unwrap();
@@ -85,7 +87,7 @@ fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
         let seed = &seeds[(case % seeds.len() as u64) as usize];
         let home = dir.path().join(case.to_string());
         damaged(seed, &seeds, case).iter().for_each(|file| write(&home, file));
-        let gpu = gpu.as_ref().filter(|_| (case / seeds.len() as u64).is_multiple_of(DRAW_EVERY));
+        let gpu = gpu.as_ref().filter(|_| (case / seeds.len() as u64).is_multiple_of(draw_every));
         let tally = tallies.entry(seed.name).or_default();
         let before = MEMORY.start();
         let (began, since) = (Clock::now(), Instant::now());

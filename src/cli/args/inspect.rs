@@ -2,7 +2,7 @@
 
 use super::{
     run::RunArgs,
-    values::{PROJECT, Picture, face, face_of, picture, picture_format, pixel},
+    values::{PROJECT, Picture, face, face_of, picture, picture_format, pixel, png_file, values_file},
 };
 use crate::{
     cli::text_place::TextPlace,
@@ -11,7 +11,7 @@ use crate::{
     project::{self, PassId, Tab},
 };
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
@@ -39,7 +39,7 @@ pub struct ProbeArgs {
     /// Write the values of all pixels to this .npy or .png file; with --format alone, to STEM_TAB_LINE_COLUMN.npy in
     /// the current folder, unless it exists. Scalars have three equal components, and the fourth is 1 where the value
     /// has fewer; a pixel in which the expression is not evaluated has NaN
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", value_parser = values_file)]
     pub out: Option<PathBuf>,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
     /// [default: what --out ends in, else npy]
@@ -78,10 +78,18 @@ impl ProbeArgs {
         self.out.clone().or_else(|| self.format.map(named))
     }
 
-    /// The format of the file.
-    pub fn format(&self) -> Format {
-        let is_png = self.out.as_ref().and_then(|p| p.extension()).is_some_and(|e| e.eq_ignore_ascii_case("png"));
-        self.format.unwrap_or(if is_png { Format::Png } else { Format::Npy })
+    /// Returns the format of the file: what its name ends in, or what is asked for.
+    pub fn format(&self) -> Result<Format, String> {
+        let ending = self.out.as_ref().and_then(|path| path.extension());
+        let named = ending.map(|e| if e.eq_ignore_ascii_case("png") { Format::Png } else { Format::Npy });
+        match (named, self.format) {
+            (Some(named), Some(asked)) if named != asked => Err(format!(
+                "--out {} and --format {} do not agree",
+                self.out.as_deref().unwrap_or(Path::new("")).display(),
+                asked.extension()
+            )),
+            (named, asked) => Ok(named.or(asked).unwrap_or(Format::Npy)),
+        }
     }
 }
 
@@ -149,7 +157,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
     /// Write both pictures to this .png file
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", value_parser = png_file)]
     pub out: Option<PathBuf>,
     /// side: side by side. wipe: left half of one, right half of the other. difference: absolute difference per
     /// component. flip: the FLIP metric, from black to white

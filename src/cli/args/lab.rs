@@ -2,7 +2,7 @@
 
 use super::{
     run::RunArgs,
-    values::{PROJECT, Picture, picture, size},
+    values::{PROJECT, Picture, picture, size, values_file},
 };
 use crate::{debugger::trace::STEPS, lab::stability::BoundArgument};
 use clap::{Args, Subcommand};
@@ -66,7 +66,7 @@ pub struct PrecisionArgs {
     pub pixels: (u32, u32),
     /// Write the error of each sampled pixel, per component, to this .npy or .png file; a .png shows its logarithm,
     /// from 1e-8 (black) to 1 (white)
-    #[arg(long, value_name = "PATH", requires = "project")]
+    #[arg(long, value_name = "PATH", requires = "project", value_parser = values_file)]
     pub map: Option<PathBuf>,
     /// Stop a pixel after this number of statements
     #[arg(long, value_name = "N", default_value_t = STEPS)]

@@ -25,7 +25,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
-use values::{PROJECT, osc, seconds, size, webcam};
+use values::{PROJECT, folder, osc, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -200,7 +200,7 @@ pub struct ExportArgs {
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<ExportFormat>,
     /// Folder with Shadertoy's textures, music and videos, for html
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder)]
     pub media: Option<PathBuf>,
     /// Overwrite an existing file
     #[arg(long)]
@@ -259,7 +259,7 @@ mod tests {
     fn every_option_of_the_contract_is_read() {
         let r = render(
             "eddy render a b --size 320x180 --frames 9 --out o --at 0,4,8 --pass buffer_b --format npy --fps 30 \
-             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2 \
+             --date 2024-12-31T23:59:00 --media src --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2 \
              --frame-timeout 0.5",
         );
         assert_eq!(r.run.frame_timeout, Some(Duration::from_millis(500)));

@@ -1,7 +1,7 @@
 //! The options of drawing frames are the same wherever frames are drawn.
 
 use super::elsewhere::HostProgram;
-use super::values::{fps, recording, seconds, size, webcam};
+use super::values::{folder, fps, recording, seconds, size, webcam};
 use crate::cli::tiles::Tiles;
 use crate::{
     glsl::opt::PassSet,
@@ -43,7 +43,7 @@ pub struct RunArgs {
     #[arg(conflicts_with_all = ["size", "mouse", "keys", "date"])]
     pub replay: Option<Arc<Recording>>,
     /// Folder with Shadertoy's textures, used instead of the built-in ones where a file name matches
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder)]
     pub media: Option<PathBuf>,
     /// Camera that webcam channels show: /dev/video0, 0 or a name as the system has it, or a test picture by ffmpeg as in
     /// lavfi:testsrc [default: none, black]

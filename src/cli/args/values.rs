@@ -7,7 +7,15 @@ use crate::{
     texture::Face,
     video::CameraSource,
 };
-use std::{env, fs::File, io::BufReader, net::SocketAddr, sync::Arc, time::Duration};
+use std::{
+    env,
+    fs::{self, File},
+    io::{self, BufReader},
+    net::SocketAddr,
+    path::PathBuf,
+    sync::Arc,
+    time::Duration,
+};
 
 pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
@@ -33,6 +41,38 @@ pub fn picture_format(text: &str) -> Result<capture::Format, String> {
         "png" => Ok(capture::Format::Png),
         "npy" => Ok(capture::Format::Npy),
         _ => Err("use png or npy".into()),
+    }
+}
+
+/// Reads the name of a folder that is there.
+pub fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match fs::metadata(&path) {
+        Ok(found) if found.is_dir() => Ok(path),
+        Ok(_) => Err("this is a file; give the folder that it is in".into()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Err("there is no such folder".into()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Reads the name of a file that a picture is written to.
+pub fn png_file(text: &str) -> Result<PathBuf, String> {
+    named_file(text, &["png"])
+}
+
+/// Reads the name of a file that values are written to.
+pub fn values_file(text: &str) -> Result<PathBuf, String> {
+    named_file(text, &["npy", "png"])
+}
+
+/// A name without an ending is let through.
+fn named_file(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()) {
+        Some(ending) if !endings.contains(&ending.as_str()) => {
+            Err(format!(".{ending} is not a format that is written; use .{}", endings.join(" or .")))
+        }
+        _ => Ok(path),
     }
 }
 
@@ -164,5 +204,25 @@ mod tests {
         for wrong in ["", "0", "65536", "127.0.0.1", "localhost:9000", "0.0.0.0:0", "-1"] {
             assert_eq!(read(wrong), Err(()), "{wrong}");
         }
+    }
+    #[test]
+    fn a_folder_that_is_read_is_there() {
+        let dir = tempfile::tempdir().unwrap();
+        let read = |name: &str| folder(dir.path().join(name).to_str().unwrap()).map(drop);
+        fs::write(dir.path().join("file"), "").unwrap();
+        assert_eq!(read("."), Ok(()));
+        assert_eq!(read("file"), Err("this is a file; give the folder that it is in".into()));
+        assert_eq!(read("none"), Err("there is no such folder".into()));
+    }
+
+    #[test]
+    fn a_file_whose_ending_promises_another_format_is_refused() {
+        let read = |name: &str| (png_file(name).is_ok(), values_file(name).is_ok());
+        assert_eq!(read("a/x.png"), (true, true));
+        assert_eq!(read("x.PNG"), (true, true));
+        assert_eq!(read("x"), (true, true));
+        assert_eq!(read("x.npy"), (false, true));
+        assert_eq!(read("x.jpg"), (false, false));
+        assert_eq!(values_file("x.Txt").unwrap_err(), ".txt is not a format that is written; use .npy or .png");
     }
 }

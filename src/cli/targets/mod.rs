@@ -8,6 +8,7 @@ mod tests;
 use super::{
     args::{RenderArgs, face_of},
     sweep,
+    written::make_folder,
 };
 use crate::{
     engine::Pixels,
@@ -119,9 +120,7 @@ impl Targets {
         match &self.place {
             Output::Nowhere | Output::Pipe => {}
             Output::File(file) => check_folder(file)?,
-            Output::Folder(folder, _) => {
-                fs::create_dir_all(folder).with_context(|| format!("cannot create the folder {}", folder.display()))?;
-            }
+            Output::Folder(folder, _) => make_folder("--out", folder)?,
         }
         if self.place != Output::Nowhere {
             film::check_tools(&self.encoding, size, &Tools::default())?;
@@ -192,6 +191,9 @@ fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
     let named = out.extension().and_then(|ending| Format::of_name(&ending.to_string_lossy()));
     match (named.filter(|_| !out.is_dir()), asked) {
         (None, _) => {
+            if let Some(why) = foreign_format(out) {
+                return Err(why);
+            }
             let stems = stems(&args.project, || tells_case_apart(out))?;
             Ok((asked.unwrap_or(Format::Png), Output::Folder(out.clone(), stems)))
         }
@@ -202,6 +204,29 @@ fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
         }
         (Some(named), _) => Ok((named, Output::File(out.clone()))),
     }
+}
+
+/// Endings of pictures and films that others write.
+const FOREIGN: [&str; 27] = [
+    "avi", "avif", "bmp", "dds", "flv", "hdr", "heic", "jpe", "jpeg", "jpg", "jxl", "ktx2", "m4v", "mpeg", "mpg",
+    "ogv", "pdf", "pgm", "ppm", "psd", "svg", "tga", "tif", "tiff", "ts", "webp", "wmv",
+];
+
+/// Says what to write in the place of a name that promises a format which is not written. A name with another ending, or
+/// with a slash behind it, is a folder's.
+fn foreign_format(out: &Path) -> Option<String> {
+    let ending = out.extension()?.to_string_lossy().to_ascii_lowercase();
+    let shown = out.display();
+    if out.is_dir() || out.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {
+        return None;
+    }
+    if matches!(ending.as_str(), "wav" | "flac") {
+        return Some(format!("--out {shown} is a sound: add --pass sound"));
+    }
+    FOREIGN.contains(&ending.as_str()).then(|| {
+        let names = Format::ALL.map(|format| format!(".{}", format.name())).join(", ");
+        format!("--out {shown}: .{ending} is not a format that is written; use {names}, or {shown}/ for a folder")
+    })
 }
 
 /// Returns the name of each project's file without its ending.
@@ -248,6 +273,10 @@ pub fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::R
 /// Fails for a file of a folder that is not there.
 pub fn check_folder(file: &Path) -> anyhow::Result<()> {
     let folder = folder_of(file);
+    if !folder.exists() {
+        let (shown, missing) = (file.display(), folder.display());
+        anyhow::bail!("cannot write {shown}: there is no folder {missing}; make it first");
+    }
     let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
     fs::read_dir(folder).map(drop).with_context(what)
 }

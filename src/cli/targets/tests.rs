@@ -35,6 +35,26 @@ fn one_frame_has_the_stem_and_several_have_numbers() {
 }
 
 #[test]
+fn a_name_that_promises_another_format_is_no_folder() {
+    for (name, said) in [
+        ("x.jpg", "--out x.jpg: .jpg is not a format that is written; use .png, .exr, "),
+        ("o/x.JPEG", "or o/x.JPEG/ for a folder"),
+        ("x.webp --format png", ".webp is not"),
+        ("x.avi --frames 0-9", ".avi is not"),
+        ("x.wav", "--out x.wav is a sound: add --pass sound"),
+    ] {
+        let why = targets(&format!("fluid --out {name}")).unwrap_err();
+        assert!(why.contains(said), "{name}: {why}");
+    }
+    assert_eq!(path("fluid --out x.jpg/", 0, 0), "x.jpg/fluid.png");
+    assert_eq!(path("fluid --out v1.2", 0, 0), "v1.2/fluid.png");
+    let dir = tempfile::tempdir().unwrap();
+    let there = dir.path().join("there.webp");
+    fs::create_dir(&there).unwrap();
+    assert_eq!(Path::new(&path(&format!("fluid --out {}", there.display()), 0, 0)), there.join("fluid.png"));
+}
+
+#[test]
 fn frames_follow_what_is_written() {
     let of = |line| targets(line).map(|t| (t.at, t.drawn, t.keeps));
     assert_eq!(of("a --out o"), Ok((vec![0], Some(1), false)));

@@ -7,16 +7,16 @@ mod labels;
 mod plot;
 mod table;
 
-use super::{LabError, Results, Study};
+use super::{LabError, Results, Study, error::make_folder};
 pub use axis::{decades, tick};
 use eddy_project as project;
-use std::{fs, io::Write, path::Path};
+use std::{io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
 /// the files.
 pub fn write(out: &Path, studies: &[&'static Study], results: &Results) -> Result<Vec<String>, LabError> {
-    fs::create_dir_all(out).map_err(LabError::io("make", out))?;
+    make_folder(out)?;
     let mut written = Vec::new();
     let mut save = |name: String, bytes: &[u8]| {
         let path = out.join(&name);

@@ -5,7 +5,7 @@
 //! there were fingerprints are read, merged and reported as they are; a run of their study measures them anew too, as
 //! nobody can say what they were measured of.
 
-use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
+use super::{Extent, LabError, Measured, Point, cost::Cost, error::make_folder, stability_record::StabilityRecord};
 use eddy_project::{self as project, ProjectError, confine, limits};
 use serde::{Deserialize, Serialize};
 use std::{
@@ -202,7 +202,7 @@ impl Results {
     pub fn write(&self, folder: &Path) -> Result<(), LabError> {
         let path = folder.join(FILE);
         let lines: String = self.records().map(|r| line(&r)).collect();
-        fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
+        make_folder(folder)?;
         project::write_into(folder, FILE, |file| file.write_all(lines.as_bytes())).map_err(LabError::io("write", &path))
     }
 }
@@ -222,7 +222,7 @@ impl Journal {
     /// Opens the file of a folder, makes both if need be, and gives what it holds. What another device, version or
     /// extent measured is not mixed with this run's.
     pub fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
-        fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
+        make_folder(folder)?;
         let path = folder.join(FILE);
         let mut results = Results::read(folder)?;
         if let Some(Difference { what, theirs, ours }) = results.runs.iter().find_map(|r| r.difference(run)) {

@@ -3,11 +3,12 @@
 use super::{CheckedProject, check::Rule};
 use crate::{
     Extent, LabError, Results,
+    error::make_folder,
     page_style::PAGE,
     stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
 };
 use eddy_project as project;
-use std::{collections::BTreeMap, fmt::Write, fs, io::Write as _, path::Path};
+use std::{collections::BTreeMap, fmt::Write, io::Write as _, path::Path};
 
 /// A line for each project and kind, then every case that left what it should keep.
 pub fn table(records: &[StabilityRecord]) -> String {
@@ -48,7 +49,7 @@ pub fn write_of(out: &Path, results: &Results, subjects: &[CheckedProject]) -> R
     if results.cases.is_empty() {
         return Ok(Vec::new());
     }
-    fs::create_dir_all(out).map_err(LabError::io("make", out))?;
+    make_folder(out)?;
     let files = [("stability.csv", csv(&results.cases)), ("stability.html", page(results, subjects))];
     for (name, text) in &files {
         let path = out.join(name);
