@@ -46,6 +46,7 @@ mod settings;
 mod snapshot;
 mod source;
 mod source_ids;
+mod words;
 mod writes;
 pub mod xscreensaver;
 
@@ -69,7 +70,7 @@ pub use folder::declare_channels;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };
-pub use ghostty::names_word;
+
 pub use imports::{
     FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,
@@ -93,4 +94,5 @@ pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use source_ids::TextLocation;
+pub use words::names_word;
 pub use writes::{Overwrite, check_within, make_private, write_into, write_named};

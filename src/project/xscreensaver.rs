@@ -5,7 +5,7 @@
 //! every program is what program N drew; nothing else can be read, and not what a program itself drew before.
 
 use super::{
-    Filter, InputKind, PassBody, PassId, Project, Wrap, custom_uniforms, ghostty::word, includes, lines::hash_lines,
+    Filter, InputKind, PassBody, PassId, Project, Wrap, custom_uniforms, includes, lines::hash_lines, words::find_word,
 };
 use eddy_diag::{Diagnostic, Severity, Span};
 
@@ -102,7 +102,7 @@ fn texts(found: &mut Vec<Diagnostic>, (id, text): (eddy_diag::SourceId, &str)) {
         };
         found.push(Diagnostic::error(Span::new(id, line.range.clone()), said.0).hint(said.1));
     }
-    let place = |name: &str| word(text, name).map(|at| Span::new(id, at..at + name.len()));
+    let place = |name: &str| find_word(text, name).map(|at| Span::new(id, at..at + name.len()));
     for (name, at) in MISSING.iter().filter_map(|name| Some((name, place(name)?))) {
         found.push(Diagnostic::error(at, format!("XScreenSaver has no `{name}`")));
     }

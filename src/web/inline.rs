@@ -1,9 +1,7 @@
 //! Image files, sounds, videos and meshes as texts in the page.
 
-use crate::{
-    data::{FileData, MediaData, MeshData},
-    page::base64,
-};
+use crate::data::{FileData, MediaData, MeshData};
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use eddy_diag::Diagnostic;
 use eddy_media::{MediaKey, MediaSet, Texels, original};
 use eddy_project::{Channel, InputKind, Media, MeshDraw, MeshSource, Normals, Project};
@@ -119,8 +117,14 @@ impl<'a> Inlined<'a> {
         let (bytes, _) = original(name, InputKind::Texture, self.project.origin.base_dir(), self.media_dir).ok()?;
         let has_exif = bytes.get(..bytes.len().min(65_536))?.windows(6).any(|part| part == b"Exif\0\0");
         let is_jpeg = bytes.starts_with(&[0xff, 0xd8, 0xff]) && !has_exif;
-        is_jpeg
-            .then(|| MediaData::Picture(FileData { name: shown(name), mime: "image/jpeg", flip, data: base64(&bytes) }))
+        is_jpeg.then(|| {
+            MediaData::Picture(FileData {
+                name: shown(name),
+                mime: "image/jpeg",
+                flip,
+                data: BASE64_STANDARD.encode(&bytes),
+            })
+        })
     }
 
     fn file(
@@ -142,7 +146,7 @@ impl<'a> Inlined<'a> {
             self.warnings.push(warning.hint(format!("convert it to one of: {}", list.join(", "))));
             return None;
         };
-        Some(FileData { name: shown(name), mime, flip, data: base64(&bytes) })
+        Some(FileData { name: shown(name), mime, flip, data: BASE64_STANDARD.encode(&bytes) })
     }
 }
 
@@ -186,5 +190,5 @@ fn shown(media: &Media) -> String {
 fn packed(bytes: &[u8]) -> String {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let out = encoder.write_all(bytes).and_then(|()| encoder.finish());
-    base64(&out.expect("memory takes all bytes"))
+    BASE64_STANDARD.encode(out.expect("memory takes all bytes"))
 }

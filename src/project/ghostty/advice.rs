@@ -1,6 +1,6 @@
 //! Differences that Ghostty makes to a custom shader that compiles: uniforms that it leaves alone, and lines that are Eddy's.
 
-use crate::{PassId, Project, custom_uniforms, includes, lines::hash_lines};
+use crate::{PassId, Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
 use eddy_diag::{Diagnostic, Severity, Span};
 
 /// Uniforms that Ghostty declares and does not set, with the value that they keep and what to use.
@@ -35,39 +35,10 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
         found.push(Diagnostic::error(Span::new(id, line.range.clone()), said.0).hint(said.1));
     }
     for (name, value, instead) in UNSET {
-        if let Some(at) = word(text, name) {
+        if let Some(at) = find_word(text, name) {
             let message = format!("Ghostty does not set `{name}`: it is {value}");
             found.push(Diagnostic::new(Severity::Note, Span::new(id, at..at + name.len()), message).hint(instead));
         }
     }
     found
-}
-
-/// Returns whether a word stands in a text outside of comments.
-pub fn names_word(text: &str, name: &str) -> bool {
-    word(text, name).is_some()
-}
-
-/// Returns where a word stands first outside of comments.
-pub(crate) fn word(text: &str, word: &str) -> Option<usize> {
-    let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
-    let bytes = text.as_bytes();
-    let mut at = 0;
-    while at < bytes.len() {
-        let rest = &text.as_bytes()[at..];
-        if rest.starts_with(b"//") {
-            at += rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
-        } else if rest.starts_with(b"/*") {
-            at += rest.windows(2).skip(2).position(|two| two == b"*/").map_or(rest.len(), |end| end + 4);
-        } else {
-            let is_whole = rest.starts_with(word.as_bytes())
-                && !is_letter(at.checked_sub(1).and_then(|i| bytes.get(i)))
-                && !is_letter(rest.get(word.len()));
-            if is_whole {
-                return Some(at);
-            }
-            at += 1;
-        }
-    }
-    None
 }

@@ -18,8 +18,7 @@ mod uniforms;
 #[cfg(test)]
 mod tests;
 
-pub(super) use advice::word;
-pub use advice::{advice, names_word};
+pub use advice::advice;
 pub use uniforms::{HostUniform, uniforms, values};
 
 use super::{Channel, Dialect, Filter, Input, Pass, PassId, Project, Sampler, Source, TexelFormat, Wrap};

@@ -15,7 +15,7 @@ mod tests;
 
 pub(super) use read::{load, save};
 
-use super::lines::trim_start;
+use super::{lines::trim_start, words::find_word};
 
 /// Returns the JSON of an ISF file and where it begins, if it is in the first comment between `/*` and `*/`, and the text has an
 /// entry point of a whole fragment shader. Lines of `//` may stand before it.
@@ -30,7 +30,7 @@ pub(super) fn json_of(text: &str) -> Option<(usize, &str)> {
     let keys =
         ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\"", "\"DESCRIPTION\"", "\"CREDIT\""];
     let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
-    let is_whole = super::ghostty::word(text, "main").is_some() && super::ghostty::word(text, "mainImage").is_none()
-        || super::ghostty::word(text, "gl_FragColor").is_some();
+    let is_whole = find_word(text, "main").is_some() && find_word(text, "mainImage").is_none()
+        || find_word(text, "gl_FragColor").is_some();
     (is_isf && is_whole).then(|| (text.len() - comment.len(), json))
 }

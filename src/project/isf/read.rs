@@ -9,7 +9,7 @@ use super::{
 use crate::{
     Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassId, PassSize,
     Project, ProjectError, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
-    writes::Writes,
+    words::find_word, writes::Writes,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use std::{collections::BTreeSet, path::Path};
@@ -146,7 +146,7 @@ impl Maker<'_> {
         let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
         let imported = self.header.imported.iter().map(|image| &image.name);
         let all: Vec<&String> = inputs.chain(imported).chain(targets).collect();
-        let is_read = |name: &String| vertex.is_some() || crate::ghostty::word(self.text, name).is_some();
+        let is_read = |name: &String| vertex.is_some() || find_word(self.text, name).is_some();
         let mut read: Vec<String> = Vec::new();
         for name in all.into_iter().filter(|name| is_read(name)) {
             if !read.contains(name) {
@@ -195,7 +195,7 @@ impl Maker<'_> {
         let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
         let has_pixels = |name: &str| {
             vertex.is_some()
-                || reads.iter().any(|word| crate::ghostty::word(self.text, word).is_some())
+                || reads.iter().any(|word| find_word(self.text, word).is_some())
                 || self.text.contains(&format!("_{name}_img"))
         };
         let is_free = |name: &str| targets.iter().all(|target| buffer_name(target) != buffer_name(name));

@@ -1,7 +1,7 @@
 //! The GLSL that stands around the text of an ISF file: what an ISF host declares, in terms of Shadertoy's.
 
 use super::header::{Header, IsfInput, Kind};
-use crate::ghostty::word;
+use crate::words::find_word;
 use std::fmt::Write;
 
 /// Names that Eddy or GLSL ES has taken, which an input of ISF may have all the same.
@@ -156,7 +156,7 @@ pub(super) fn pass(index: usize, images: &[String], (fragment, text): (&str, &st
             ("flip", "false".to_owned()),
         ] {
             let uniform = format!("_{name}_{ending}");
-            if word(text, &uniform).is_some() {
+            if find_word(text, &uniform).is_some() {
                 let _ = writeln!(out, "#define {uniform} {value}");
             }
         }
@@ -205,7 +205,7 @@ fn has_main_image(text: &str) -> bool {
     let defines = |line: &str| {
         line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))
     };
-    word(text, "mainImage").is_some() && !text.lines().any(defines)
+    find_word(text, "mainImage").is_some() && !text.lines().any(defines)
 }
 
 /// The text of a buffer that makes an image of the resolution of the picture from the one in channel 0.

@@ -4,6 +4,7 @@ mod bombs;
 mod gltf;
 
 use super::{Mesh, MeshError, NAMES, Vertex, load};
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use eddy_project::MeshSource;
 use glam::Vec3;
 use std::path::Path;
@@ -96,13 +97,7 @@ fn triangle(count: usize, indices: [u8; 3], extra: &str) -> String {
 }
 
 fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    assert_eq!(bytes.len() % 3, 0, "no padding here");
-    let four = |b: &[u8]| {
-        let n = u32::from(b[0]) << 16 | u32::from(b[1]) << 8 | u32::from(b[2]);
-        [18, 12, 6, 0].map(|s| LETTERS[(n >> s & 63) as usize] as char)
-    };
-    bytes.chunks_exact(3).flat_map(four).collect()
+    BASE64_STANDARD.encode(bytes)
 }
 
 #[test]

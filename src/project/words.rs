@@ -1,0 +1,52 @@
+//! Words in the text of a shader, found without reading its language.
+
+/// Returns whether a word stands in a text outside of comments.
+pub fn names_word(text: &str, name: &str) -> bool {
+    find_word(text, name).is_some()
+}
+
+/// Returns where a word stands first outside of comments.
+pub(crate) fn find_word(text: &str, word: &str) -> Option<usize> {
+    let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        let rest = &text.as_bytes()[at..];
+        if rest.starts_with(b"//") {
+            at += rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
+        } else if rest.starts_with(b"/*") {
+            at += rest.windows(2).skip(2).position(|two| two == b"*/").map_or(rest.len(), |end| end + 4);
+        } else {
+            let is_whole = rest.starts_with(word.as_bytes())
+                && !is_letter(at.checked_sub(1).and_then(|i| bytes.get(i)))
+                && !is_letter(rest.get(word.len()));
+            if is_whole {
+                return Some(at);
+            }
+            at += 1;
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_whole_and_no_comment() {
+        for (text, at) in [
+            ("main", Some(0)),
+            ("void main()", Some(5)),
+            ("mainImage domain main_ _main main2", None),
+            ("// main\nmain", Some(8)),
+            ("/* main */ main", Some(11)),
+            ("/*/ main */ main", Some(12)),
+            ("/* main", None),
+            ("// main", None),
+            ("a/main", Some(2)),
+        ] {
+            assert_eq!(find_word(text, "main"), at, "{text}");
+        }
+    }
+}
