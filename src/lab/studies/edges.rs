@@ -6,6 +6,7 @@ use crate::{
     reference::shapes::{PlacedShape, Shape, V, along, dot, first_hit, is_seen, turned},
     three_of,
 };
+use std::{borrow::Cow, sync::LazyLock};
 
 const SENSITIVITIES: &[f64] = &[0.25, 0.5, 1.0, 2.0, 4.0];
 
@@ -53,8 +54,25 @@ fn room(d: V) -> (f64, V) {
     if floor < -WALL { (floor, [0.0, 1.0, 0.0]) } else { (-WALL, [0.0, 0.0, 1.0]) }
 }
 
-/// Normal and depth of every texel.
-fn surfaces(n: u32) -> Vec<(V, f64)> {
+const GRIDS: [u32; 4] = [64, 128, 256, 512];
+
+/// They are the same for all methods and settings.
+static SURFACES: [LazyLock<Vec<(V, f64)>>; 4] = [
+    LazyLock::new(|| seen_surfaces(GRIDS[0])),
+    LazyLock::new(|| seen_surfaces(GRIDS[1])),
+    LazyLock::new(|| seen_surfaces(GRIDS[2])),
+    LazyLock::new(|| seen_surfaces(GRIDS[3])),
+];
+
+/// Returns the normal and the depth of every texel.
+fn surfaces(n: u32) -> Cow<'static, [(V, f64)]> {
+    match GRIDS.iter().position(|grid| *grid == n) {
+        Some(index) => Cow::Borrowed(&SURFACES[index]),
+        None => Cow::Owned(seen_surfaces(n)),
+    }
+}
+
+fn seen_surfaces(n: u32) -> Vec<(V, f64)> {
     let shapes = scene();
     let side = f64::from(n);
     let surface = |i: u32| {
@@ -157,7 +175,7 @@ pub static STUDY: Study = Study {
     unit: Unit::Frame,
     error: "1 - F1 of the lines found",
     methods: METHODS,
-    grids: three_of([64, 128, 256, 512]),
+    grids: three_of(GRIDS),
     // A line is as many texels wide on each.
     has_order: false,
     is_relative: false,
