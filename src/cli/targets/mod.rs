@@ -273,7 +273,7 @@ pub fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::R
 /// Fails for a file of a folder that is not there.
 pub fn check_folder(file: &Path) -> anyhow::Result<()> {
     let folder = folder_of(file);
-    if !folder.exists() {
+    if matches!(folder.try_exists(), Ok(false)) {
         let (shown, missing) = (file.display(), folder.display());
         anyhow::bail!("cannot write {shown}: there is no folder {missing}; make it first");
     }
