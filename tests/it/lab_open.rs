@@ -1,7 +1,7 @@
 //! What the window does with the lab, without the window: a point of a study opened as a project, and a run in the
 //! background.
 
-use crate::support::{engine_with, gpu};
+use crate::support::{Engines, gpu};
 use eddy::{
     engine::{BuildOptions, FrameInputs},
     lab::{
@@ -23,11 +23,11 @@ use std::{
 const FRAMES: i32 = 2;
 
 /// Texels of a pass of a project with no media but what it names, after [`FRAMES`] frames.
-fn drawn(rig: &Rig, project: &Project, size: (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
+fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
-    let mut engine = engine_with(rig.gpu(), project, &media, &options, size);
+    let mut engine = engines.with(project, &media, &options, size);
     for frame in 0..FRAMES {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
     }
@@ -48,6 +48,7 @@ fn every_setting_on_every_grid_is_a_project() {
 #[test]
 fn every_method_saved_as_a_project_draws_what_was_measured() {
     let Some(gpu) = gpu() else { return };
+    let mut engines = Engines::new(&gpu);
     let rig = Rig::new(gpu);
     let mut held = 0;
     for study in studies::all() {
@@ -72,8 +73,8 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let name = pass.key();
             let measured = running.read(name.strip_prefix("buffer_").unwrap_or(&name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
-            assert!(bits(&drawn(&rig, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
-            assert!(bits(&drawn(&rig, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");
+            assert!(bits(&drawn(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
+            assert!(bits(&drawn(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");
             // A method whose texels are all alike would prove nothing.
             assert!(measured.iter().any(|t| t != &measured[0]), "{point:?}");
         }

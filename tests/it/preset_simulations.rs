@@ -36,6 +36,11 @@ const SIMULATIONS: [Simulation; 10] = [
     Simulation { name: "mouse-state", state: "A", bound: 16_777_216.0, memory: 2, speed: None },
 ];
 
+/// Whether the cases of this module are drawn of a preset.
+pub(crate) fn are_drawn_of(preset: &str) -> bool {
+    SIMULATIONS.iter().any(|simulation| simulation.name == preset)
+}
+
 /// Every buffer and the picture are finite and within the bound.
 fn check(simulation: &Simulation, engine: &mut Engine, when: &str) {
     for id in buffers(&preset(simulation.name)) {
@@ -142,6 +147,7 @@ fn a_broken_number_in_any_buffer_heals() {
             .iter()
             .filter_map(|p| if let PassId::Buffer(name) = &p.id { Some(name.to_string()) } else { None })
             .collect();
+        let mut engines = Engines::new(&gpu);
         // Of the grids between the finest and the coarsest one says what all do.
         let between = |name: &str| ["_1", "_3", "_4", "_5"].iter().any(|level| name.ends_with(level));
         for (i, name) in names.into_iter().filter(|n| !between(n)).enumerate() {
@@ -152,7 +158,8 @@ fn a_broken_number_in_any_buffer_heals() {
                 // A pass that is off draws nothing that could break.
                 project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
                 break_texel(&mut project, &name, (0, 0), 4, number);
-                let mut engine = drawn(&gpu, &project, true, (32, 20), 0..5, drag);
+                let mut engine = engines.whole(&project, true, (32, 20));
+                draw(&mut engine, 0..5, drag);
                 let broken = engine.read(&buffer(&name)).unwrap();
                 assert!(!all_finite(&broken), "{} {name}: {number} did not arrive", s.name);
                 draw(&mut engine, 5..5 + s.memory, drag);
@@ -310,8 +317,11 @@ fn a_resize_in_mid_run_leaves_no_undefined_texel() {
 fn thin_wide_and_odd_canvases_are_canvases() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
+        let mut engine = whole(&gpu, &preset(s.name), true, (48, 27));
         for (w, h) in [(1, 1), (2, 1), (1, 2), (3, 3), (17, 31), (1, 4096), (4096, 1), (320, 10), (9, 160), (161, 89)] {
-            let mut engine = drawn(&gpu, &preset(s.name), true, (w, h), 0..3, untouched);
+            engine.resize(w, h).unwrap();
+            engine.reset();
+            draw(&mut engine, 0..3, untouched);
             draw(&mut engine, 3..9, |f| violent(f, (w as f32, h as f32)));
             check(s, &mut engine, &format!("{w}x{h}"));
         }

@@ -252,12 +252,20 @@ fn killed_at_any_moment_it_loses_at_most_a_second() {
     let project = write_project(dir.path());
     let mut lost = Vec::new();
     let kills = support::env::number("EDDY_KILLS", 25);
-    for kill in 0..kills {
-        let state = dir.path().join(format!("state-{kill}"));
-        // At every phase of the writing: the steps share no factor with its rhythm.
-        let after = Duration::from_millis(1000 + kill * 109 % 650);
-        let (last, safe) = kill_one(&state, &project, after);
-        let mut next = session(&gpu, &state);
+    let state = |kill| dir.path().join(format!("state-{kill}"));
+    // At every phase of the writing: the steps share no factor with its rhythm.
+    let kill = |kill| (kill, kill_one(&state(kill), &project, Duration::from_millis(1000 + kill * 109 % 650)));
+    // They wait more than they compute.
+    const AT_ONCE: u64 = 4;
+    let killed: Vec<_> = std::thread::scope(|scope| {
+        let kill = &kill;
+        let workers = (0..AT_ONCE)
+            .map(|first| scope.spawn(move || (first..kills).step_by(AT_ONCE as usize).map(kill).collect::<Vec<_>>()));
+        let workers: Vec<_> = workers.collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
+    });
+    for (kill, (last, safe)) in killed {
+        let mut next = session(&gpu, &state(kill));
         offer(&mut next);
         next.apply(Command::Answer(Answer::Recover));
         let text = next.text(&IMAGE).to_owned();

@@ -25,7 +25,7 @@ pub mod window;
 
 pub use eddy::gpu::testing::{gpu, gpu_with, skipped};
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
+    engine::{BuildOptions, Builder, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     lab::Rig,
     media::MediaSet,
@@ -73,10 +73,26 @@ pub fn project(passes: Vec<Pass>) -> Project {
 
 /// An engine at a size with the project's program in it.
 pub fn engine_with(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions, size: (u32, u32)) -> Engine {
-    let built = Program::build(gpu, project, media, options).unwrap_or_else(|e| panic!("{e}: {e:?}"));
-    let mut engine = Engine::new(gpu.clone(), size.0, size.1).unwrap();
-    engine.set_program(built.program).unwrap();
-    engine
+    Engines::new(gpu).with(project, media, options, size)
+}
+
+/// Makes engines of projects that have passes in common, which are compiled once.
+pub struct Engines {
+    gpu: Gpu,
+    builder: Builder,
+}
+
+impl Engines {
+    pub fn new(gpu: &Gpu) -> Engines {
+        Engines { gpu: gpu.clone(), builder: Builder::new(gpu.clone()) }
+    }
+
+    pub fn with(&mut self, project: &Project, media: &MediaSet, options: &BuildOptions, size: (u32, u32)) -> Engine {
+        let built = self.builder.build(project, media, options).unwrap_or_else(|e| panic!("{e}: {e:?}"));
+        let mut engine = Engine::new(self.gpu.clone(), size.0, size.1).unwrap();
+        engine.set_program(built.program).unwrap();
+        engine
+    }
 }
 
 pub fn engine(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {

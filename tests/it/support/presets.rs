@@ -1,6 +1,6 @@
 //! What the tests of presets share: a preset with its texts changed, frames with a mouse in them, buffers read back.
 
-use super::{buffer, engine_with};
+use super::{Engines, buffer};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
@@ -104,8 +104,14 @@ pub fn buffers(project: &Project) -> impl Iterator<Item = &PassId> {
 
 /// An engine in which every pass can be read.
 pub fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
-    let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
-    engine_with(gpu, project, &MediaSet::new(), &options, size)
+    Engines::new(gpu).whole(project, skip, size)
+}
+
+impl Engines {
+    pub fn whole(&mut self, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
+        let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
+        self.with(project, &MediaSet::new(), &options, size)
+    }
 }
 
 /// The same after these frames.
