@@ -6,7 +6,7 @@
 
 use super::Playback;
 use crate::drawing::SeekProgress;
-use std::mem::take;
+use std::{mem::take, time::Instant};
 
 /// A frame of the run that is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,10 +144,10 @@ impl Playback {
         self.seeking.resumes = resumes;
     }
 
-    /// Returns the beginning of the range that is played where its end has come.
-    pub fn loop_start(&self) -> Option<f64> {
+    /// Returns the beginning of the range that is played where the next frame would not lie before its end.
+    pub fn loop_start(&self, now: Instant) -> Option<f64> {
         let range = self.seeking.range?;
-        (self.is_running() && self.clock.time_secs() >= range.to).then_some(range.from)
+        (self.is_running() && self.clock.running_time(now) >= range.to).then_some(range.from)
     }
 
     /// Returns the frame that the engine is to be asked for, once.

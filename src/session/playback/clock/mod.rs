@@ -167,22 +167,26 @@ impl Clock {
         self.steps = None;
     }
 
+    /// Returns `iTime` of [`Self::running_frame`].
+    pub fn running_time(&self, now: Instant) -> f64 {
+        match (self.fixed_rate, self.anchor) {
+            (Some(rate), _) => self.stepped(rate).1,
+            (None, None) => self.time_secs,
+            (None, Some((since, from))) => from + self.speed * now.saturating_duration_since(since).as_secs_f64(),
+        }
+    }
+
     /// A frame of the running picture.
     pub fn running_frame(&mut self, now: Instant) -> FrameTime {
-        let (time, delta) = match (self.fixed_rate, self.anchor) {
-            (Some(_), _) => self.step(),
-            (None, None) => {
-                self.anchor = Some((now, self.time_secs));
-                (self.time_secs, NOMINAL_DELTA_SECS)
-            }
-            (None, Some((since, from))) => {
-                let time = from + self.speed * now.saturating_duration_since(since).as_secs_f64();
-                (time, time - self.time_secs)
-            }
-        };
-        if self.fixed_rate.is_none() {
+        let (time, delta) = if self.fixed_rate.is_some() {
+            self.step()
+        } else {
             self.steps = None;
-        }
+            let time = self.running_time(now);
+            let is_first = self.anchor.is_none();
+            self.anchor.get_or_insert((now, time));
+            (time, if is_first { NOMINAL_DELTA_SECS } else { time - self.time_secs })
+        };
         let (since, frames) = self.rate_window.get_or_insert((now, 0));
         let elapsed = now.saturating_duration_since(*since);
         if elapsed > RATE_WINDOW {
@@ -208,12 +212,17 @@ impl Clock {
     /// Time and delta of the frame that is one step further.
     fn step(&mut self) -> (f64, f64) {
         let rate = self.step_rate();
-        let (from, steps) = self.steps.get_or_insert((self.time_secs, 0));
-        if self.frame > 0 {
-            *steps += 1;
-        }
+        let (steps, time) = self.stepped(rate);
+        self.steps = Some(steps);
+        (time, 1.0 / rate)
+    }
+
+    /// Returns the steps after one more, and the time that they lead to.
+    fn stepped(&self, rate: f64) -> ((f64, u32), f64) {
+        let (from, steps) = self.steps.unwrap_or((self.time_secs, 0));
+        let steps = if self.frame > 0 { steps + 1 } else { steps };
         // Divided as a fixed-step run does, so that both give the same bits.
-        (*from + f64::from(*steps) / rate, 1.0 / rate)
+        ((from, steps), from + f64::from(steps) / rate)
     }
 
     fn emit(&mut self, time_secs: f64, delta_secs: f64) -> FrameTime {

@@ -128,3 +128,21 @@ fn steps_land_on_the_times_of_a_fixed_step_run() {
     }
     assert!(!c.is_playing());
 }
+
+#[test]
+fn the_time_of_a_running_frame_is_known_before_it() {
+    let (mut c, t) = (Clock::default(), Instant::now());
+    let check = |c: &mut Clock, millis: u64| {
+        let known = c.running_time(after(t, millis));
+        assert_eq!(c.running_frame(after(t, millis)).time_secs, known);
+        (known * 1e9).round() / 1e9
+    };
+    assert_eq!([0, 40, 90].map(|millis| check(&mut c, millis)), [0.0, 0.04, 0.09]);
+    c.set_speed(0.5);
+    assert_eq!([100, 120].map(|millis| check(&mut c, millis)), [0.09, 0.1]);
+    c.set_fixed_rate(Some(10.0));
+    for millis in [121, 122, 123] {
+        check(&mut c, millis);
+    }
+    assert!((c.time_secs() - 0.4).abs() < 1e-12, "three steps");
+}
