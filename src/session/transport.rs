@@ -69,7 +69,7 @@ impl Session {
 
     /// Goes back to the beginning of the range that is played where its end has come.
     pub(super) fn loop_range(&mut self) {
-        if let Some(from) = self.playback.loop_start(self.now) {
+        if let Some(from) = self.playback.loop_start(self.now).filter(|_| self.drawing.has_program()) {
             self.seek(from);
         }
     }
