@@ -67,7 +67,8 @@ impl Session {
         }
     }
 
-    /// Goes back to the beginning of the range that is played where its end has come.
+    /// Goes back to the beginning of the range that is played before a frame that would not lie before its end. Time goes
+    /// on without a program, which has no frame to go back from.
     pub(super) fn loop_range(&mut self) {
         if let Some(from) = self.playback.loop_start(self.now).filter(|_| self.drawing.has_program()) {
             self.seek(from);

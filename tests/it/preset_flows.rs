@@ -437,7 +437,7 @@ fn a_moving_lid_turns_the_fluid_as_the_tables_say_and_makes_no_noise() {
         (0.1016, -0.06434),
     ];
     let upwards = [(0.9453, -0.10313), (0.8594, -0.22445), (0.5, 0.05454), (0.2266, 0.17507), (0.0781, 0.10890)];
-    let cells = 96u32;
+    let cells = 128u32;
     let project = accurate(&["walls=1", "lid_speed=1", "viscosity=0.01", &courant(2.0, cells)], "vec2(0.0)");
     let mut engine = square(&gpu, &project, cells);
     draw(&mut engine, 0..12 * cells as i32 / 2, untouched);
