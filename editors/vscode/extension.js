@@ -1,5 +1,4 @@
 // Starts `eddy lsp` for GLSL files, and the window beside the editor.
-const path = require("path");
 const { spawn } = require("child_process");
 const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
@@ -30,7 +29,7 @@ async function start() {
     }
 }
 
-// The folder with eddy.toml if the file is in one, else the file.
+// The window opens the project that has the file.
 async function open() {
     const document = vscode.window.activeTextEditor?.document;
     if (!document || document.uri.scheme !== "file") {
@@ -38,10 +37,7 @@ async function open() {
         return;
     }
     await document.save();
-    const folder = path.dirname(document.fileName);
-    const manifest = vscode.Uri.file(path.join(folder, "eddy.toml"));
-    const isProject = await vscode.workspace.fs.stat(manifest).then(() => true, () => false);
-    const child = spawn(program(), ["--follow", isProject ? folder : document.fileName], { detached: true, stdio: "ignore" });
+    const child = spawn(program(), ["--follow", document.fileName], { detached: true, stdio: "ignore" });
     child.on("error", (error) => vscode.window.showErrorMessage(`${program()} cannot be started: ${error.message}`));
     child.unref();
 }

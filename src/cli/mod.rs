@@ -64,7 +64,7 @@ pub enum Next {
 /// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
     let Cli { window, command } = Cli::parse().with_guests();
-    let Some(command) = command else { return Next::Window(window) };
+    let Some(command) = command else { return Next::Window(window.with_project_of_file()) };
     if matches!(
         command,
         Command::Render(_)

@@ -319,19 +319,5 @@ fn alone(kind: PassKind, id: SourceId, text: &str) -> Analysis {
 
 /// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone.
 pub(crate) fn root_of(path: &Path, edited: &EditedTexts) -> Root {
-    if project::is_manifest(path) {
-        return Root::Folder(path.parent().unwrap_or(Path::new("")).to_owned());
-    }
-    let alone = Root::File(path.to_owned());
-    let Some(folder) = project::folder_around(path) else { return alone };
-    let belongs = match project::load_edited(&folder, edited) {
-        Ok(loaded) => {
-            let includes = loaded.project.includes.iter().map(|included| &included.source);
-            loaded.project.tab_sources().chain(includes).any(|source| source.path.as_deref() == Some(path))
-        }
-        // A mistake in `eddy.toml` is told where its files are open.
-        Err(ProjectError::Invalid { .. }) => path.parent() == Some(&folder),
-        Err(_) => false,
-    };
-    if belongs { Root::Folder(folder) } else { alone }
+    project::project_of(path, edited).map_or_else(|| Root::File(path.to_owned()), Root::Folder)
 }

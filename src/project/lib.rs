@@ -80,7 +80,7 @@ pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};
 pub use json::losses as json_losses;
 pub use load::Loaded;
-pub use locate::{folder_around, is_manifest, load, load_edited, stem};
+pub use locate::{folder_around, is_manifest, load, load_edited, project_of, stem};
 pub use manifest::write as write_manifest;
 pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap, spec_of};
 pub use names::{listed, nearest};

@@ -76,7 +76,9 @@ fn a_window_beside_an_editor_shows_the_picture_alone_for_this_run() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
-    let mut window = Window::open(&display, home.path(), &["--follow", path]);
+    // The editor names the file that it has open: the project that has it is opened.
+    let file = folder.join("buffer_a.glsl");
+    let mut window = Window::open(&display, home.path(), &["--follow", file.to_str().unwrap()]);
     window.compiled();
     let layout = window.wait_until("the picture alone", "layout", |e| e["rects"]["panel:uniforms"].is_array());
     assert!(layout["rects"]["editor"].is_null() && layout["rects"]["panel:channels"].is_null(), "{layout}");

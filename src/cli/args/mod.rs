@@ -22,6 +22,7 @@ use crate::{
     video::CameraSource,
 };
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use eddy_project::{EditedTexts, project_of};
 use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub use values::face_of;
@@ -51,7 +52,8 @@ pub struct Window {
     /// Set a uniform declared by an #iUniform line, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Show the picture and the uniforms alone, beside another editor: what it saves is drawn at once
+    /// Show the picture and the uniforms alone, beside another editor: what it saves is drawn at once. A file that belongs to
+    /// a project opens that project
     #[arg(long, requires = "project")]
     pub follow: bool,
     /// Open the project paused, without drawing anything
@@ -76,6 +78,22 @@ pub struct Window {
     /// Development only: lose the window's device when FILE appears, and remove FILE
     #[arg(long, value_name = "FILE", hide = true)]
     pub lose_device: Option<PathBuf>,
+}
+
+impl Window {
+    /// With `--follow`, an editor names the file that it has open: the project is the one that has it.
+    pub fn with_project_of_file(mut self) -> Self {
+        let folder_of = |project: &String| {
+            let file = std::path::absolute(project).ok().filter(|file| file.is_file())?;
+            Some(project_of(&file, &EditedTexts::new())?.to_str()?.to_owned())
+        };
+        if self.follow
+            && let Some(folder) = self.project.as_ref().and_then(folder_of)
+        {
+            self.project = Some(folder);
+        }
+        self
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -64,6 +64,25 @@ pub fn folder_around(file: &Path) -> Option<PathBuf> {
     described.or_else(|| file.parent().filter(|folder| holds_project(folder))).map(Path::to_owned)
 }
 
+/// Returns the folder of the project that has this file among its texts: that of an `eddy.toml`, of a pass or of an
+/// included file, with texts of an editor in place of what is on disk. `None` for a shader of its own. The files beside an
+/// `eddy.toml` with a mistake belong to it, so that the mistake is told.
+pub fn project_of(file: &Path, edited: &EditedTexts) -> Option<PathBuf> {
+    if is_manifest(file) {
+        return Some(file.parent().unwrap_or(Path::new("")).to_owned());
+    }
+    let folder = folder_around(file)?;
+    let belongs = match load_edited(&folder, edited) {
+        Ok(loaded) => {
+            let includes = loaded.project.includes.iter().map(|included| &included.source);
+            loaded.project.tab_sources().chain(includes).any(|source| source.path.as_deref() == Some(file))
+        }
+        Err(ProjectError::Invalid { .. }) => file.parent() == Some(&folder),
+        Err(_) => false,
+    };
+    belongs.then_some(folder)
+}
+
 /// Returns whether a file of this name describes a project.
 pub fn is_manifest(file: &Path) -> bool {
     file.file_name().is_some_and(|name| name == MANIFEST)
