@@ -27,14 +27,30 @@ fn samples_of_a_pixel_err_as_is_known() {
 }
 
 #[test]
+fn filters_smooth_edges_and_bring_no_detail_back() {
+    let Some(rig) = rig() else { return };
+    let errors = |method, setting| supersampling::errors(&rig, method, setting, 256).unwrap();
+    let (one, four) = (errors("grid", 1), errors("grid", 2));
+    for method in ["fxaa", "smaa"] {
+        // Jagged edges are smoothed by a third at least, and not as well as by 2 x 2 samples.
+        let found = errors(method, 16);
+        assert!(found.rms[0] < 0.67 * one.rms[0] && found.rms[0] > 1.2 * four.rms[0], "{method}: {found:?}");
+        // Whole sides of the upright square are taken for steps of an outline, and its corners are rounded.
+        assert!(errors(method, 64).rms[0] > 1.04 * found.rms[0], "{method}");
+        // Lines that one sample a pixel has broken up are taken for noise: they lose light.
+        assert!(found.lines_gain < -0.3 && four.lines_gain.abs() < 0.1, "{method}: {found:?}");
+    }
+}
+
+#[test]
 fn a_supersampled_picture_is_the_one_that_is_measured() {
     let Some(rig) = rig() else { return };
     for side in [2, 3, 8] {
-        let large = rig.after(&supersampling::setup("grid", 1, 64, side), 1, "field").unwrap();
+        let large = rig.after(&supersampling::samples("grid", 1, 64, side), 1, "field").unwrap();
         let texels = large.texels().to_vec();
         let size = 64 * side;
         let small = shrunk(&Pixels { width: size, height: size, texels }, side);
-        let measured = rig.after(&supersampling::setup("grid", side, 64, 1), 1, "field").unwrap();
+        let measured = rig.after(&supersampling::samples("grid", side, 64, 1), 1, "field").unwrap();
         let apart: Vec<f32> = small.texels.iter().zip(measured.texels()).map(|(a, b)| (a[0] - b[0]).abs()).collect();
         // Other roundings of a place move a sample over an edge here and there.
         let off = apart.iter().filter(|apart| **apart > 1e-4).count();

@@ -1,22 +1,52 @@
-//! Several samples a pixel, as `eddy render --supersample` takes them, against the mean over the pixel's area.
+//! Several samples a pixel, as `eddy render --supersample` takes them, and filters that smooth the edges of one sample,
+//! against the mean over the pixel's area.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, metrics::Norms, reference::coverage, three_of,
 };
 
 const SIDES: &[f64] = &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
+/// Pixels that a filter follows an edge for.
+const REACHES: &[f64] = &[4.0, 8.0, 16.0, 32.0, 64.0];
 
 const METHODS: &[Method] = &[
     Method { name: "grid", title: "a grid of N x N samples, as --supersample N", settings: SIDES, usual: 4.0 },
     Method { name: "halton", title: "N² points of Halton's sequence", settings: SIDES, usual: 4.0 },
     Method { name: "jittered", title: "a random sample in each of N x N cells", settings: SIDES, usual: 4.0 },
+    Method { name: "fxaa", title: "FXAA of one sample", settings: REACHES, usual: 32.0 },
+    Method {
+        name: "smaa",
+        title: "SMAA 1x of one sample, without corners and diagonals",
+        settings: REACHES,
+        usual: 32.0,
+    },
 ];
+
+const SCENE: &str = include_str!("../../../assets/lab/pixel_samples/common.glsl");
+
+/// The picture that filters read, in place of the project's own.
+const ONE_SAMPLE: &str = "
+void mainImage(out vec4 source, in vec2 fragCoord) {
+    source = vec4(vec3(scene(fragCoord, 0.5 * iResolution.y)), 1.0);
+}
+";
 
 /// The four pictures, and what they show.
 const PARTS: [&str; 4] = ["edges", "lines", "chessboard", "zone_plate"];
 
-/// A canvas of n x n pixels; `zoom` texels of it are one of the scene's.
-pub fn setup(method: &str, side: u32, n: u32, zoom: u32) -> Setup {
+/// A canvas of n x n pixels by a method with its setting.
+pub fn setup(method: &str, setting: u32, n: u32) -> Setup {
+    let filter = match method {
+        "fxaa" => "FXAA",
+        "smaa" => "SMAA",
+        _ => return samples(method, setting, n, 1),
+    };
+    let setup = Setup::new("edge_smoothing", (n, n)).text("source", format!("{SCENE}{ONE_SAMPLE}"));
+    setup.define("METHOD", filter).define("REACH", setting).restless()
+}
+
+/// Side x side samples a pixel. `zoom` texels of the canvas are one of the scene's.
+pub fn samples(method: &str, side: u32, n: u32, zoom: u32) -> Setup {
     let name = match method {
         "grid" => "GRID",
         "halton" => "HALTON",
@@ -54,8 +84,8 @@ pub struct Errors {
 }
 
 /// Draws a method and compares it.
-pub fn errors(rig: &Rig, method: &str, side: u32, n: u32) -> Result<Errors, LabError> {
-    let drawn = rig.after(&setup(method, side, n, 1), 1, "field")?.component(0);
+pub fn errors(rig: &Rig, method: &str, setting: u32, n: u32) -> Result<Errors, LabError> {
+    let drawn = rig.after(&setup(method, setting, n), 1, "field")?.component(0);
     Ok(compared(&drawn, n as usize))
 }
 
@@ -86,16 +116,16 @@ pub static STUDY: Study = Study {
     text: "Two squares, one of them almost upright, eight lines of .4 pixels, a chessboard to the horizon and a zone plate \
            to beyond one wave a pixel. The truth is the mean over each pixel's area: polygons clipped at the pixel, \
            Fresnel's integrals, and the chessboard in closed form along a row. The table has the root mean square of each \
-           part, of white over black. Hard cases: lines keep their light within 2 %, no pixel of an edge is off by more \
+           part, of white over black. Filters see one sample a pixel. Hard cases: lines keep their light within 2 %, no pixel of an edge is off by more \
            than .125, and the rows below the horizon, where a pixel has a square or more, by .05 in the mean square.",
-    parameter: "N, of N x N samples a pixel",
+    parameter: "N, of N x N samples a pixel; or pixels that a filter follows an edge for",
     unit: Unit::Frame,
     error: "of the mean over a pixel",
     methods: METHODS,
     grids: three_of([32, 64, 128, 256]),
     // Lines and pixels keep their size on every canvas.
     has_order: false,
-    ..Study::of(|point| setup(&point.method, point.setting as u32, point.grid, 1), measure)
+    ..Study::of(|point| setup(&point.method, point.setting as u32, point.grid), measure)
 };
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
