@@ -15,8 +15,8 @@ use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::{FrameInputs, Pixels},
     film::{
-        self, Cancel, Destination, Encoding, FilmEncoding, FilmError, FilmSound, FilmTime, Mean, Output, Seam, Shape,
-        Still, Writer, shrunk,
+        self, Cancel, Destination, Encoding, Fade, FilmEncoding, FilmError, FilmSound, FilmTime, Mean, Output, Seam,
+        Shape, Still, Writer, shrunk,
     },
     media::MediaSet,
     playback::{
@@ -162,7 +162,7 @@ impl Job<'_> {
         }
         let source = self.source(&project, &offline, inputs)?;
         let mut seam = match args.looped {
-            Some(secs) if targets.writes() => Some(self.seam(machine, report, secs, &missing, inputs)?),
+            Some(secs) if targets.writes() => Some(self.seam(machine, report, (secs, &project), &missing, inputs)?),
             _ => None,
         };
         let mut writer = None;
@@ -360,15 +360,20 @@ impl Job<'_> {
             let opened = (project, media);
             return recorded_sound(machine, report, opened, (&args.run, recording), (frames, targets.rate), inputs);
         }
-        let time = FilmTime {
-            first: frames[0],
-            fps: args.run.fps,
-            count: frames.len() as u32,
-            rate: targets.rate,
-            fade_secs: args.looped.unwrap_or_default(),
+        let fade_secs = match args.looped {
+            Some(secs) => self.fade(secs, project, frames)?.secs,
+            None => 0.0,
         };
+        let (first, count) = (frames[0], frames.len() as u32);
+        let time = FilmTime { first, fps: args.run.fps, count, rate: targets.rate, fade_secs };
         let open = || open_sound_of(machine, report, (project, media), &args.run, inputs.clone());
         film::soundtrack((project, media), &time, open, || Ok(()))
+    }
+
+    /// Gives the fade of a film of these frames.
+    fn fade(&self, secs: f64, project: &Project, frames: &[u32]) -> Result<Fade, anyhow::Error> {
+        let fade = Fade::new(secs, project.info.period, self.targets.rate, frames.len() as u32);
+        fade.map_err(|why| anyhow::anyhow!("--loop {secs}: {why}"))
     }
 
     /// Begins with the joint of a film of these frames, which fades for so many seconds.
@@ -376,13 +381,12 @@ impl Job<'_> {
         &self,
         machine: &mut Machine,
         report: &Report,
-        secs: f64,
+        (secs, project): (f64, &Project),
         frames: &[u32],
         inputs: &ScriptedInputs,
     ) -> Result<Seam, RunError> {
         let args = self.args;
-        let fade = Seam::fade_frames(secs, self.targets.rate, frames.len() as u32);
-        let fade = fade.map_err(|why| anyhow::anyhow!("--loop {secs}: {why}"))?;
+        let fade = self.fade(secs, project, frames)?;
         let open = || {
             // What there is to say of the project was said when it was opened first.
             let mut quiet = Report::swept(&report.project, &report.sweep);

@@ -35,7 +35,7 @@ pub use moments::{Moment, soundtrack_of, speed};
 pub use names::picture_name;
 pub use queue::{Cancel, Film, Output, Shape, Stills};
 pub use rate::Rate;
-pub use seam::{Seam, ShownPass};
+pub use seam::{Fade, Seam, ShownPass};
 pub use sound_pass::SoundPass;
 pub use soundtrack::{FilmTime, has_sound, music, soundtrack};
 pub use still::Still;

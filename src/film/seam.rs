@@ -26,6 +26,43 @@ pub struct Seam {
     last: Option<Pixels>,
     /// The distances of neighbours.
     distances: Vec<f64>,
+    /// The verdict's words on the project's period.
+    period: String,
+}
+
+/// The fade of a film's beginning, given how long the film is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fade {
+    /// 0 in a film of whole periods: it has no seam.
+    pub secs: f64,
+    frames: u32,
+    period: String,
+}
+
+impl Fade {
+    /// Gives the fade of a film of `count` frames that is to be faded for `secs`. A film of one or more whole periods of
+    /// the project, to half a frame, is not faded. Err: the fade is longer than the film.
+    pub fn new(secs: f64, period: Option<f64>, rate: Rate, count: u32) -> Result<Fade, String> {
+        if let Some(period) = period {
+            let frames = period * rate.per_second();
+            let periods = (f64::from(count) / frames).round();
+            if periods >= 1.0 && (periods * frames - f64::from(count)).abs() <= 0.5 {
+                let length = if periods == 1.0 { "the period".to_owned() } else { format!("{periods} periods") };
+                let period = format!("; nothing is faded, as the film is {length} of the project long");
+                return Ok(Fade { secs: 0.0, frames: 0, period });
+            }
+        }
+        let frames = (secs * rate.per_second()).round() as u32;
+        if frames > count {
+            let length = f64::from(count) / rate.per_second();
+            return Err(format!("the film is {length:.2} s long, and the fade cannot be longer"));
+        }
+        let period = period.map(|period| {
+            let frames = (period * rate.per_second()).round().max(1.0);
+            format!("; the project's period is {period} s: a film of {frames} frames, or a multiple, needs no fade")
+        });
+        Ok(Fade { secs, frames, period: period.unwrap_or_default() })
+    }
 }
 
 /// The picture of a run that a film shows.
@@ -47,27 +84,18 @@ impl ShownPass {
 }
 
 impl Seam {
-    /// Returns how many frames are faded. Err: the fade is longer than the film.
-    pub fn fade_frames(secs: f64, rate: Rate, count: u32) -> Result<u32, String> {
-        let fade = (secs * rate.per_second()).round() as u32;
-        if fade > count {
-            let length = f64::from(count) / rate.per_second();
-            return Err(format!("the film is {length:.2} s long, and the fade cannot be longer"));
-        }
-        Ok(fade)
-    }
-
     /// Begins with no frame of a film of these frames, which are evenly spaced. `open` sets up a second run of the project,
     /// and `goes_on` is asked before each frame that comes before the film's end.
     pub fn open<E: From<OfflineError>>(
-        fade: u32,
+        fade: Fade,
         frames: &[u32],
         open: impl FnOnce() -> Result<Offline, E>,
         mut goes_on: impl FnMut() -> Result<(), E>,
     ) -> Result<Seam, E> {
         let step = frames.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
-        let mut seam =
-            Seam { later: None, jumps: true, fade, step, done: 0, first: None, last: None, distances: Vec::new() };
+        let Fade { frames: fade, period, .. } = fade;
+        let (first, last, distances) = (None, None, Vec::new());
+        let mut seam = Seam { later: None, jumps: true, fade, step, done: 0, first, last, distances, period };
         if fade > 0 {
             let offline = open()?;
             seam.jumps = !offline.has_state().map_err(OfflineError::from)?;
@@ -130,9 +158,10 @@ impl Seam {
         let verdict = if jumps { "the film jumps where it begins again" } else { "the film has no visible seam" };
         let what = format!(
             "{verdict}: its last frame is {:.2} of 255 from its first one, neighbours are {:.2} apart (means of all pixels, \
-             median of all pairs)",
+             median of all pairs){}",
             seam * 255.0,
-            usual * 255.0
+            usual * 255.0,
+            self.period
         );
         Some((jumps, what))
     }
@@ -156,6 +185,28 @@ fn distance(one: &Pixels, other: &Pixels) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_film_of_whole_periods_is_not_faded() {
+        let fade = |secs, period, fps, count| Fade::new(secs, period, Rate::of(fps).unwrap(), count);
+        assert_eq!(fade(1.0, None, 60.0, 90).unwrap(), Fade { secs: 1.0, frames: 60, period: String::new() });
+        assert!(fade(2.0, None, 60.0, 90).unwrap_err().contains("1.50 s"));
+        for (period, fps, count, said) in [
+            (2.0, 60.0, 120, "is the period of the project"),
+            (2.0, 60.0, 360, "3 periods"),
+            // Twice pi is 376.99 frames.
+            (std::f64::consts::TAU, 60.0, 377, "is the period of the project"),
+        ] {
+            // The film may be shorter than the fade that it does not need.
+            let fade = fade(100.0, Some(period), fps, count).unwrap();
+            assert!((fade.secs, fade.frames) == (0.0, 0) && fade.period.contains(said), "{fade:?}");
+        }
+        for (period, count) in [(2.0, 119), (2.0, 60), (0.001, 0), (40.0, 120)] {
+            let fade = fade(0.0, Some(period), 60.0, count).unwrap();
+            assert!(fade.period.contains("needs no fade"), "{fade:?}");
+        }
+        assert!(fade(0.5, Some(2.0), 60.0, 100).unwrap().period.contains("a film of 120 frames"));
+    }
 
     #[test]
     fn a_fade_goes_from_one_to_the_other_and_distances_are_those_of_a_screen() {

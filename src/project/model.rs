@@ -39,6 +39,8 @@ pub struct Info {
     pub author: String,
     pub description: String,
     pub tags: Vec<String>,
+    /// Seconds after which the picture is the same again. In `eddy.toml` alone.
+    pub period: Option<f64>,
     /// Every other member of the JSON's `info` object, as read.
     pub extra: serde_json::Map<String, serde_json::Value>,
 }

@@ -412,6 +412,18 @@ fn a_loop_fades_its_beginning_with_what_would_follow_its_end() {
     }
     let jump = b.line("render t.glsl --size 4x2 --frames 60 --loop 0 --out x.apng").expect(0);
     assert!(jump.err.contains("jumps where it begins again"), "{}", jump.err);
+    // A film of whole periods is not touched.
+    b.write("s/eddy.toml", "period = 3\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
+    let film = |b: &Bench, more: &str| {
+        let line = b.line(&format!("render s --size 4x2 --fps 4 {more} --format raw --out x.raw")).expect(0);
+        (b.bytes("x.raw"), line.err)
+    };
+    for frames in [12, 24] {
+        let (faded, said) = film(&b, &format!("--frames {frames} --loop 1"));
+        assert!(faded == film(&b, &format!("--frames {frames}")).0 && said.contains("nothing is faded"), "{said}");
+    }
+    let (faded, said) = film(&b, "--frames 13 --loop 1");
+    assert!(faded != film(&b, "--frames 13").0 && said.contains("a film of 12 frames"), "{said}");
     let long = b.line("render t.glsl --size 4x2 --frames 60 --loop 2 --out x.apng").expect(2);
     assert!(long.err.contains("1.00 s long"), "{}", long.err);
 }

@@ -279,7 +279,7 @@ fn project(
         _ => Vec::new(),
     };
     let name = if name.trim().is_empty() { stem.to_owned() } else { name };
-    let info = Info { id, author, description, tags, extra };
+    let info = Info { id, author, description, tags, period: None, extra };
     Ok(Project { info, common, sampler_rules: SamplerRules::Site, ..Project::new(name, passes, Origin::Unsaved) })
 }
 

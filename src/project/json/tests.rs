@@ -191,6 +191,7 @@ fn an_export_reads_back_as_the_same_project() {
             author: "someone".into(),
             description: "line\nline".into(),
             tags: vec!["x".into()],
+            period: None,
             extra: serde_json::from_str(r#"{ "likes": 3, "parentid": null, "nested": { "a": [1.5] } }"#).unwrap(),
         },
         common: Some(source("Common", "#define A\n")),

@@ -239,3 +239,48 @@ fn eddy_toml_says_how_passes_are_drawn() {
         assert!(said.contains(message) && said.contains("eddy.toml:"), "{key}: {said}");
     }
 }
+
+#[test]
+fn a_period_is_a_length_of_time() {
+    let dir = folder(&[("eddy.toml", ""), ("image.glsl", "")]);
+    let manifest = |value: &str| {
+        fs::write(dir.path().join("eddy.toml"), format!("period = {value}\n[passes.image]\n")).unwrap();
+    };
+    for (value, secs) in [("8", 8.0), ("0.25", 0.25), ("1e3", 1000.0)] {
+        manifest(value);
+        assert_eq!(load_path(dir.path()).unwrap().project.info.period, Some(secs));
+    }
+    for value in ["0", "-1", "inf", "nan", "\"8\"", "true"] {
+        manifest(value);
+        let said = complaint(dir.path());
+        assert!(said.contains("eddy.toml:1:10") && said.contains("a number of seconds above 0"), "{said}");
+    }
+}
+
+#[test]
+fn a_file_belongs_to_the_project_that_has_it() {
+    let dir = folder(&[
+        ("common.glsl", "#include \"lib/noise.glsl\"\n"),
+        ("image.glsl", "void mainImage() {}"),
+        ("study.glsl", "void mainImage() {}"),
+        ("toy.json", "{}"),
+    ]);
+    let root = dir.path().to_owned();
+    fs::create_dir(root.join("lib")).unwrap();
+    fs::write(root.join("lib/noise.glsl"), "float noise;").unwrap();
+    let of = |name: &str| project_of(&root.join(name), &EditedTexts::new());
+    assert_eq!((of("common.glsl"), of("image.glsl")), (Some(root.clone()), Some(root.clone())));
+    // Only a manifest is looked for in folders above: other files of a name such as `image.glsl` are often nothing to it.
+    assert_eq!((of("study.glsl"), of("toy.json"), of("lib/noise.glsl"), of("missing.glsl")), (None, None, None, None));
+    let manifest = root.join("eddy.toml");
+    fs::write(&manifest, "[passes.image]\n").unwrap();
+    for name in ["common.glsl", "image.glsl", "lib/noise.glsl", "eddy.toml"] {
+        assert_eq!(of(name), Some(root.clone()), "{name}");
+    }
+    assert_eq!(of("study.glsl"), None);
+    // With texts of an editor, as with those that are saved.
+    let edited = EditedTexts::from([(root.join("common.glsl"), "// nothing is included".into())]);
+    assert_eq!(project_of(&root.join("lib/noise.glsl"), &edited), None);
+    fs::write(&manifest, "[passes.image\n").unwrap();
+    assert_eq!((of("image.glsl"), of("lib/noise.glsl")), (Some(root), None));
+}

@@ -2,7 +2,7 @@
 
 use super::{
     edit::{child, set},
-    reader::Reader,
+    reader::{Reader, number},
 };
 use crate::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassId, PassSettings, Source, Stage,
@@ -248,10 +248,6 @@ impl Reader<'_> {
             [0.0; 3]
         })
     }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|n| n as f64)).filter(|x| x.is_finite())
 }
 
 fn targets(item: &Item) -> Option<Vec<TexelFormat>> {

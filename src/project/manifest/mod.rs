@@ -8,6 +8,7 @@
 //! description = "Weakly compressible flow"
 //! author = "…"
 //! tags = ["fluid"]
+//! period = 8                      # seconds after which the picture is the same again
 //! sampler_rules = "site"          # default "channel"; "site" as projects from the site's JSON have it
 //!
 //! [uniforms]                      # values of `#iUniform` lines that differ from the default

@@ -16,13 +16,14 @@ use eddy_diag::{Diagnostic, SourceId, SourceMap};
 use std::path::PathBuf;
 use toml_edit::{Document, Item, TableLike};
 
-const TOP: [&str; 14] = [
+const TOP: [&str; 15] = [
     "eddy",
     "name",
     "description",
     "author",
     "tags",
     "id",
+    "period",
     "dialect",
     "sampler_rules",
     "uniforms",
@@ -102,6 +103,7 @@ impl Reader<'_> {
             author: self.string(root, "author").unwrap_or_default(),
             description: self.string(root, "description").unwrap_or_default(),
             tags: self.tags(root),
+            period: self.seconds(root, "period"),
             extra: self.extra(root),
         };
         let sampler_rules = match self.one_of(root, "sampler_rules", &["channel", "site"]) {

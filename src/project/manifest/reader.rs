@@ -7,7 +7,7 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, SourceId, SourceMap, Span};
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
-use toml_edit::{Item, TableLike};
+use toml_edit::{Item, TableLike, Value};
 
 pub(super) struct Reader<'a> {
     pub files: &'a Files<'a>,
@@ -77,6 +77,20 @@ impl Reader<'_> {
         text
     }
 
+    /// Reads a length of time above 0.
+    pub fn seconds(&mut self, table: &dyn TableLike, key: &str) -> Option<f64> {
+        let item = table.get(key)?;
+        let secs = item.as_value().and_then(number).filter(|secs| *secs > 0.0);
+        if secs.is_none() {
+            self.error(
+                item.span(),
+                format!("{key} is not a number of seconds above 0"),
+                "write seconds, as in 8 or 6.2832",
+            );
+        }
+        secs
+    }
+
     pub fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
         let item = table.get(key)?;
         if item.as_bool().is_none() {
@@ -132,6 +146,11 @@ pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     };
     let made = read(&mut reader);
     reader.diagnostics.is_empty().then_some(made)
+}
+
+/// Returns the value of a finite number, with or without a decimal point.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64)).filter(|number| number.is_finite())
 }
 
 fn article(type_name: &str) -> String {

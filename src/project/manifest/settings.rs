@@ -3,7 +3,7 @@
 
 use super::{
     edit::{child, key_of, set},
-    reader::Reader,
+    reader::{Reader, number},
 };
 use crate::{
     Condition, Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, Written, file_names, limits,
@@ -191,12 +191,8 @@ fn size(item: &Item) -> Option<PassSize> {
             _ => None,
         };
     }
-    let factor = value.as_float().or_else(|| value.as_integer().map(|n| n as f64))?;
-    (factor.is_finite() && factor > 0.0).then_some(if factor == 1.0 {
-        PassSize::Canvas
-    } else {
-        PassSize::Scale(factor)
-    })
+    let factor = number(value)?;
+    (factor > 0.0).then_some(if factor == 1.0 { PassSize::Canvas } else { PassSize::Scale(factor) })
 }
 
 fn region(item: &Item) -> Option<Region> {

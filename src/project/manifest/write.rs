@@ -3,7 +3,9 @@
 use super::{
     VERSION, controls,
     edit::{child, key_of, set},
-    fills, geometry, read, settings, uniforms,
+    fills, geometry, read,
+    reader::number,
+    settings, uniforms,
 };
 use crate::{
     Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules,
@@ -30,6 +32,9 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
     let tags = &project.info.tags;
     set(root, "tags", (!tags.is_empty()).then(|| tags.iter().collect()));
     set(root, "id", text(&project.info.id));
+    if root.get("period").and_then(Item::as_value).and_then(number) != project.info.period {
+        set(root, "period", project.info.period.map(Value::from));
+    }
     set(root, "dialect", (project.dialect != Dialect::Shadertoy).then(|| project.dialect.name().into()));
     set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
     uniforms(root, project);

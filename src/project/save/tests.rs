@@ -113,6 +113,7 @@ fn any_project(seed: u64) -> Project {
             author: r.text(),
             description: r.text(),
             tags: (0..r.below(3)).map(|_| r.text()).collect(),
+            period: None,
             extra: if r.below(2) == 0 { extra.as_object().unwrap().clone() } else { serde_json::Map::default() },
         },
         common: (r.below(2) == 0).then(|| source(r, "Common".into())),
@@ -202,6 +203,7 @@ fn every_project_comes_back_from_a_folder_as_it_was() {
 fn every_project_comes_back_from_eddy_toml_as_it_was() {
     for seed in 1_000..3_000 {
         let mut project = any_project(seed);
+        project.info.period = (seed % 2 == 0).then_some(seed as f64 / 7.0);
         let mut writes = Writes::into(Path::new(""), BTreeSet::new());
         if let Some(common) = &mut project.common {
             place(common, "common.glsl".into(), false, Path::new(""), &mut writes).unwrap();
@@ -221,7 +223,7 @@ fn every_project_comes_back_from_eddy_toml_as_it_was() {
 #[test]
 fn saving_keeps_the_authors_comments_order_and_spelling() {
     let dir = tempfile::tempdir().unwrap();
-    let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\n\n[passes.image] # last\n\
+    let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\nperiod = 8 # a loop\n\n[passes.image] # last\n\
     channels = { 0 = { buffer = 'a', filter=\"linear\" } }\n\n# the flow\n[passes.Buffer_A]\nfile = \"flow.glsl\"\n\
     channels.1 = { keyboard = true } # keys\n";
     fs::write(dir.path().join("eddy.toml"), toml).unwrap();

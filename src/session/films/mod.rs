@@ -150,6 +150,7 @@ impl Session {
             shown: self.drawing.size(),
             most_side: self.gpu().device.limits().max_texture_dimension_2d,
             folder: capture::folder_for(self.project(), &self.options.pictures),
+            period: self.project().info.period,
             encoders: self.films.encoders.clone(),
         }
     }

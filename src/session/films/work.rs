@@ -8,7 +8,7 @@ use super::{
 use eddy_background::Control;
 use eddy_engine::{BuildOptions, Pixels, Trial};
 use eddy_film::{
-    Cancel, Encoding, FilmSound, FilmTime, Rate, Seam, Shape, ShownPass, Still, Writer, check_tools, has_sound,
+    Cancel, Encoding, Fade, FilmSound, FilmTime, Rate, Seam, Shape, ShownPass, Still, Writer, check_tools, has_sound,
     soundtrack,
 };
 use eddy_gpu::{self as gpu, Gpu, GpuOptions};
@@ -208,7 +208,7 @@ impl Drawing<'_> {
         let shown = ShownPass { pass: self.job.pass.clone(), layer: 0, factor: 1 };
         let mut seam = match order.fade_secs {
             Some(secs) => {
-                let fade = Seam::fade_frames(secs, order.rate, count)?;
+                let fade = self.fade(secs, count)?;
                 let open = || self.open(&gpu, &media, self.job.pass.clone());
                 Some(Seam::open(fade, &frames, open, || Ok(self.control.check()?))?)
             }
@@ -257,6 +257,10 @@ impl Drawing<'_> {
         Ok(FilmDone { path: self.job.target.path().to_owned(), frames: count, secs, note })
     }
 
+    fn fade(&self, secs: f64, count: u32) -> Result<Fade, String> {
+        Fade::new(secs, self.job.project.info.period, self.job.order.rate, count)
+    }
+
     /// Sets up a run of the project that draws a pass.
     fn open(&self, gpu: &Gpu, media: &MediaSet, pass: PassId) -> Result<Offline, Stopped> {
         let RangeJob { project, order, trial, .. } = &self.job;
@@ -290,7 +294,10 @@ impl Drawing<'_> {
         if !holds_sound || !order.with_sound || !has_sound(project, media) {
             return Ok(None);
         }
-        let fade_secs = order.fade_secs.unwrap_or_default();
+        let fade_secs = match order.fade_secs {
+            Some(secs) => self.fade(secs, count)?.secs,
+            None => 0.0,
+        };
         let time = FilmTime { first, fps: order.fps, count, rate: order.rate, fade_secs };
         let open = || self.open(gpu, media, PassId::Sound);
         soundtrack((project, media), &time, open, || Ok(self.control.check()?))

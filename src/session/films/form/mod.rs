@@ -4,7 +4,7 @@
 
 use super::{FilmOrder, FilmPlace};
 use eddy_film::{
-    Codec, Encoding, FilmEncoding, FilmError, Format, Quality, Rate, Seam, Style, check_encoders, check_size,
+    Codec, Encoding, Fade, FilmEncoding, FilmError, Format, Quality, Rate, Style, check_encoders, check_size,
 };
 use eddy_playback::frames::{FrameList, film_step};
 use std::{fmt::Write as _, fs, path::PathBuf};
@@ -120,6 +120,8 @@ pub struct FilmFacts {
     pub most_side: u32,
     /// The folder of names without one.
     pub folder: PathBuf,
+    /// Seconds after which the picture is the same again.
+    pub period: Option<f64>,
     /// The encoders of ffmpeg, or why there are none; `None`: not known yet.
     pub encoders: Option<Result<Vec<String>, String>>,
 }
@@ -203,7 +205,7 @@ impl FilmForm {
         };
         let too_long = match (&fade, &frames, &stepped) {
             (Ok(Some(secs)), Ok(frames), Ok(rate)) if fps.is_ok() => {
-                Seam::fade_frames(*secs, *rate, frames.len() as u32).map(drop)
+                Fade::new(*secs, facts.period, *rate, frames.len() as u32).map(drop)
             }
             _ => Ok(()),
         };

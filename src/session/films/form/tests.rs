@@ -2,7 +2,7 @@ use super::*;
 
 fn facts(folder: &std::path::Path) -> FilmFacts {
     let there = ["libx264", "libvpx-vp9", "prores_ks", "gif"].map(str::to_owned).to_vec();
-    FilmFacts { shown: (640, 360), most_side: 8192, folder: folder.to_owned(), encoders: Some(Ok(there)) }
+    FilmFacts { shown: (640, 360), most_side: 8192, folder: folder.to_owned(), period: None, encoders: Some(Ok(there)) }
 }
 
 /// Checks a form where nothing is on disk.
