@@ -2,7 +2,7 @@
 
 use super::{
     args::PrecisionArgs,
-    machine::{Machine, RunError, open},
+    machine::{Machine, RunError, open, pass_over},
     report::Report,
     source_excerpt::SourceExcerpt,
     targets,
@@ -103,7 +103,7 @@ pub fn run(
     let mut quiet = Report::new(spec);
     let (project, mut offline) = open(machine, &mut quiet, spec, &args.run, &wanted.pass, inputs)?;
     for _ in 1..args.frames() {
-        offline.draw()?;
+        pass_over(&mut offline, &args.run)?;
     }
     let read = offline.draw_inspected(&wanted.pass)?;
     report.frames = args.frames();

@@ -2,14 +2,13 @@
 
 use super::{args::RenderArgs, machine::RunError, written::make_folder};
 use crate::{
-    engine::BuildOptions,
     media::MediaSet,
     playback::{
         checkpoint::{self, Moment},
         offline::Offline,
         script::ScriptedInputs,
     },
-    project::{self, PassId, Project},
+    project::{self, Project},
 };
 use std::path::{Path, PathBuf};
 
@@ -86,30 +85,6 @@ impl<'a> Checkpoints<'a> {
             format!("{} was drawn by {was}, and this is {is}: last bits may differ", file.display())
         });
         Ok((frame, remark))
-    }
-
-    /// Compiles only what the frames to come read of those before, where no picture is asked for.
-    pub fn leave_pictures_out(
-        &self,
-        offline: &mut Offline,
-        (project, media): (&Project, &MediaSet),
-    ) -> Result<(), RunError> {
-        let run = &self.args.run;
-        let mut passes = offline.engine()?.passes_with_state();
-        passes.sort();
-        if run.no_skip || passes.is_empty() || passes.contains(&PassId::Image) {
-            return Ok(());
-        }
-        let options = |wanted| BuildOptions { wanted, without: run.without_pass.set(), ..BuildOptions::default() };
-        offline.build(project, media, &options(passes.clone()))?;
-        let mut found = offline.engine()?.passes_with_state();
-        found.sort();
-        if found != passes {
-            let tile = offline.tile();
-            let wanted = vec![self.args.pass.pass.clone()];
-            offline.build(project, media, &BuildOptions { tile, ..options(wanted) })?;
-        }
-        Ok(())
     }
 
     /// Writes a checkpoint if one is due before frame `next`.

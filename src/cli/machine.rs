@@ -16,7 +16,7 @@ use crate::{
     lab::Shard,
     media::{self, MediaSet},
     playback::{
-        offline::{Offline, OfflineError},
+        offline::{DrawnFrame, Offline, OfflineError},
         script::ScriptedInputs,
         trial::TrialSettings,
     },
@@ -178,6 +178,11 @@ pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| format!("--shard {error}"))?;
     let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
+}
+
+/// Goes on by a frame that nobody sees: only what later ones read of it is drawn, unless all passes are to be.
+pub fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
+    if run.no_skip { offline.draw() } else { offline.advance() }
 }
 
 /// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.

@@ -2,7 +2,6 @@
 
 use super::{
     args::RenderArgs,
-    checkpoints::Checkpoints,
     machine::{Machine, RunError, millis_since, open_measured},
     report::{Printer, Report},
     targets::Targets,
@@ -56,8 +55,7 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
     for spec in &args.project {
         let swept = targets.sweep.first().cloned().unwrap_or_default();
         let mut report = Report::swept(spec, &swept);
-        let plan = machine
-            .attempt(&mut report, |machine, report| plan(machine, report, (spec, &swept), args, targets, inputs));
+        let plan = machine.attempt(&mut report, |machine, report| plan(machine, report, spec, args, targets, inputs));
         let words = plan.as_ref().map_or(String::new(), |plan| plan.words(&report));
         printer.print_as(&JsonLine { report: &report, plan: plan.as_ref() }, &report, &words)?;
     }
@@ -67,12 +65,12 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
 fn plan(
     machine: &mut Machine,
     report: &mut Report,
-    (spec, swept): (&str, &[String]),
+    spec: &str,
     args: &RenderArgs,
     targets: &Targets,
     inputs: &ScriptedInputs,
 ) -> Result<Plan, RunError> {
-    let (project, mut offline, media) =
+    let (_, mut offline, _) =
         open_measured(machine, report, spec, &args.drawn(), (&args.pass.pass, &|_| Vec::new()), inputs.clone())?;
     let (at, tasks) = (&targets.at, targets.shard.count);
     let blocks: Vec<(u32, u32)> = (0..tasks)
@@ -80,7 +78,12 @@ fn plan(
         .filter(|block| block.start < block.end)
         .map(|block| (at[block.start as usize], at[block.end as usize - 1]))
         .collect();
-    report.frame_ms = measure(&mut offline, report)?;
+    report.frame_ms = measure(&mut offline, report, |offline| {
+        let drawn = offline.draw()?;
+        let began = Instant::now();
+        tiles::draw_all(offline)?;
+        Ok(drawn.millis + millis_since(began))
+    })?;
     let largest = at.len().div_ceil(tasks as usize) as u32;
     let mut plan = Plan {
         writes: at.len(),
@@ -97,9 +100,7 @@ fn plan(
     plan.state = offline.engine()?.passes_with_state().iter().map(|pass| pass.title()).collect();
     plan.checkpoint_bytes = Some(offline.engine()?.checkpoint_bytes());
     plan.most_frames = at.last().map_or(0, |last| last + 1);
-    Checkpoints::new(args, (spec, swept), (&project, &media), &offline, inputs)?
-        .leave_pictures_out(&mut offline, (&project, &media))?;
-    plan.state_ms = measure(&mut offline, report)?;
+    plan.state_ms = measure(&mut offline, report, |offline| Ok(offline.advance()?.millis))?;
     if tasks > 1 {
         let every = plan.most_frames.div_ceil(tasks as u32).max(1);
         let drawn = |(first, last): &(u32, u32)| last + 1 - first / every * every;
@@ -114,14 +115,15 @@ fn plan(
 }
 
 /// Returns the milliseconds of a frame, the first one left out.
-fn measure(offline: &mut Offline, report: &mut Report) -> Result<Option<f64>, RunError> {
+fn measure(
+    offline: &mut Offline,
+    report: &mut Report,
+    frame: impl Fn(&mut Offline) -> Result<f64, RunError>,
+) -> Result<Option<f64>, RunError> {
     let mut millis = Vec::new();
     for _ in 0..=MEASURED {
         offline.rewind_at_end()?;
-        let drawn = offline.draw()?;
-        let began = Instant::now();
-        tiles::draw_all(offline)?;
-        millis.push(drawn.millis + millis_since(began));
+        millis.push(frame(offline)?);
         report.frames += 1;
     }
     Ok(median(millis.split_off(1)))
@@ -130,8 +132,14 @@ fn measure(offline: &mut Offline, report: &mut Report) -> Result<Option<f64>, Ru
 impl Plan {
     fn words(&self, report: &Report) -> String {
         let frame_ms = report.frame_ms.unwrap_or_default();
-        let time = |frames: u32, millis: f64| duration(f64::from(frames) * millis / 1e3);
-        let each = |frames: u32| format!("at most {frames} frames each, {}", time(frames, frame_ms));
+        let state_ms = self.state_ms.unwrap_or(frame_ms);
+        // Of the frames of a task some are written; of the others, only what later ones read is drawn.
+        let written = self.writes.div_ceil(self.tasks as usize) as u32;
+        let each = |frames: u32| {
+            let seen = written.min(frames);
+            let secs = (f64::from(seen) * frame_ms + f64::from(frames - seen) * state_ms) / 1e3;
+            format!("at most {frames} frames each, {}", duration(secs))
+        };
         let depends = match self.state.is_empty() {
             true => "each can be drawn by itself".to_owned(),
             false => format!("each depends on those before, through {}", crate::project::listed(&self.state)),
@@ -145,12 +153,11 @@ impl Plan {
         let tasks = if self.tasks == 1 { "1 task".into() } else { format!("{} tasks", self.tasks) };
         lines.push(format!("{tasks}: {}", each(self.most_frames)));
         if let Some(resumed) = &self.resumed {
-            let state_ms = self.state_ms.unwrap_or(frame_ms);
             lines.push(format!(
                 "{tasks} from checkpoints (--checkpoint-every {}): {}, after {} for the checkpoints",
                 resumed.checkpoint_every,
                 each(resumed.most_frames),
-                time(resumed.serial_frames, state_ms)
+                duration(f64::from(resumed.serial_frames) * state_ms / 1e3)
             ));
         }
         lines.join("\n  ")

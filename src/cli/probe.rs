@@ -2,7 +2,7 @@
 
 use super::{
     args::ProbeArgs,
-    machine::{Machine, RunError, open_probed},
+    machine::{Machine, RunError, open_probed, pass_over},
     report::{Printer, Report},
     targets,
 };
@@ -81,10 +81,12 @@ fn probed(
         Ok(Probe { source, at, visit: args.visit })
     };
     let mut offline = open_probed(machine, report, &args.project, &args.run, (&pass, &probe), inputs)?;
-    for _ in 0..=args.frame {
-        offline.draw()?;
+    for _ in 0..args.frame {
+        pass_over(&mut offline, &args.run)?;
         report.frames += 1;
     }
+    offline.draw()?;
+    report.frames += 1;
     let pixels = offline.read(&BuildOptions::probed(), face)?;
     if let Some((x, y)) = args.pixel.filter(|&(x, y)| x >= pixels.width || y >= pixels.height) {
         let (width, height) = (pixels.width, pixels.height);

@@ -3,7 +3,7 @@
 use super::{
     args::RenderArgs,
     checkpoints::Checkpoints,
-    machine::{Machine, RunError, millis_since, open_measured, open_sound_of},
+    machine::{Machine, RunError, millis_since, open_measured, open_sound_of, pass_over},
     measured::{self, Measured, Measures},
     progress::CallProgress,
     recorded_sound::recorded_sound,
@@ -153,9 +153,6 @@ impl Job<'_> {
             let remark;
             (begin, remark) = checkpoints.resume(&mut offline, first)?;
             remark.into_iter().for_each(|what| note(report, what));
-            if !targets.writes() && measures.is_empty() {
-                checkpoints.leave_pictures_out(&mut offline, (&project, &media))?;
-            }
         }
         if !jumps && args.shard.is_some() && args.resume.is_none() && first > 0 {
             note_state(report, first);
@@ -165,8 +162,15 @@ impl Job<'_> {
             Some(secs) if targets.writes() => Some(self.seam(machine, report, (secs, &project), &missing, inputs)?),
             _ => None,
         };
+        // Of a frame that nobody sees, what later ones read is enough. A number of frames is drawn as it says.
+        let sees_none = !targets.writes() && measures.is_empty() && checkpoints.is_some();
+        let draws_all = targets.drawn.is_some() && !sees_none;
+        let is_seen = |frame: &u32| {
+            let is_written = targets.writes() && missing.binary_search(frame).is_ok();
+            !sees_none && (is_written || !targets.writes() || measures_all)
+        };
         let mut writer = None;
-        let (mut millis, mut written) = (Vec::new(), Vec::new());
+        let (mut millis, mut unseen_millis, mut written) = (Vec::new(), Vec::new(), Vec::new());
         let draws = if jumps { wanted.len() as u32 } else { frames - begin };
         let progress = self.progress.begin(&report.title(), self.part.len(), draws);
         for step in steps(begin..frames, &wanted, jumps) {
@@ -178,8 +182,10 @@ impl Job<'_> {
             let layer = args.face.unwrap_or(picture.target);
             // The inputs of a frame whose parts are drawn for each strip of its picture.
             let mut parts = None;
+            let is_whole = draws_all || is_wanted && is_seen(&frame);
             let took = match args.shutter.filter(|_| is_wanted && targets.writes()) {
-                None => offline.draw()?.millis,
+                None if is_whole => offline.draw()?.millis,
+                None => pass_over(&mut offline, &args.run)?.millis,
                 Some(shutter) => {
                     let inputs = offline.next_inputs()?;
                     let secs = shutter / args.run.fps;
@@ -193,7 +199,11 @@ impl Job<'_> {
                     drawn.millis
                 }
             };
-            millis.push(took);
+            if is_whole {
+                millis.push(took);
+            } else {
+                unseen_millis.push(took);
+            }
             report.frames += 1;
             progress.step();
             if let Some(checkpoints) = &checkpoints {
@@ -253,6 +263,9 @@ impl Job<'_> {
         if let Some((jumps, what)) = seam.and_then(Seam::verdict) {
             let severity = if jumps { Severity::Warning } else { Severity::Note };
             report.diagnose(&[Diagnostic::new(severity, None, what)], &SourceMap::default(), None);
+        }
+        if millis.is_empty() {
+            millis = unseen_millis;
         }
         // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
         if millis.len() > 1 {

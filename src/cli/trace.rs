@@ -3,7 +3,7 @@
 use super::{
     args::TraceArgs,
     divergence::{self, DivergenceReport},
-    machine::{Machine, RunError, open},
+    machine::{Machine, RunError, open, pass_over},
     nonfinite::{self, Begin},
     printed::{self, Printed},
     report::{Printer, Report},
@@ -143,7 +143,7 @@ fn traced(
     let pass = &args.pass.pass;
     let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs.clone())?;
     for _ in 0..args.frame {
-        offline.draw()?;
+        pass_over(&mut offline, &args.run)?;
     }
     let before = (args.probes > 0).then(|| Ok::<_, RunError>(offline.engine()?.snapshot()?)).transpose()?;
     let face = args.face().map_err(anyhow::Error::msg)?;

@@ -31,6 +31,8 @@ pub(super) enum DrawMode<'a, 'b> {
     Inspected(&'a mut Capture<'b>),
     /// All but a last draw that can be done in pieces, which [`Running::draw_remaining`] does.
     Divided,
+    /// The draws that frames to come depend on.
+    Lasting,
 }
 
 /// Hands in what is encoded, and waits for it.
@@ -51,7 +53,10 @@ impl Running {
         mut mode: DrawMode<'_, '_>,
     ) -> Result<FrameStats, EngineError> {
         self.drop_remaining();
-        let off = self.turn_off(shared);
+        let mut off = self.turn_off(shared);
+        if matches!(mode, DrawMode::Lasting) {
+            off.iter_mut().zip(self.program.plan.lasting_draws()).for_each(|(off, lasts)| *off |= !lasts);
+        }
         let gpu = &shared.gpu;
         self.program.externals.iter_mut().for_each(|external| external.update(gpu, inputs));
         self.set_uniforms(gpu, inputs);

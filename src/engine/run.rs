@@ -137,6 +137,15 @@ impl Engine {
         Ok(stats)
     }
 
+    /// Draws of a frame what frames to come depend on, and nothing else: no picture that only this frame would show. Those
+    /// to come are the same as after [`Engine::draw`]. What other passes hold until the next frame is not said.
+    pub fn advance(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
+        let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
+        let stats = running.draw(&self.shared, None, inputs, DrawMode::Lasting)?;
+        self.shared.gpu.take_trouble("a frame")?;
+        Ok(stats)
+    }
+
     /// Returns the size of the picture that is drawn in tiles, and the largest tile; `None` where the running program has no
     /// such pass.
     pub fn tiles(&self) -> Option<((u32, u32), (u32, u32))> {

@@ -115,7 +115,7 @@ impl Seam {
         if self.jumps {
             later.skip()?;
         } else {
-            later.draw()?;
+            later.advance()?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Owns the questions of what one frame leaves to the next, and which draw of a frame may be done in pieces, with
 //! anything between them.
 
-use super::{FramePlan, ReadTiming, TexelSource};
+use super::{Draw, FramePlan, ReadTiming, TexelSource};
 use eddy_texture::Dimension;
 
 /// The part of a target that the frames to come depend on.
@@ -29,6 +29,26 @@ impl FramePlan {
             |source: &TexelSource| *source == TexelSource::Target { index: target, when: ReadTiming::LastFrame };
         let is_read = self.draws.iter().flat_map(|draw| draw.reads.iter().flatten()).any(|read| is_read(&read.source));
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
+    }
+
+    /// Returns of each draw whether frames to come depend on it: on what it leaves to the next one, or on what another such
+    /// draw of its own frame reads of it.
+    pub fn lasting_draws(&self) -> Vec<bool> {
+        let leaves = |draw: &Draw| draw.targets.clone().any(|target| self.carried(target) != Carried::Nothing);
+        let mut lasting: Vec<bool> = self.draws.iter().map(leaves).collect();
+        // What a draw reads of its own frame was drawn before it.
+        for reader in (0..self.draws.len()).rev() {
+            if !lasting[reader] {
+                continue;
+            }
+            for read in self.draws[reader].reads.iter().flatten() {
+                let TexelSource::Target { index, when: ReadTiming::ThisFrame } = read.source else { continue };
+                for (earlier, draw) in self.draws[..reader].iter().enumerate() {
+                    lasting[earlier] |= draw.targets.contains(&index);
+                }
+            }
+        }
+        lasting
     }
 
     /// Returns the last draw of a frame if nobody can tell in how many pieces it was done, nor, until the next frame

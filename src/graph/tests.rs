@@ -413,6 +413,31 @@ fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
 }
 
 #[test]
+fn frames_to_come_depend_on_what_leads_to_what_they_read() {
+    // A is read by B in its own frame, B by itself in the next; C shows B, and Image shows C.
+    let mut project = project(vec![
+        pass(id("A"), [None, None, None, None]),
+        pass(id("B"), [buffer("A"), buffer("B"), None, None]),
+        pass(id("C"), [buffer("B"), None, None, None]),
+        pass(PassId::Image, [buffer("C"), None, None, None]),
+    ]);
+    let mut facts = vec![reads_all(); 4];
+    let lasting = |project: &Project, facts: &[PassFacts]| FramePlan::new(project, facts, &[], true).lasting_draws();
+    assert_eq!(lasting(&project, &facts), [true, true, false, false]);
+    // A `discard` shows what was there before.
+    facts[2].discards = true;
+    assert_eq!(lasting(&project, &facts), [true, true, true, false]);
+    facts[2].discards = false;
+    // A reads what C left.
+    project.passes[0].channels[0] = buffer("C");
+    assert_eq!(lasting(&project, &facts), [true, true, true, false]);
+    // Nothing is read of a frame before.
+    project.passes[0].channels[0] = None;
+    project.passes[1].channels[1] = None;
+    assert_eq!(lasting(&project, &facts), [false; 4]);
+}
+
+#[test]
 fn a_last_draw_may_be_done_in_pieces_where_nobody_can_tell() {
     let mut project = project(vec![
         pass(id("A"), [buffer("B"), None, None, None]),

@@ -187,12 +187,28 @@ impl Offline {
         self.draw_with(inputs)
     }
 
+    /// Does of the next frame what frames to come depend on, and draws no picture that only it would show: see
+    /// [`Engine::advance`]. Waits until the device has finished.
+    pub fn advance(&mut self) -> Result<DrawnFrame, OfflineError> {
+        let inputs = self.next_inputs()?;
+        self.finish(inputs, Engine::advance)
+    }
+
     fn draw_with(&mut self, inputs: FrameInputs) -> Result<DrawnFrame, OfflineError> {
+        self.finish(inputs, Engine::draw)
+    }
+
+    /// Does a frame's work and waits for the device.
+    fn finish(
+        &mut self,
+        inputs: FrameInputs,
+        work: fn(&mut Engine, &FrameInputs) -> Result<FrameStats, EngineError>,
+    ) -> Result<DrawnFrame, OfflineError> {
         let number = inputs.frame;
         self.newest = (number, Some(Instant::now()));
         self.within(number, move |engine| {
             let began = Instant::now();
-            let stats = engine.draw(&inputs)?;
+            let stats = work(engine, &inputs)?;
             let cpu_millis = millis_since(began);
             engine.gpu().wait()?;
             Ok(DrawnFrame { number, stats, cpu_millis, millis: millis_since(began) })

@@ -124,6 +124,22 @@ fn drawing_what_nobody_needs_changes_no_byte() {
             bits(&engine.read(&PassId::Image).unwrap())
         });
         assert!(pictures[0] == pictures[1], "{name} is another picture when nothing is skipped");
+        // Of frames that nobody sees, what others read is enough: some are seen one after the other, some not at all.
+        let mut engine = engines.whole(&project, true, (48, 27));
+        let mut drawn = 0;
+        for frame in 0..12 {
+            let frame_stats = match frame {
+                3 | 4 | 11 => engine.draw(&drag(frame)).unwrap(),
+                _ => engine.advance(&drag(frame)).unwrap(),
+            };
+            drawn += if matches!(frame, 7) { frame_stats.passes_drawn } else { 0 };
+        }
+        assert!(
+            bits(&engine.read(&PassId::Image).unwrap()) == pictures[0],
+            "{name} depends on frames that were not seen"
+        );
+        let most = engine.draw(&drag(12)).unwrap().passes_drawn;
+        assert!(drawn < most, "{name}: {drawn} of {most} draws of a frame that nobody sees");
     }
 }
 

@@ -86,7 +86,7 @@ impl<'s> Driver<'s> {
         let mut seen = Seen::default();
         let mut run = self.begin(case)?;
         while run.frame < case.frames {
-            let frame = run.draw()?;
+            let frame = run.draw(case.is_checked(run.frame))?;
             if !case.is_checked(frame) {
                 continue;
             }
@@ -131,7 +131,7 @@ impl<'s> Driver<'s> {
         let mut run = self.begin(case)?;
         let mut last = None;
         while run.frame <= at.1 {
-            let frame = run.draw()?;
+            let frame = run.draw(run.frame >= at.0)?;
             if frame < at.0 {
                 continue;
             }
@@ -166,7 +166,7 @@ impl<'s> Driver<'s> {
         let mut most = vec![0.0f64; self.subject.checks.len()];
         let mut run = self.begin(&twin)?;
         while run.frame < twin.frames {
-            let frame = run.draw()?;
+            let frame = run.draw(twin.is_checked(run.frame))?;
             if twin.is_checked(frame) {
                 for (most, looked) in most.iter_mut().zip(run.look(&conditions)?) {
                     *most = most.max(looked.found.rms);
@@ -198,8 +198,8 @@ struct FrameCheck {
 }
 
 impl Run<'_, '_, '_> {
-    /// Draws the next frame and gives its number.
-    fn draw(&mut self) -> Result<u32, LabError> {
+    /// Draws the next frame and gives its number. Of one that is not looked at only what later ones read.
+    fn draw(&mut self, is_seen: bool) -> Result<u32, LabError> {
         let engine = &mut self.driver.engine;
         let frame = self.frame;
         for (_, (width, height)) in self.case.resizes.iter().filter(|(at, _)| *at == frame) {
@@ -217,7 +217,11 @@ impl Run<'_, '_, '_> {
             }
         }
         let inputs = self.inputs.next(engine.size());
-        engine.draw(&inputs)?;
+        if is_seen {
+            engine.draw(&inputs)?
+        } else {
+            engine.advance(&inputs)?
+        };
         if (frame + 1).is_multiple_of(FRAMES_IN_FLIGHT) {
             engine.gpu().wait()?;
         }

@@ -223,7 +223,7 @@ impl Drawing<'_> {
                 offline.skip().map_err(OfflineError::from)?;
                 continue;
             }
-            offline.draw()?;
+            let _ = if step.is_wanted { offline.draw()? } else { offline.advance()? };
             drawn += 1;
             if step.is_wanted {
                 let pixels = shown.read(&mut offline)?;
