@@ -2,7 +2,7 @@
 
 use crate::support::rig;
 use eddy::lab::{
-    Extent, Rig, Running, Setup,
+    Extent, Point, Rig, Running, Setup,
     metrics::{Norms, order},
     reference::{
         gaussian_on_torus,
@@ -167,6 +167,25 @@ fn one_v_cycle_leaves_less_than_a_fifth() {
     assert!(Norms::of(&jacobi, &exact).l2 > 0.9, "twenty sweeps do next to nothing");
 }
 
+/// Exponential time differencing errs by its step alone, at second order.
+#[test]
+fn exponential_time_differencing_is_of_second_order() {
+    let Some(rig) = rig() else { return };
+    let error = |method: &str, setting: f64| {
+        let point = Point { study: "gray-scott".into(), method: method.into(), setting, grid: 64 };
+        (gray_scott::STUDY.measure)(&rig, &point).unwrap().norms.l2
+    };
+    let errors = [4.0, 2.0, 1.0].map(|dt| error("etd", dt));
+    let blurred = error("strang-blur", 2.0);
+    println!("etd {errors:.6?}, strang-blur {blurred:.6}");
+    // It is 2.5 at these steps.
+    let observed = order(errors[0], errors[2], 4.0);
+    assert!(observed > 1.8 && errors[1] < 0.1 * blurred, "{errors:?}, order {observed}, strang-blur {blurred}");
+    // A wave grows as in the continuum: there is no stencil.
+    let (measured, _, continuum) = gray_scott::grown(&rig, "etd", 1.0).unwrap();
+    assert!((measured / continuum - 1.0).abs() < 0.02, "{measured} for {continuum}");
+}
+
 #[test]
 fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
     let Some(rig) = rig() else { return };
@@ -222,7 +241,7 @@ fn a_normalised_blur_keeps_what_there_is_and_nine_taps_do_not() {
         [("nine-normalised", 0.0), ("gaussian", 0.0), ("nine", 0.98 * 0.98 - 1.0), ("tent-pyramid", 0.0)]
     {
         let setting = blur.methods.iter().find(|m| m.name == method).unwrap().usual;
-        let point = eddy::lab::Point { study: "blur".into(), method: method.into(), setting, grid };
+        let point = Point { study: "blur".into(), method: method.into(), setting, grid };
         let drift = (blur.measure)(&rig, &point).unwrap().values["mass_drift"].0;
         assert!((drift - expected).abs() < 1e-6, "{method}: {drift}");
     }

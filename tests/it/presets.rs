@@ -50,7 +50,7 @@ fn what_projects_share_is_the_same_in_each() {
                 "spread_x.glsl",
             ],
         ),
-        (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
+        (LAB, &["gray_scott_blur", "gray_scott_stencil", "gray_scott_etd"], &["image.glsl"]),
         (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
     ] {
         for file in files {
@@ -65,9 +65,10 @@ fn what_projects_share_is_the_same_in_each() {
         (&["fluid_projection", "fluid_strang"], &["vec2 vortex(", "float pressureAt(", "vec2 bilinear("]),
         (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
         (
-            &["gray_scott_blur", "gray_scott_stencil"],
+            &["gray_scott_blur", "gray_scott_stencil", "gray_scott_etd"],
             &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
         ),
+        (&["gray_scott_etd", "poisson_fft"], &["vec2 turn(", "vec2 times("]),
         (&["poisson_cycle", "poisson_jacobi", "poisson_sor", "poisson_chebyshev"], &["vec2 at(", "float solved("]),
     ] {
         for begin in begins {

@@ -2,7 +2,7 @@
 //! reverses bits (Van Loan, Computational Frameworks for the Fast Fourier Transform, section 1.7).
 
 use super::cycle;
-use eddy_project::{PassSize, Project};
+use eddy_project::{Pass, PassSize, Project, TexelFormat};
 
 const STAGE: &str = include_str!("../../../assets/lab/poisson_fft/stage.glsl");
 
@@ -12,29 +12,53 @@ const STAGE: &str = include_str!("../../../assets/lab/poisson_fft/stage.glsl");
 /// # Panics
 /// If the project is not that of `poisson_fft`.
 pub fn add(project: &mut Project, n: u32) {
-    let mut texts = Vec::new();
-    for sign in ["-1.0", "1.0"] {
-        for along in ["x", "y"] {
-            let mut span = 1;
-            while span < n {
-                // Radix 4, and 2 once where the size is no power of four.
-                let radix = if (n / span).is_multiple_of(4) { 4 } else { 2 };
-                let is_last = sign == "-1.0" && along == "y" && span * radix == n;
-                let divide = if is_last { "#define DIVIDE\n" } else { "" };
-                texts.push(format!(
-                    "#define RADIX {radix}\n#define SPAN {span}\n#define ALONG {along}\n#define SIGN {sign}\n{divide}{STAGE}"
-                ));
-                span *= radix;
-            }
-        }
+    let mut there = stages((n, n), Direction::There);
+    if let Some(last) = there.last_mut() {
+        last.insert_str(0, "#define DIVIDE\n");
     }
+    let all = there.into_iter().chain(stages((n, n), Direction::Back));
+    let mut texts: Vec<String> = all.map(|stage| stage + STAGE).collect();
     let end = texts.pop().unwrap_or_default();
-    let (mut passes, mut last) = (Vec::new(), "source".to_owned());
-    for (number, text) in texts.iter().enumerate() {
-        let name = format!("stage{number}");
-        passes.push(cycle::pass(&name, text, PassSize::Canvas, &[&last]));
-        last = name;
-    }
+    let (passes, last) = chain("stage", &texts, "source", TexelFormat::Rg32f);
     let field = cycle::insert(project, passes, "field");
     (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
+}
+
+/// The way of a transform: from a picture to its waves, or back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    There,
+    Back,
+}
+
+/// Returns for each pass of a transform along both axes the macros that stand before the text of `stage.glsl`. A side is
+/// a power of two.
+pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
+    let sign = if direction == Direction::There { "-1.0" } else { "1.0" };
+    let mut stages = Vec::new();
+    for (along, n) in [("x", size.0), ("y", size.1)] {
+        let mut span = 1;
+        while span < n {
+            // Radix 4, and 2 once where the size is no power of four.
+            let radix = if (n / span).is_multiple_of(4) { 4 } else { 2 };
+            stages.push(format!(
+                "#define RADIX {radix}\n#define SPAN {span}\n#define ALONG {along}\n#define SIGN {sign}\n"
+            ));
+            span *= radix;
+        }
+    }
+    stages
+}
+
+/// Returns buffers of these texts, each of which reads the one before, and the first `from`; and the name of the last.
+pub fn chain(name: &str, texts: &[String], from: &str, format: TexelFormat) -> (Vec<Pass>, String) {
+    let (mut passes, mut last) = (Vec::new(), from.to_owned());
+    for (number, text) in texts.iter().enumerate() {
+        let name = format!("{name}{number}");
+        let mut pass = cycle::pass(&name, text, PassSize::Canvas, &[&last]);
+        pass.settings.format = format;
+        passes.push(pass);
+        last = name;
+    }
+    (passes, last)
 }

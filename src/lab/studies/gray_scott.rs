@@ -1,5 +1,10 @@
-//! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler against Strang's splitting, and the preset.
+//! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler against Strang's splitting and exponential time
+//! differencing, and the preset.
 
+use super::{
+    cycle,
+    fft::{self, Direction},
+};
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, area_above, mean},
@@ -7,7 +12,7 @@ use crate::{
     setup::{Storage, frames_of, pass},
     three_of,
 };
-use eddy_project::TexelFormat;
+use eddy_project::{PassId, Project, TexelFormat};
 use std::f64::consts::TAU;
 
 const EULER: &[f64] = &[0.25, 0.5, 1.0];
@@ -25,6 +30,12 @@ const METHODS: &[Method] = &[
         settings: &[0.5, 1.0, 2.0, 4.0, 8.0],
         usual: 2.0,
     },
+    Method {
+        name: "etd",
+        title: "exponential time differencing (ETD2) by a Fourier transform",
+        settings: &[0.5, 1.0, 2.0, 4.0, 8.0],
+        usual: 2.0,
+    },
     Method { name: "reaction-diffusion", title: "the preset reaction-diffusion", settings: EULER, usual: 1.0 },
     Method { name: "reaction-diffusion-rg16f", title: "the preset, in rg16f", settings: &[1.0], usual: 1.0 },
     Method {
@@ -38,9 +49,33 @@ const METHODS: &[Method] = &[
 /// The preset's rates of diffusion are Pearson's: so many times those of the other methods.
 const FASTER: f64 = 0.209_715_2 / DIFFUSION[0];
 
-/// Width of the strip on which growth is measured, and waves across it: q = .5236, close to what grows fastest.
-const STRIP: u32 = 96;
-const WAVES: f64 = 8.0;
+/// Returns the width of the strip on which growth is measured, and the waves across it: .52 and .54 radians a texel are close
+/// to what grows fastest. A transform has sides that are powers of two.
+fn strip(name: &str) -> (u32, f64) {
+    if name == "etd" { (128, 11.0) } else { (96, 8.0) }
+}
+
+const STAGE: &str = include_str!("../../../assets/lab/gray_scott_etd/stage.glsl");
+
+/// Adds the passes of the transform of a step's terms, and of the inverse transform of its end, to `gray_scott_etd`.
+fn transformed(project: &mut Project, size: (u32, u32)) {
+    let texts =
+        |direction| -> Vec<String> { fft::stages(size, direction).into_iter().map(|stage| stage + STAGE).collect() };
+    let mut back = texts(Direction::Back);
+    let end = back.pop().unwrap_or_default();
+    let (passes, last) = fft::chain("back", &back, "step", TexelFormat::Rg32f);
+    let field = cycle::insert(project, passes, "field");
+    (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
+    // The waves of the terms are there before both passes that read them.
+    let (passes, waves) = fft::chain("there", &texts(Direction::There), "terms", TexelFormat::Rgba32f);
+    let step = cycle::insert(project, passes, "step");
+    step.channels = cycle::channels(&[&waves, "history"]);
+    if let Some(history) = project.pass_mut(&pass("history")) {
+        history.channels = cycle::channels(&[&waves]);
+    }
+    let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image).collect();
+    project.groups.iter_mut().for_each(|group| group.passes.clone_from(&buffers));
+}
 
 fn time(grid: u32) -> f64 {
     if grid <= 64 { 200.0 } else { 400.0 }
@@ -74,6 +109,7 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
     let stencil = |points: u32| Setup::new("gray_scott_stencil", size).define("STENCIL", points);
     let setup = match name {
         "strang-blur" => Setup::new("gray_scott_blur", size),
+        "etd" => Setup::new("gray_scott_etd", size).built(move |project| transformed(project, size)),
         "mehrstellen" => stencil(9),
         "strang-mehrstellen" => stencil(9).define("SPLIT", 1),
         "five-point-rgba32f" | "five-point-rgba16f" => stencil(5).built(|project| {
@@ -97,27 +133,28 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
 /// Growth of the wave that grows almost fastest, for a unit of time: measured, of theory in steps of the method, and of
 /// the continuum. Begins with 1e-4 of the growing direction about the state of rest.
 pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError> {
-    let q = TAU * WAVES / f64::from(STRIP);
+    let (strip, waves) = strip(name);
+    let q = TAU * waves / f64::from(strip);
     // Where diffusion is faster a wave is as one that is as much shorter.
     let faster = if is_preset(name) { FASTER } else { 1.0 };
     let ([u, v], (continuum, [du, dv])) = (rest(), growth(faster * q * q));
     let scale = 1e-4 / du.hypot(dv);
     let (seed_u, seed_v) = (scale * du, scale * dv);
     let seed = |i: u32| {
-        let wave = (q * (f64::from(i % STRIP) + 0.5)).cos();
+        let wave = (q * (f64::from(i % strip) + 0.5)).cos();
         texel(name, u + seed_u * wave, v + seed_v * wave)
     };
-    let seeds: Vec<[f32; 4]> = (0..STRIP * 4).map(seed).collect();
+    let seeds: Vec<[f32; 4]> = (0..strip * 4).map(seed).collect();
     let total = (200.0 / dt) as u32;
     let (frames, steps) = frames_of(total, 20);
     let (field, group) = parts(name);
-    let setup = method(name, (STRIP, 4), dt).state(field, &seeds).steps(group, steps);
+    let setup = method(name, (strip, 4), dt).state(field, &seeds).steps(group, steps);
     let mut running = rig.open(&setup)?;
     let mut amplitude = |frames| {
         running.frames(frames)?;
         let [u, v] = state(&mut running, name)?;
         let wave = |x: usize| (q * (x as f64 + 0.5)).cos();
-        let along = |c: &[f64]| c.iter().enumerate().map(|(i, w)| w * wave(i % STRIP as usize)).sum::<f64>();
+        let along = |c: &[f64]| c.iter().enumerate().map(|(i, w)| w * wave(i % strip as usize)).sum::<f64>();
         Ok::<f64, LabError>(along(&u) * du + along(&v) * dv)
     };
     // The other direction of the two dies out before.

@@ -78,7 +78,7 @@ impl History {
             let Some(frame) = self.frame(frame).cloned() else { return Ok(false) };
             engine.resize(frame.size.0, frame.size.1)?;
             engine.set_custom_uniforms(&frame.values);
-            engine.draw(&frame.inputs)?;
+            engine.advance(&frame.inputs)?;
         }
         engine.gpu().wait()?;
         engine.set_custom_uniforms(&self.values);
