@@ -153,7 +153,7 @@ mod tests {
                 }
             }
         }
-        assert!(accepted > 800, "{accepted}");
+        assert!(accepted > 890, "{accepted}");
     }
 
     #[test]
