@@ -55,7 +55,7 @@ impl Running {
         self.drop_remaining();
         let mut off = self.turn_off(shared);
         if matches!(mode, DrawMode::Lasting) {
-            off.iter_mut().zip(self.program.plan.lasting_draws()).for_each(|(off, lasts)| *off |= !lasts);
+            off.iter_mut().zip(&self.lasting).for_each(|(off, lasts)| *off |= !lasts);
         }
         let gpu = &shared.gpu;
         self.program.externals.iter_mut().for_each(|external| external.update(gpu, inputs));

@@ -32,6 +32,8 @@ pub(super) struct Running {
     pub steps_drawn: Vec<u32>,
     /// The draw of the newest frame that is not done yet.
     pub rest: Option<RemainingRows>,
+    /// Says of each draw whether frames to come depend on it.
+    pub lasting: Vec<bool>,
 }
 
 /// A last draw of a frame that is not done yet.
@@ -91,6 +93,7 @@ impl Running {
             timer: None,
             steps_drawn: Vec::new(),
             rest: None,
+            lasting: program.plan.lasting_draws(),
             program,
         };
         running.uniforms.set_custom_uniforms(

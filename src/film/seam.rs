@@ -47,8 +47,8 @@ impl Fade {
             let frames = period * rate.per_second();
             let periods = (f64::from(count) / frames).round();
             if periods >= 1.0 && (periods * frames - f64::from(count)).abs() <= 0.5 {
-                let length = if periods == 1.0 { "the period".to_owned() } else { format!("{periods} periods") };
-                let period = format!("; nothing is faded, as the film is {length} of the project long");
+                let length = if periods == 1.0 { "one period".to_owned() } else { format!("{periods} periods") };
+                let period = format!("; nothing is faded: the film is {length} of the project");
                 return Ok(Fade { secs: 0.0, frames: 0, period });
             }
         }
@@ -192,10 +192,10 @@ mod tests {
         assert_eq!(fade(1.0, None, 60.0, 90).unwrap(), Fade { secs: 1.0, frames: 60, period: String::new() });
         assert!(fade(2.0, None, 60.0, 90).unwrap_err().contains("1.50 s"));
         for (period, fps, count, said) in [
-            (2.0, 60.0, 120, "is the period of the project"),
+            (2.0, 60.0, 120, "is one period of the project"),
             (2.0, 60.0, 360, "3 periods"),
             // Twice pi is 376.99 frames.
-            (std::f64::consts::TAU, 60.0, 377, "is the period of the project"),
+            (std::f64::consts::TAU, 60.0, 377, "is one period of the project"),
         ] {
             // The film may be shorter than the fade that it does not need.
             let fade = fade(100.0, Some(period), fps, count).unwrap();
