@@ -165,10 +165,6 @@ impl Job<'_> {
         // Of a frame that nobody sees, what later ones read is enough. A number of frames is drawn as it says.
         let sees_none = !targets.writes() && measures.is_empty() && checkpoints.is_some();
         let draws_all = targets.drawn.is_some() && !sees_none;
-        let is_seen = |frame: &u32| {
-            let is_written = targets.writes() && missing.binary_search(frame).is_ok();
-            !sees_none && (is_written || !targets.writes() || measures_all)
-        };
         let mut writer = None;
         let (mut millis, mut unseen_millis, mut written) = (Vec::new(), Vec::new(), Vec::new());
         let draws = if jumps { wanted.len() as u32 } else { frames - begin };
@@ -182,7 +178,7 @@ impl Job<'_> {
             let layer = args.face.unwrap_or(picture.target);
             // The inputs of a frame whose parts are drawn for each strip of its picture.
             let mut parts = None;
-            let is_whole = draws_all || is_wanted && is_seen(&frame);
+            let is_whole = draws_all || is_wanted && !sees_none;
             let took = match args.shutter.filter(|_| is_wanted && targets.writes()) {
                 None if is_whole => offline.draw()?.millis,
                 None => pass_over(&mut offline, &args.run)?.millis,

@@ -1,5 +1,5 @@
-//! Owns the questions of what one frame leaves to the next, and which draw of a frame may be done in pieces, with
-//! anything between them.
+//! Owns the questions of what one frame leaves to the next, which draws the frames to come depend on, and which draw of a
+//! frame may be done in pieces, with anything between them.
 
 use super::{Draw, FramePlan, ReadTiming, TexelSource};
 use eddy_texture::Dimension;

@@ -223,9 +223,11 @@ impl Drawing<'_> {
                 offline.skip().map_err(OfflineError::from)?;
                 continue;
             }
-            let _ = if step.is_wanted { offline.draw()? } else { offline.advance()? };
             drawn += 1;
-            if step.is_wanted {
+            if !step.is_wanted {
+                offline.advance()?;
+            } else {
+                offline.draw()?;
                 let pixels = shown.read(&mut offline)?;
                 let pixels = match &mut seam {
                     Some(seam) => seam.join(pixels, |later| shown.read(later))?,
