@@ -1,6 +1,7 @@
 //! End to end: the real window on a display of its own, moved by real mouse and key events, judged by what it saved.
 
 use crate::support::window::{Display, Window, folder_of};
+use serde_json::Value;
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -46,12 +47,21 @@ impl Texels {
     }
 }
 
-/// Presses a key that saves something and gives the file's path as the notice says it.
+/// Presses a key that saves something and gives the file's path as the notice says it. A project that has just been
+/// opened has no picture before its first compile, which the window answers with a warning: the key is pressed again.
 fn saved(window: &mut Window, key: &str) -> PathBuf {
-    window.drain();
-    window.keys(&[key]);
-    let notice = window.wait_for("a saved file", |e| e["event"] == "notice" && e["path"].is_string());
-    PathBuf::from(notice["path"].as_str().unwrap())
+    for _ in 0..100 {
+        window.drain();
+        window.keys(&[key]);
+        let has_no_picture = |e: &Value| e["text"].as_str().is_some_and(|text| text.contains("no picture to save yet"));
+        let notice =
+            window.wait_for("a saved file", |e| e["event"] == "notice" && (e["path"].is_string() || has_no_picture(e)));
+        if let Some(path) = notice["path"].as_str() {
+            return PathBuf::from(path);
+        }
+        window.compiled();
+    }
+    panic!("no picture to save after a hundred presses of {key}");
 }
 
 fn saved_texels(window: &mut Window, pass: &str) -> Texels {
@@ -65,7 +75,7 @@ fn saved_texels(window: &mut Window, pass: &str) -> Texels {
     Texels::read(&path)
 }
 
-fn compiled(window: &mut Window, ok: bool) -> serde_json::Value {
+fn compiled(window: &mut Window, ok: bool) -> Value {
     window.wait_until(&format!("a compile that ends with ok = {ok}"), "compiled", |e| {
         e["compiling"] == false && e["ok"] == ok
     })
