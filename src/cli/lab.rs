@@ -7,7 +7,7 @@ use super::{
     precision, stability,
 };
 use crate::lab::{
-    Extent, LabError, RESULTS_FILE, Results, Study,
+    Extent, LabError, PresentFingerprints, RESULTS_FILE, Results, Study,
     cost::MIN_REPEATS,
     report,
     run::{self, Options, Step},
@@ -57,11 +57,12 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
     finish(measured.and_then(|results| report(out, &studies, &results)))
 }
 
-/// Keeps what `out` holds of an earlier merge where `from` has nothing newer.
+/// Keeps what `out` holds of an earlier merge where `from` has nothing newer, and nothing of this build's texts.
 fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
     let before = out.join(RESULTS_FILE).exists().then(|| out.to_owned());
     let folders: Vec<PathBuf> = before.into_iter().chain(from.iter().cloned()).collect();
-    let results = Results::merge(&folders)?;
+    let mut present = PresentFingerprints::default();
+    let results = Results::merge(&folders, |record| present.has(record))?;
     results.write(out)?;
     report(out, &studies::all(), &results)
 }

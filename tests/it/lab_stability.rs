@@ -207,7 +207,7 @@ fn a_run_goes_on_and_shards_together_are_the_whole() {
     assert_eq!(drawn(dirs[0].path(), "0/1").unwrap().0, 0, "nothing is drawn twice");
     let halves = [drawn(dirs[1].path(), "0/2").unwrap().0, drawn(dirs[2].path(), "1/2").unwrap().0];
     assert_eq!(halves[0] + halves[1], all);
-    let merged = Results::merge(&[dirs[1].path().into(), dirs[2].path().into()]).unwrap();
+    let merged = Results::merge(&[dirs[1].path().into(), dirs[2].path().into()], |_| false).unwrap();
     // As texts: NaN is not equal to itself.
     let summaries = |results: &Results| {
         let mut all: Vec<String> = results.cases.iter().map(|case| format!("{case:?}")).collect();

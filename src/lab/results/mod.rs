@@ -150,6 +150,25 @@ impl Results {
         self.error(point)?.measured.as_ref()
     }
 
+    /// The record that another one would replace, where the two were measured of different texts or settings.
+    fn of_other_texts(&self, new: &Record) -> Option<Record> {
+        match new {
+            Record::Run(_) => None,
+            Record::Error(new) => {
+                let known = self.errors.iter().find(|e| e.point == new.point && e.setup != new.setup);
+                known.cloned().map(Record::Error)
+            }
+            Record::Cost(new) => {
+                let known = self.costs.iter().find(|c| c.point == new.point && c.setup != new.setup);
+                known.cloned().map(Record::Cost)
+            }
+            Record::Stability(new) => {
+                let known = self.cases.iter().find(|c| c.is_same_case(new) && c.texts != new.texts);
+                known.cloned().map(Record::Stability)
+            }
+        }
+    }
+
     fn records(&self) -> impl Iterator<Item = Record> {
         let runs = self.runs.iter().cloned().map(Record::Run);
         let errors = self.errors.iter().cloned().map(Record::Error);
@@ -178,8 +197,10 @@ impl Results {
     }
 
     /// The records of several folders together, which must be of one device, driver, version and extent: a report has
-    /// the grids of one extent, and puts costs side by side.
-    pub fn merge(folders: &[PathBuf]) -> Result<Results, LabError> {
+    /// the grids of one extent, and puts costs side by side. Where two folders have measured the same, the record that
+    /// `is_present` (see [`PresentFingerprints`](super::PresentFingerprints)) counts: a folder that began as a copy of
+    /// another has records of texts that were changed since. Otherwise that of the later folder does.
+    pub fn merge(folders: &[PathBuf], mut is_present: impl FnMut(&Record) -> bool) -> Result<Results, LabError> {
         let mut all = Results::default();
         let mut first: Option<(&Path, Provenance)> = None;
         for folder in folders {
@@ -193,7 +214,12 @@ impl Results {
                     return Err(LabError::Mixed { folder, first, what, theirs, ours });
                 }
             }
-            results.records().for_each(|record| all.add(record));
+            for record in results.records() {
+                let known = all.of_other_texts(&record);
+                if !known.is_some_and(|known| is_present(&known) && !is_present(&record)) {
+                    all.add(record);
+                }
+            }
         }
         Ok(all)
     }

@@ -1,5 +1,8 @@
 use super::*;
-use crate::HardCase;
+use crate::{
+    HardCase,
+    cost::{Clock, Times},
+};
 
 fn run() -> Provenance {
     let text = |t: &str| t.to_owned();
@@ -53,13 +56,13 @@ fn another_runs_results_are_neither_gone_on_with_nor_merged() {
         let refused = Journal::open(two.path(), &run()).err().unwrap().to_string();
         let there_and_here = difference.replace("against", "there,") + " here";
         assert!(refused.contains(&there_and_here), "{refused}");
-        let refused = Results::merge(&both).unwrap_err().to_string();
+        let refused = Results::merge(&both, |_| false).unwrap_err().to_string();
         assert!(refused.contains(difference), "{refused}");
         assert!(both.iter().all(|folder| refused.contains(&*folder.to_string_lossy())), "{refused}");
         // Neither order hides it.
-        assert!(Results::merge(&[both[1].clone(), both[0].clone()]).is_err());
+        assert!(Results::merge(&[both[1].clone(), both[0].clone()], |_| false).is_err());
     }
-    assert!(Results::merge(&[one.path().join("none")]).is_err());
+    assert!(Results::merge(&[one.path().join("none")], |_| false).is_err());
 }
 
 #[test]
@@ -68,8 +71,79 @@ fn parts_of_a_run_are_merged_whatever_their_turns() {
     Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
     let more = Provenance { repeats: 9, ..run() };
     Journal::open(two.path(), &more).unwrap().0.append(&error(2.0)).unwrap();
-    let all = Results::merge(&[one.path().into(), two.path().into()]).unwrap();
+    let all = Results::merge(&[one.path().into(), two.path().into()], |_| false).unwrap();
     assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
+}
+
+/// A task of a farm begins with a copy of what is known and measures its part anew; the other tasks' copies of that
+/// part, in whatever order they are merged, do not count.
+#[test]
+fn a_record_of_the_present_texts_counts_whatever_the_order_of_the_folders() {
+    let folders: Vec<_> = (0..3).map(|_| tempfile::tempdir().unwrap()).collect();
+    let paths: Vec<PathBuf> = folders.iter().map(|folder| folder.path().to_owned()).collect();
+    let point = |setting| Point { study: "s".into(), method: "m".into(), setting, grid: 64 };
+    let error = |setting, setup: &str| {
+        let setup = Some(setup.to_owned());
+        Record::Error(ErrorRecord { point: point(setting), setup, measured: None, trouble: None })
+    };
+    let times = Times { median: 1.0, min: 1.0, max: 1.0 };
+    let cost = Cost {
+        frame: times,
+        copy: times,
+        empty: times,
+        bytes_per_texel: 8.0,
+        texels_per_texel: 1.0,
+        canvas_texels: 4096.0,
+        repeats: 7,
+        batch: 1,
+        clock: Clock::Wall,
+    };
+    let cost = |setup: &str| Record::Cost(CostRecord { setup: Some(setup.into()), point: point(1.0), cost });
+    let case = |name: &str, texts: &str, frames| {
+        let case = StabilityRecord {
+            project: "p".into(),
+            case: name.into(),
+            texts: texts.into(),
+            frames,
+            ..Default::default()
+        };
+        Record::Stability(case)
+    };
+    let old = |i: usize| (error(i as f64, "old"), case(&i.to_string(), "old", 1));
+    for (n, path) in paths.iter().enumerate() {
+        let mut journal = Journal::open(path, &run()).unwrap().0;
+        for (error, case) in (0..3).map(old) {
+            journal.append(&error).unwrap();
+            journal.append(&case).unwrap();
+        }
+        journal.append(&cost("old")).unwrap();
+        if n < 2 {
+            journal.append(&error(n as f64, "new")).unwrap();
+            journal.append(&case(&n.to_string(), "new", 1)).unwrap();
+        }
+        if n == 0 {
+            journal.append(&cost("new")).unwrap();
+        }
+    }
+    for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+        let merged = Results::merge(&order.map(|i: usize| paths[i].clone()), |record| match record {
+            Record::Error(error) => error.setup.as_deref() == Some("new"),
+            Record::Cost(cost) => cost.setup.as_deref() == Some("new"),
+            Record::Stability(case) => case.texts == "new",
+            Record::Run(_) => true,
+        });
+        let merged = merged.unwrap();
+        let mut errors: Vec<_> = merged.errors.iter().map(|e| (e.point.setting, e.setup.as_deref().unwrap())).collect();
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert_eq!(errors, [(0.0, "new"), (1.0, "new"), (2.0, "old")], "{order:?}");
+        let mut cases: Vec<_> = merged.cases.iter().map(|c| (c.case.as_str(), c.texts.as_str())).collect();
+        cases.sort_unstable();
+        assert_eq!(cases, [("0", "new"), ("1", "new"), ("2", "old")], "{order:?}");
+        assert_eq!(merged.costs.iter().map(|c| c.setup.as_deref()).collect::<Vec<_>>(), [Some("new")], "{order:?}");
+    }
+    // Of texts that this build does not have, the later folder counts, as it did.
+    let later = Results::merge(&[paths[0].clone(), paths[2].clone()], |_| false).unwrap();
+    assert!(later.errors.iter().all(|e| e.setup.as_deref() == Some("old")));
 }
 
 #[test]
