@@ -51,6 +51,11 @@ impl Report {
         true
     }
 
+    /// Lets the next event of this name be said even if it is as the last one.
+    pub fn forget(&mut self, name: &str) {
+        self.said.remove(name);
+    }
+
     /// A frame was drawn. While `running`, only some of them are told of.
     pub fn frame(&mut self, now: Instant, running: bool, members: Value) {
         if running && self.frame_at.is_some_and(|at| now - at < FRAME_EVERY) {

@@ -32,6 +32,10 @@ impl Shell {
         if self.reported_generation.replace(generation).is_some_and(|g| g != generation) && !opened {
             report.say(json!({ "event": "reloaded", "name": project.name }));
         }
+        if opened {
+            // What was said of the project before it is not about this one, though it may read the same.
+            report.forget("compiled");
+        }
         report.say_if_new("compiled", compiled(session));
         let debounce_ms = session.edit_debounce().as_secs_f64() * 1e3;
         report.say_if_new("drawn", json!({ "programs": session.programs_drawn(), "debounce_ms": debounce_ms }));

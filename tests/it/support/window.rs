@@ -131,9 +131,14 @@ impl<'a> Window<'a> {
         window
     }
 
-    /// Waits until the newest text is compiled without an error.
+    /// Waits until the newest text of the project that was opened last is compiled without an error.
     pub fn compiled(&mut self) {
-        self.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+        self.drain();
+        let fits = |e: &Value| e["event"] == "compiled" && e["compiling"] == false && e["ok"] == true;
+        let newest = self.events.iter().rev().find(|e| e["event"] == "compiled" || e["event"] == "opened");
+        if !newest.is_some_and(fits) {
+            self.wait_for("a compile", fits);
+        }
     }
 
     /// The first event from now on that fits; panics with what was said instead when patience ends.
