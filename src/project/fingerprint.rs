@@ -51,7 +51,7 @@ fn channel_text(channel: &Channel) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Condition, Origin, Pass, PassSettings, Source};
+    use crate::{Condition, Cull, DepthTest, MeshDraw, MeshSource, Normals, Origin, Pass, PassSettings, Source, Stage};
 
     #[test]
     fn a_setting_that_came_later_changes_no_number_of_projects_without_it() {
@@ -64,5 +64,31 @@ mod tests {
         let before = print(&project);
         project.passes[0].settings.when = Some(Condition::parse("width > 3").unwrap());
         assert_ne!(print(&project), before);
+    }
+
+    /// Results of projects with meshes were measured before a draw said what normals it makes.
+    #[test]
+    fn normals_count_where_a_model_may_have_none() {
+        let draw = |mesh, normals| MeshDraw {
+            mesh,
+            normals,
+            vertex: Stage::Own,
+            fragment: Stage::File(0),
+            cull: Cull::Back,
+            depth: DepthTest::Less,
+            depth_write: true,
+            color_write: true,
+            scale: 0.5,
+            rotation: [0.0, 14.0, 0.0],
+            position: [0.0; 3],
+        };
+        let cube = MeshSource::Builtin("cube".into());
+        let text = "MeshDraw { mesh: Builtin(\"cube\"), vertex: Own, fragment: File(0), cull: Back, depth: Less, \
+                    depth_write: true, color_write: true, scale: 0.5, rotation: [0.0, 14.0, 0.0], position: [0.0, 0.0, 0.0] }";
+        assert_eq!(format!("{:?}", draw(cube.clone(), None)), text);
+        assert_ne!(format!("{:?}", draw(cube, Some(Normals::Flat))), text);
+        // The same text has drawn a file's model without normals otherwise since.
+        let model = format!("{:?}", draw(MeshSource::File("a.obj".into()), None));
+        assert!(model.contains("normals: None"), "{model}");
     }
 }

@@ -55,7 +55,7 @@ pub enum Stage {
 }
 
 /// One mesh, drawn once with one program.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct MeshDraw {
     pub mesh: MeshSource,
     /// `None`: flat for glTF, as its specification wants them (section 3.7.2.1), and smooth for OBJ.
@@ -72,6 +72,34 @@ pub struct MeshDraw {
     pub scale: f64,
     pub rotation: [f64; 3],
     pub position: [f64; 3],
+}
+
+/// Spells a draw for a [`Fingerprint`](super::Fingerprint). Normals came later than results on disk: a built-in mesh has
+/// its own, and its text stays what it was.
+impl fmt::Debug for MeshDraw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let MeshDraw {
+            mesh,
+            normals,
+            vertex,
+            fragment,
+            cull,
+            depth,
+            depth_write,
+            color_write,
+            scale,
+            rotation,
+            position,
+        } = self;
+        let mut text = f.debug_struct("MeshDraw");
+        text.field("mesh", mesh);
+        if normals.is_some() || !matches!(mesh, MeshSource::Builtin(_)) {
+            text.field("normals", normals);
+        }
+        text.field("vertex", vertex).field("fragment", fragment).field("cull", cull).field("depth", depth);
+        text.field("depth_write", depth_write).field("color_write", color_write);
+        text.field("scale", scale).field("rotation", rotation).field("position", position).finish()
+    }
 }
 
 /// The source of a mesh.
