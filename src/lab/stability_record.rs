@@ -119,7 +119,7 @@ pub struct StabilityRecord {
 }
 
 impl StabilityRecord {
-    /// The same case of the same texts.
+    /// The same case, of whatever texts and settings.
     pub fn is_same_case(&self, other: &StabilityRecord) -> bool {
         (&self.project, &self.case, self.size, self.frames) == (&other.project, &other.case, other.size, other.frames)
     }
