@@ -3,7 +3,7 @@
 use crate::{Point, Record, stability::CheckedProject, studies};
 use std::collections::HashMap;
 
-/// The fingerprints of this build's presets and studies, each computed once, when it is asked for.
+/// The fingerprints of this build's presets, each computed once when it is asked for, and of its studies.
 #[derive(Default)]
 pub struct PresentFingerprints {
     projects: HashMap<String, Option<String>>,
