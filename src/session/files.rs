@@ -225,7 +225,11 @@ impl Session {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.display().to_string(),
             Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
         };
-        self.documents.set_saved(project);
+        if self.documents.set_saved(project) {
+            // The last compile was of what stood here.
+            self.passes.clear();
+            self.after_reload();
+        }
         self.place_known();
         self.disk_is_known();
         self.compile.saved();

@@ -150,9 +150,14 @@ impl Documents {
         }
     }
 
-    /// The project as it now lies on disk.
-    pub fn set_saved(&mut self, project: Project) {
+    /// The project as it now lies on disk. Returns whether it reads otherwise than it stood here, as an ISF file does
+    /// whose header was edited: its inputs are the project's uniforms and channels.
+    #[must_use]
+    pub fn set_saved(&mut self, project: Project) -> bool {
+        let is_as_here =
+            structure::is_same(&self.current, &project) && structure::has_same_texts(&self.current, &project);
         *self = Self { revision: self.revision + 1, ..Self::new(project) };
+        !is_as_here
     }
 
     /// Returns the project on disk with the texts as they are edited, if there are such and each is of a file of it: what

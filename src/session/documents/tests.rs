@@ -232,12 +232,12 @@ fn included_files_that_were_read_before_a_save_change_nothing_after_it() {
     assert!(documents.is_tab_dirty(&lib), "what is edited stays though nothing includes it");
     // Saved, and nothing includes it any more.
     project.includes.clear();
-    documents.set_saved(project.clone());
+    let _ = documents.set_saved(project.clone());
     documents.take_includes(late.clone());
     assert!(!documents.is_dirty() && documents.current().source(&lib).is_none());
     // Saved, and included still.
     project.includes = vec![included("new", false)];
-    documents.set_saved(project);
+    let _ = documents.set_saved(project);
     documents.take_includes(late);
     assert!(!documents.is_dirty() && !documents.current().includes[0].is_edited);
     documents.set_text(&lib, "newer");
