@@ -17,6 +17,7 @@ const METHODS: &[Method] = &[
         usual: 1.0,
     },
     Method { name: "reflection", title: "advection-reflection", settings: &[0.5, 1.0, 2.0], usual: 1.0 },
+    Method { name: "weno", title: "WENO, three stages", settings: &[0.25, 0.5, 1.0], usual: 0.5 },
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: &[0.1, 0.2], usual: 0.2 },
     Method { name: "lattice-cumulant", title: "lattice Boltzmann, cumulants", settings: &[0.1, 0.2], usual: 0.2 },
     Method { name: "guay", title: "Guay, one pass", settings: &[0.1, 0.15], usual: 0.15 },

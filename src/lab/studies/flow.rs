@@ -46,6 +46,8 @@ struct Begun {
 enum Kind {
     /// `field` holds the velocity and, of Guay's, the density.
     Centred { is_compressible: bool },
+    /// `field` holds the velocity through the left and the lower face of a texel.
+    OnFaces,
     /// `velocity` holds that through the left and the lower face of a texel.
     Staggered,
     /// `velocity` holds it at the centres.
@@ -102,6 +104,24 @@ impl Solver {
                 let halves = &[("halfdivergence", "halfpressure"), ("divergence", "pressure")];
                 let setup = solved_by_cycles(Setup::new("fluid_reflection", size), n, halves);
                 Solver { begun: Begun { drift: Some("drift"), held: None }, ..plain(setup, 1, CENTRED) }
+            }
+            "covector" => {
+                let setup = solved_by_cycles(Setup::new("fluid_covector", size), n, &[("divergence", "pressure")]);
+                Solver { begun: Begun { drift: Some("drift"), held: None }, ..plain(setup, 1, Kind::OnFaces) }
+            }
+            "apic" | "flip" => {
+                let method = if name == "apic" { "APIC" } else { "FLIP" };
+                let setup = Setup::new("fluid_particles", size).define("METHOD", method);
+                let setup = solved_by_cycles(setup, n, &[("divergence", "pressure")]);
+                Solver { begun: Begun { drift: Some("drift"), held: Some("held") }, ..plain(setup, 1, CENTRED) }
+            }
+            "weno" => {
+                let stages = &[
+                    ("firstdivergence", "firstpressure"),
+                    ("seconddivergence", "secondpressure"),
+                    ("divergence", "pressure"),
+                ];
+                plain(solved_by_cycles(Setup::new("fluid_weno", size), n, stages), 1, CENTRED)
             }
             _ => {
                 let method = if name == "lattice-cumulant" { "CUMULANT" } else { "BGK" };
@@ -162,10 +182,10 @@ impl Solver {
         let n = self.flow.n as usize;
         let place = |c: usize, i: usize| {
             let (x, y) = ((i % n) as f64, (i / n) as f64);
-            match self.kind {
-                Kind::Staggered if c == 0 => (x, y + 0.5),
-                Kind::Staggered => (x + 0.5, y),
-                _ => (x + 0.5, y + 0.5),
+            match self.is_staggered() {
+                true if c == 0 => (x, y + 0.5),
+                true => (x + 0.5, y),
+                false => (x + 0.5, y + 0.5),
             }
         };
         let at = |c: usize, i: usize| {
@@ -177,7 +197,7 @@ impl Solver {
 
     /// Returns whether u is on the left faces of texels and v on their lower ones; else both are at the centres.
     pub fn is_staggered(&self) -> bool {
-        self.kind == Kind::Staggered
+        matches!(self.kind, Kind::Staggered | Kind::OnFaces)
     }
 
     /// Begins with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 where it is
@@ -203,7 +223,7 @@ impl Solver {
         let scale = match self.kind {
             Kind::Centred { is_compressible: true } => self.stiffness / dt,
             Kind::Lattice => 1.0 / (3.0 * dt * dt),
-            Kind::Centred { .. } => {
+            Kind::Centred { .. } | Kind::OnFaces => {
                 let pass = self.begun.held.unwrap_or("pressure");
                 let mut solver = self.begin(|_, _| [0.0; 2], |_, _| 0.0);
                 solver.setup = solver.setup.state(pass, &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
@@ -226,7 +246,7 @@ impl Solver {
             Kind::Centred { is_compressible: true } => {
                 running.read("field")?.component(2).iter().map(|rho| rho - 1.0).collect()
             }
-            Kind::Centred { .. } => running.read(self.begun.held.unwrap_or("pressure"))?.component(0),
+            Kind::Centred { .. } | Kind::OnFaces => running.read(self.begun.held.unwrap_or("pressure"))?.component(0),
             Kind::Staggered => running.read("velocity")?.component(2),
             Kind::Mips => return Ok(None),
             Kind::Lattice => density(running)?.into_iter().map(|rho| rho - 1.0).collect(),
@@ -255,6 +275,7 @@ impl Solver {
                 let density = |i: usize| if is_compressible { 1.0 + dt / stiffness * pressure[i] } else { 0.0 };
                 self.setup.state("field", &texels(&|i| [u[i], v[i], density(i), 1.0]))
             }
+            Kind::OnFaces => self.setup.state("field", &texels(&|i| [u[i], v[i], 0.0, 1.0])),
             Kind::Staggered => {
                 // The pressure times the step, and the step in seconds; and the same velocity in the frame before.
                 let seconds = scale / f64::from(n) * dt;
@@ -308,7 +329,7 @@ impl Solver {
     /// The velocity in texels for a unit of time: all of u, then all of v.
     pub fn velocity(&self, running: &mut Running) -> Result<Vec<f64>, LabError> {
         match self.kind {
-            Kind::Centred { .. } => Ok(running.read("field")?.components(0, 1)),
+            Kind::Centred { .. } | Kind::OnFaces => Ok(running.read("field")?.components(0, 1)),
             Kind::Staggered | Kind::Mips => {
                 let field = running.read("velocity")?.components(0, 1);
                 Ok(field.into_iter().map(|x| x * self.scale).collect())

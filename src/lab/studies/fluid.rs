@@ -36,6 +36,10 @@ const METHODS: &[Method] = &[
     half("bilinear-jacobi-20-16f", "bilinear, Jacobi 20, 16 bits"),
     Method { name: "maccormack-strang", title: "MacCormack in Strang's splitting", settings: LONG_STEPS, usual: 0.6 },
     Method { name: "reflection", title: "advection-reflection", settings: LONG_STEPS, usual: 0.6 },
+    Method { name: "covector", title: "covectors, BFECC", settings: LONG_STEPS, usual: 0.6 },
+    Method { name: "weno", title: "WENO, three stages", settings: &[0.15, 0.3, 0.6, 1.2], usual: 0.6 },
+    Method { name: "apic", title: "particles, APIC", settings: &[0.3, 0.6, 1.2], usual: 0.6 },
+    Method { name: "flip", title: "particles, FLIP", settings: &[0.3, 0.6, 1.2], usual: 0.6 },
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: STEPS, usual: 0.15 },
     Method { name: "lattice-cumulant", title: "lattice Boltzmann, cumulants", settings: STEPS, usual: 0.15 },
     Method { name: "lattice-16f", title: "lattice Boltzmann D2Q9, 16 bits", settings: STEPS, usual: 0.15 },
@@ -163,7 +167,11 @@ pub static STUDY: Study = Study {
            advection-reflection (Zehnder, Narain and Thomaszewski 2018) put second-order steps around the same \
            bilinear MacCormack advection: they carry by the velocity in the middle of the step (Narain, \
            Zehnder and Thomaszewski 2019), and viscosity is exact on the grid; that of fluid-accurate is of \
-           fourth order. The lattice by cumulants (Geier, \
+           fourth order. Particles (APIC: Jiang, Schroeder, Selle, Teran and Stomakhin 2015; FLIP: Brackbill \
+           and Ruppel 1986) take the place of that advection in Strang's splitting, and go at most a texel a \
+           step. Covectors (Nabizadeh, Wang, Ramamoorthi and Chern 2022) are on the faces of texels, so that \
+           the projection is exact; WENO differences (Jiang and Peng 2000) take three stages of Runge and \
+           Kutta, each with a projection. The lattice by cumulants (Geier, \
            Schönherr, Pasquali and Krafczyk 2015) relaxes all but the shear stress at once. The presets run as they ship, \
            without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
            one wave. Mach is the greatest speed that was met over that of sound; growth/theory compares the growth of sound in the \

@@ -18,7 +18,7 @@ pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, L
     let velocity = solver.velocity(&mut running)?;
     let on_grid = 4.0 * viscosity * (k / 2.0).sin().powi(2);
     let exact = match without_format(name) {
-        "maccormack-strang" | "reflection" => (-on_grid * time).exp(),
+        "maccormack-strang" | "reflection" | "covector" | "weno" | "apic" | "flip" => (-on_grid * time).exp(),
         name if name.starts_with("lattice") || name == "fluid-accurate" => (-viscosity * k * k * time).exp(),
         _ => (1.0 - on_grid * dt).powf(time / dt),
     };

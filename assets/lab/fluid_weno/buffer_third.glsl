@@ -1,0 +1,6 @@
+#include "weno.glsl"
+
+void mainImage(out vec4 velocity, in vec2 fragCoord) {
+    ivec2 p = ivec2(fragCoord);
+    velocity = vec4((at(iChannel0, p) + 2.0 * stepped(iChannel1, p)) / 3.0, 0.0, 1.0);
+}
