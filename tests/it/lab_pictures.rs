@@ -147,18 +147,26 @@ fn occlusion_is_that_of_rays() {
     let found = ao::occlusion(&rig, "sphere", 64.0, (320, 320)).unwrap();
     let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
     assert!(off.rms > 0.06, "the oldest method passes too: {off:?}");
+    // The sectors of a slice are worth their place: a horizon that sinks as things get farther away lets too much in.
+    let all = |method| ao::ByEdge::of(&ao::occlusion(&rig, method, 24.0, (320, 320)).unwrap()).all;
+    let [sectors, horizon] = ["horizons", "gtao"].map(all);
+    println!("sectors {sectors:?}, highest horizon {horizon:?}");
+    assert!(sectors.rms < horizon.rms && sectors.mean.abs() < horizon.mean.abs(), "{sectors:?}, {horizon:?}");
 }
 
 #[test]
 fn occlusion_beside_a_wall_and_below_a_sphere_is_the_closed_form() {
     let Some(rig) = rig() else { return };
-    let found = ao_closed::closed(&rig, 64.0, 320).unwrap();
+    let found = ao_closed::closed(&rig, "horizons", 64.0, 320).unwrap();
     println!("{found:?}");
     assert!(found.open < 0.01, "{found:?}");
     // The presets' stated biases: too little beside a wall, whose edge the march finds only nearly, and too much below
     // a sphere, which is thinner at its rim than things are taken to be. Directions without the cosine would be .1 off
     // beside a wall.
     assert!(found.wall.abs() < 0.07 && found.sphere.abs() < 0.12, "{found:?}");
+    let gtao = ao_closed::closed(&rig, "gtao", 64.0, 320).unwrap();
+    println!("highest horizon: {gtao:?}");
+    assert!(gtao.open < 0.01 && gtao.wall.abs() < 0.07, "{gtao:?}");
 }
 
 #[test]

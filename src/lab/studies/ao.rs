@@ -2,7 +2,7 @@
 
 use super::{
     ao_closed::{closed, closed_of_meshes},
-    ao_setup::{ROOM_RADIUS, TABLE_RADIUS, room_falloff, setup, texel},
+    ao_setup::{ROOM_RADIUS, TABLE_RADIUS, is_sliced, room_falloff, setup, texel},
 };
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -31,6 +31,12 @@ const METHODS: &[Method] = &[
     Method {
         name: "horizons",
         title: "preset gbuffer-ssao-ssr: sectors of slices",
+        settings: &[8.0, 16.0, 24.0, 32.0, 64.0],
+        usual: 24.0,
+    },
+    Method {
+        name: "gtao",
+        title: "GTAO: the highest horizon of a slice",
         settings: &[8.0, 16.0, 24.0, 32.0, 64.0],
         usual: 24.0,
     },
@@ -149,7 +155,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
 /// Returns what a method finds in its own scene.
 pub fn occlusion(rig: &Rig, method: &str, samples: f64, size: (u32, u32)) -> Result<Vec<Occluded>, LabError> {
     let setup = setup(method, samples, size);
-    if method == "horizons" { on_the_table(rig, &setup) } else { in_the_room(rig, &setup) }
+    if is_sliced(method) { on_the_table(rig, &setup) } else { in_the_room(rig, &setup) }
 }
 
 pub static STUDY: Study = Study {
@@ -165,7 +171,8 @@ pub static STUDY: Study = Study {
            h²)^(3/2); of the samples, with the preset's radius, from the mean of a disc's segments over their \
            lengths and from the sphere itself by rays. Hard cases: at most .05 from the rays; an \
            open plane less than .01; a halo on at most 1 % of the points. Costs are those of the whole preset, \
-           every pass drawn.",
+           every pass drawn. GTAO is the preset with the highest horizon of each side of a slice in place of its \
+           sectors (Jimenez, Wu, Pesce and Jarabo 2016; XeGTAO 2021), at the same samples.",
     parameter: "samples",
     unit: Unit::Frame,
     error: "of the hidden part of the sky, of which 1 is all",
@@ -195,7 +202,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
         .hard(HardCase::at_most("an open plane", open, 0.01))
         .hard(HardCase::at_most("points in a halo", halo, 0.01));
     let closed = match point.method.as_str() {
-        "horizons" => closed(rig, point.setting, point.grid)?,
+        method if is_sliced(method) => closed(rig, method, point.setting, point.grid)?,
         method => closed_of_meshes(rig, method, point.setting, point.grid)?,
     };
     let measured = measured.value("wall_error", closed.wall).value("sphere_error", closed.sphere);

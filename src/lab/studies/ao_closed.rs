@@ -51,10 +51,10 @@ pub struct Closed {
     pub sphere: f64,
 }
 
-/// The method of slices in scenes whose occlusion is known; things are as thick as the sphere is.
-pub fn closed(rig: &Rig, samples: f64, side: u32) -> Result<Closed, LabError> {
+/// A method of slices in scenes whose occlusion is known; things are as thick as the sphere is.
+pub fn closed(rig: &Rig, method: &str, samples: f64, side: u32) -> Result<Closed, LabError> {
     let field = |shape: u32| {
-        let setup = setup("horizons", samples, (side, side)).text("a", SHAPES).define("SHAPE", shape);
+        let setup = setup(method, samples, (side, side)).text("a", SHAPES).define("SHAPE", shape);
         rig.after(&setup.uniform("radius", 4.0).uniform("thickness", 1.0), 1, "c")
     };
     let (open, wall, sphere) = (field(0)?, field(1)?, field(2)?);

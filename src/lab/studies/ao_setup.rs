@@ -6,6 +6,30 @@ use crate::{Field, Setup};
 pub(super) const TABLE_RADIUS: f64 = 0.8;
 pub(super) const ROOM_RADIUS: f64 = 0.6;
 
+/// The lines that [`HIGHEST_HORIZON`] takes the place of, from the first to the last.
+const SECTORS: [&str; 2] = ["        uint mask = 0u;", "        hidden += share * s.all * part / 32.0;"];
+
+/// Ground-truth ambient occlusion as J. Jimenez, X. Wu, A. Pesce and A. Jarabo published it in 2016, and Intel as XeGTAO in
+/// 2021: all below the highest horizon of a side is hidden. A horizon sinks to the surface's plane as what makes it gets
+/// farther away.
+const HIGHEST_HORIZON: &str = "
+        float open = 0.0;
+        for (int side = -1; side <= 1; side += 2) {
+            float plane = cos(s.normal + float(side) * HALF_PI), horizon = plane;
+            for (int j = 0; j < steps; j++) {
+                float t = (float(j) + (float(step_) + 0.5) / 4.0) / float(steps);
+                ivec2 q = ivec2(floor(pixel + float(side) * along * max(t * t * pixels, float(j) + 1.0)));
+                if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, size))) break;
+                vec3 delta = viewFromPixel(vec2(q) + 0.5, texelFetch(iChannel0, q, 0).z, canvas) - at;
+                float away = length(delta);
+                if (dot(delta, normal) < BIAS * away) continue;
+                float near = clamp((radius - away) / (0.4 * radius), 0.0, 1.0);
+                horizon = max(horizon, mix(plane, dot(delta, view) / away, near));
+            }
+            open += weightTo(float(side) * acos(clamp(horizon, -1.0, 1.0)), s.normal);
+        }
+        hidden += share * (s.all - open);";
+
 /// Slices and steps on either side of one, for so many samples.
 pub(super) fn slices(samples: f64) -> (f64, f64) {
     match samples as u32 {
@@ -17,17 +41,28 @@ pub(super) fn slices(samples: f64) -> (f64, f64) {
     }
 }
 
+/// Returns whether a method is drawn in the scene of `gbuffer-ssao-ssr`; the others are in that of `ssao`.
+pub(super) fn is_sliced(method: &str) -> bool {
+    matches!(method, "horizons" | "gtao")
+}
+
 /// The project of a method with so many samples, every pass drawn in every frame.
 pub(super) fn setup(method: &str, samples: f64, size: (u32, u32)) -> Setup {
     let ssao = |method| {
         let setup = Setup::new("ssao", size).wants(&["geometry", "blur"]).restless();
         setup.uniform("power", 1.0).uniform("method", method).uniform("samples", samples)
     };
+    let slices = || {
+        let (slices, steps) = slices(samples);
+        let setup = Setup::new("gbuffer-ssao-ssr", size).wants(&["a", "c"]).restless();
+        setup.uniform("turning", 0.0).uniform("slices", slices).uniform("steps", steps)
+    };
     match method {
-        "horizons" => {
-            let (slices, steps) = slices(samples);
-            let setup = Setup::new("gbuffer-ssao-ssr", size).wants(&["a", "c"]).restless();
-            setup.uniform("turning", 0.0).uniform("slices", slices).uniform("steps", steps)
+        "horizons" => slices(),
+        "gtao" => {
+            let [first, last] = SECTORS;
+            let left_out = format!("#if 0\n{first}");
+            slices().edit("b", first, left_out).edit("b", last, format!("#endif{HIGHEST_HORIZON}"))
         }
         "rays" => ssao(0.0),
         "points" => ssao(1.0),
