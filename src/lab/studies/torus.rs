@@ -37,8 +37,8 @@ const METHODS: &[Method] = &[
     Method { name: "reflection", title: "advection-reflection", settings: LONG_COURANT, usual: 0.5 },
     Method { name: "covector", title: "covectors, BFECC", settings: LONG_COURANT, usual: 0.5 },
     Method { name: "weno", title: "WENO, three stages", settings: &[0.125, 0.25, 0.5, 1.0], usual: 0.5 },
-    Method { name: "apic", title: "particles, APIC", settings: &[0.25, 0.5, 1.0], usual: 0.5 },
-    Method { name: "flip", title: "particles, FLIP", settings: &[0.25, 0.5, 1.0], usual: 0.5 },
+    Method { name: "apic", title: "particles, APIC", settings: &[0.25, 0.5, 0.75], usual: 0.5 },
+    Method { name: "flip", title: "particles, FLIP", settings: &[0.25, 0.5, 0.75], usual: 0.5 },
     Method { name: "bilinear-jacobi-20", title: "bilinear, Jacobi 20", settings: COURANT, usual: 0.5 },
     Method {
         name: "guay-forward-backward",
