@@ -134,18 +134,42 @@ impl Spectral {
     /// # Panics
     /// If `m` does not divide n.
     pub fn velocity(&self, m: usize, places: [(f64, f64); 2]) -> Vec<f64> {
+        let both = self.velocity_of(&self.vorticity);
+        both.into_iter().zip(places).flat_map(|(all, place)| self.sampled(all, m, place)).collect()
+    }
+
+    /// The pressure of unit density and mean 0 in the middle of each of m x m cells: of -lap p = (u_i u_j)_ij.
+    ///
+    /// # Panics
+    /// If `m` does not divide n.
+    pub fn pressure(&self, m: usize) -> Vec<f64> {
+        let [u, v] = self.velocity_of(&self.vorticity);
+        let [u, v] = self.fft.inverse_pair(&u, &v);
+        let product = |f: &dyn Fn(usize) -> f64| self.fft.forward(&(0..u.len()).map(f).collect::<Vec<_>>());
+        let (uu, uv, vv) = (product(&|i| u[i] * u[i]), product(&|i| u[i] * v[i]), product(&|i| v[i] * v[i]));
+        let solved = |i: usize| {
+            let (kx, ky) = self.waves(i);
+            let square = kx * kx + ky * ky;
+            let sum = |xx: f64, xy: f64, yy: f64| -(kx * kx * xx + 2.0 * kx * ky * xy + ky * ky * yy) / square;
+            match square > 0.0 {
+                true => Complex { re: sum(uu[i].re, uv[i].re, vv[i].re), im: sum(uu[i].im, uv[i].im, vv[i].im) },
+                false => Complex::default(),
+            }
+        };
+        self.sampled((0..u.len()).map(solved).collect(), m, (0.5, 0.5))
+    }
+
+    /// A field, by its waves, at one place of each of m x m cells.
+    fn sampled(&self, mut waves: Vec<Complex>, m: usize, (x, y): (f64, f64)) -> Vec<f64> {
         assert!(self.n.is_multiple_of(m), "{m} does not divide {}", self.n);
         let (n, every) = (self.n, self.n / m);
-        let moved = |(mut all, (x, y)): (Vec<Complex>, (f64, f64))| {
-            let (dx, dy) = (x * every as f64 - 0.5, y * every as f64 - 0.5);
-            for (i, c) in all.iter_mut().enumerate() {
-                let (sin, cos) = (self.fft.wave(i % n) * dx + self.fft.wave(i / n) * dy).sin_cos();
-                *c = Complex { re: c.re * cos - c.im * sin, im: c.re * sin + c.im * cos };
-            }
-            let fine = self.fft.inverse(all);
-            (0..m * m).map(move |i| fine[i / m * every * n + i % m * every]).collect::<Vec<f64>>()
-        };
-        self.velocity_of(&self.vorticity).into_iter().zip(places).flat_map(moved).collect()
+        let (dx, dy) = (x * every as f64 - 0.5, y * every as f64 - 0.5);
+        for (i, c) in waves.iter_mut().enumerate() {
+            let (sin, cos) = (self.fft.wave(i % n) * dx + self.fft.wave(i / n) * dy).sin_cos();
+            *c = Complex { re: c.re * cos - c.im * sin, im: c.re * sin + c.im * cos };
+        }
+        let fine = self.fft.inverse(waves);
+        (0..m * m).map(|i| fine[i / m * every * n + i % m * every]).collect()
     }
 }
 
@@ -195,6 +219,27 @@ mod tests {
                 kept * vortex(x / side, y / side)[i / (m * m)]
             });
             assert!(far(&faces, &exact.collect::<Vec<_>>()) < 1e-9);
+        }
+    }
+
+    /// Eddies have (cos 2x + cos 2y) / 4, and a round vortex the radial balance p_r = u^2 / r.
+    #[test]
+    fn pressures_balance() {
+        let flow = Spectral::new(32, |x, y| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()]);
+        for m in [8, 32] {
+            let at = |i: usize| ((i % m) as f64 + 0.5, (i / m) as f64 + 0.5);
+            let of = |(x, y): (f64, f64)| 0.25 * ((2.0 * TAU * x / m as f64).cos() + (2.0 * TAU * y / m as f64).cos());
+            let exact: Vec<f64> = (0..m * m).map(|i| of(at(i))).collect();
+            assert!(far(&flow.pressure(m), &exact) < 1e-9);
+        }
+        let n = 128;
+        let vortex = lamb_oseen(n, 0.05);
+        let (p, v) = (vortex.pressure(n), vortex.velocity(n, [(0.0, 0.5); 2]).split_off(n * n));
+        // From the middle of a cell to that of the next, at the height of the vortex's middle, nearly.
+        for x in n / 2 + 2..n / 2 + 12 {
+            let (i, r) = (n / 2 * n + x, (x - n / 2) as f64 / n as f64);
+            let (slope, expected) = ((p[i] - p[i - 1]) * n as f64, v[i] * v[i] / r);
+            assert!((slope / expected - 1.0).abs() < 0.1, "{x}: {slope}, {expected}");
         }
     }
 
