@@ -6,6 +6,7 @@ use eddy::lab::{
     metrics::{Norms, order},
     reference::{
         gaussian_on_torus,
+        gray_scott::Statistics,
         linear::{fastest, forward_backward_growth, one_pass_growth},
         poisson::{residual, solution, source},
         sampled, taylor_green,
@@ -184,6 +185,27 @@ fn exponential_time_differencing_is_of_second_order() {
     // A wave grows as in the continuum: there is no stencil.
     let (measured, _, continuum) = gray_scott::grown(&rig, "etd", 1.0).unwrap();
     assert!((measured / continuum - 1.0).abs() < 0.02, "{measured} for {continuum}");
+}
+
+/// The row "Gray-Scott, a developed pattern" of docs/lab.md: one that has filled its box, by its statistics.
+#[test]
+#[ignore = "a minute; `eddy lab gray-scott` has the same figures of every method"]
+fn developed_patterns_have_the_statistics_of_the_table() {
+    let Some(rig) = rig() else { return };
+    for (name, dt, expected) in [
+        ("etd", 2.0, [0.000, 0.000, 0.000]),
+        ("strang-blur", 2.0, [-0.007, -0.005, 0.008]),
+        ("five-point", 1.0, [0.047, 0.048, -0.080]),
+        ("five-point-rg16f", 1.0, [-0.15, -0.16, 0.10]),
+        ("reaction-diffusion", 1.0, [0.018, 0.020, -0.041]),
+    ] {
+        let [found, known] = gray_scott::late(&rig, name, dt).unwrap();
+        let off = |f: fn(&Statistics) -> f64| f(&found) / f(&known) - 1.0;
+        let all = [off(|s| s.mean), off(|s| s.area), off(|s| s.wavelength)];
+        println!("{name}: {all:.4?}");
+        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 0.002 + 0.05 * b.abs();
+        assert!(all.iter().zip(&expected).all(is_near), "{name}: {all:?}, {expected:?}");
+    }
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Gray-Scott on a torus or within walls: growth rates of its linear form, and the pattern by a spectral method.
 
 use super::{fft::Fft, sampled};
+use crate::metrics::{area_above, mean};
+use std::f64::consts::TAU;
 
 /// The coral pattern of the projects in `assets/lab`.
 pub const FEED: f64 = 0.0545;
@@ -73,6 +75,30 @@ pub fn known(n: usize, walls: Option<[f64; 2]>, time: f64) -> Vec<f64> {
     v
 }
 
+/// Figures of a pattern that do not depend on where its stripes are, which small errors decide in a long run.
+#[derive(Clone, Copy, Debug)]
+pub struct Statistics {
+    pub mean: f64,
+    /// The part of the texels with v above .2.
+    pub area: f64,
+    /// The wavelength, in texels, of the mean wave number |k| weighted by the power spectrum; without the mean of v.
+    pub wavelength: f64,
+}
+
+impl Statistics {
+    /// # Panics
+    /// If `v` is not n x n, n a power of two.
+    pub fn of(v: &[f64], n: usize) -> Statistics {
+        let fft = Fft::new(n);
+        let waves = fft.forward(v).into_iter().enumerate().skip(1);
+        let (moment, power) = waves.fold((0.0, 0.0), |(moment, power), (i, c)| {
+            let square = c.re * c.re + c.im * c.im;
+            (moment + fft.wave(i % n).hypot(fft.wave(i / n)) * square, power + square)
+        });
+        Statistics { mean: mean(v), area: area_above(v, 0.2), wavelength: TAU * power / moment }
+    }
+}
+
 fn evolved(n: usize, [mut u, mut v]: [Vec<f64>; 2], diffusion: [f64; 2], time: f64, steps: u32) -> [Vec<f64>; 2] {
     let fft = Fft::new(n);
     let dt = time / f64::from(steps);
@@ -115,6 +141,17 @@ mod tests {
         let q = best.unwrap();
         assert!((q - 0.521).abs() < 0.003, "{q}");
         assert!((growth(q * q).0 - 0.01001).abs() < 2e-5, "{}", growth(q * q).0);
+    }
+
+    #[test]
+    fn statistics_are_those_of_a_wave() {
+        let (n, k) = (64, TAU * 5.0 / 64.0);
+        let v = sampled(n, |x, y| 0.2 + 0.1 * (k * (0.6 * x + 0.8 * y)).sin());
+        let of_axis = Statistics::of(&sampled(n, |x, _| 0.2 + 0.1 * (k * x).sin()), n);
+        assert!((of_axis.wavelength - 12.8).abs() < 1e-9 && (of_axis.mean - 0.2).abs() < 1e-12, "{of_axis:?}");
+        assert!((of_axis.area - 0.5).abs() < 0.04, "{of_axis:?}");
+        // A wave that does not fit the box has a broad spectrum about its own.
+        assert!((Statistics::of(&v, n).wavelength / 12.8 - 1.0).abs() < 0.15);
     }
 
     #[test]

@@ -8,12 +8,12 @@ use super::{
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, area_above, mean},
-    reference::gray_scott::{DIFFUSION, FEED, KILL, five_point, growth, known, rest, seeded},
+    reference::gray_scott::{DIFFUSION, FEED, KILL, Statistics, five_point, growth, known, rest, seeded},
     setup::{Storage, frames_of, pass},
     three_of,
 };
 use eddy_project::{PassId, Project, TexelFormat};
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::LazyLock};
 
 const EULER: &[f64] = &[0.25, 0.5, 1.0];
 
@@ -75,6 +75,37 @@ fn transformed(project: &mut Project, size: (u32, u32)) {
     }
     let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image).collect();
     project.groups.iter_mut().for_each(|group| group.passes.clone_from(&buffers));
+}
+
+/// The box and the time of a developed pattern, whose stripes fill it.
+const LATE_GRID: u32 = 64;
+const LATE: f64 = 3000.0;
+
+/// Statistics of the reference then: on a torus, and within walls at the preset's rates.
+static LATE_TORUS: LazyLock<Statistics> = LazyLock::new(|| late_reference(None));
+static LATE_WALLS: LazyLock<Statistics> = LazyLock::new(|| late_reference(Some(DIFFUSION.map(|d| FASTER * d))));
+
+fn late_reference(walls: Option<[f64; 2]>) -> Statistics {
+    Statistics::of(&known(LATE_GRID as usize, walls, LATE), LATE_GRID as usize)
+}
+
+/// The statistics of a method's developed pattern at a step of `dt`, and those of the reference.
+pub fn late(rig: &Rig, name: &str, dt: f64) -> Result<[Statistics; 2], LabError> {
+    let (field, group) = parts(name);
+    let (frames, steps) = frames_of((LATE / dt) as u32, 20);
+    let [u, v] = seeded(LATE_GRID as usize);
+    let seeds: Vec<[f32; 4]> = u.iter().zip(&v).map(|(u, v)| texel(name, *u, *v)).collect();
+    let setup = method(name, (LATE_GRID, LATE_GRID), dt).state(field, &seeds).steps(group, steps);
+    let mut running = rig.open(&setup)?;
+    running.frames(frames)?;
+    let [_, v] = state(&mut running, name)?;
+    let reference = if is_preset(name) { &LATE_WALLS } else { &LATE_TORUS };
+    Ok([Statistics::of(&v, LATE_GRID as usize), **reference])
+}
+
+/// At its usual step, on the finest grid of a full run, a method is asked for its developed pattern too.
+fn is_usual(point: &Point) -> bool {
+    point.grid == 128 && METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting)
 }
 
 fn time(grid: u32) -> f64 {
@@ -186,7 +217,10 @@ pub static STUDY: Study = Study {
            smooth spots, against a spectral f64 solver with Strang's splitting. The preset has its own rates \
            (Du = .2097, Dv = .1049) and walls that nothing goes through, and so has its reference; sway and \
            sower are 0. The table gives the growth of a wave of 12 texels over that of linear theory, .0100 in \
-           the continuum. The hard case is that u returns to 1 where there is no v, within .001: 16 bits have \
+           the continuum. At its usual step each method is asked for the developed pattern too, on 64 x 64 texels \
+           after 3,000 units of time, where only statistics can be compared: late_ values are by how much the mean \
+           of v, the part of the texels with v above .2, and the mean wavelength of the power spectrum exceed \
+           those of the reference. The hard case is that u returns to 1 where there is no v, within .001: 16 bits have \
            no room beside 1 for what a step feeds, and the preset keeps 1 - u instead.",
     parameter: "dt",
     unit: Unit::Scene,
@@ -220,12 +254,21 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let [_, v] = state(&mut running, &point.method)?;
     let walls = is_preset(&point.method).then(|| DIFFUSION.map(|d| FASTER * d));
     let exact = known(point.grid as usize, walls, time(point.grid));
-    let (measured, _, continuum) = grown(rig, &point.method, point.setting)?;
+    let (grown, _, continuum) = grown(rig, &point.method, point.setting)?;
     let stall = fed(rig, &point.method, 0.037)?;
-    Ok(Measured { norms: Norms::of(&v, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
+    let mut measured =
+        Measured { norms: Norms::of(&v, &exact), frames_per_unit: f64::from(frames), ..Measured::default() };
+    if is_usual(point) {
+        let [found, known] = late(rig, &point.method, point.setting)?;
+        measured = measured
+            .value("late_mean", found.mean / known.mean - 1.0)
+            .value("late_area", found.area / known.area - 1.0)
+            .value("late_wavelength", found.wavelength / known.wavelength - 1.0);
+    }
+    Ok(measured
         .value("mean_v", mean(&v) / mean(&exact) - 1.0)
         .value("area", area_above(&v, 0.2) / area_above(&exact, 0.2) - 1.0)
-        .value("growth", measured)
-        .value("growth/theory", measured / continuum)
+        .value("growth", grown)
+        .value("growth/theory", grown / continuum)
         .hard(HardCase::at_most("1 - u without v", (1.0 - stall).abs(), 0.001)))
 }
