@@ -31,7 +31,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
         vec3 ink = mix(low, high, clamp(1.4 * value - 0.15, 0.0, 1.0)) * exp(-0.045 * age);
         float line = smoothstep(2.0 * pixel, 0.5 * pixel, abs(p.y - top));
         // Below its line a ridge glows a little and hides what is behind.
-        vec3 fill = 0.16 * ink * exp(-6.0 * (top - p.y) * depth) + vec3(0.012, 0.013, 0.022);
+        vec3 fill = 0.16 * ink * exp(-6.0 * max(top - p.y, 0.0) * depth) + vec3(0.012, 0.013, 0.022);
         float inside = smoothstep(1.5 * pixel, -0.5 * pixel, p.y - top);
         vec3 ridge = mix(fill, 1.5 * ink, line);
         colour = mix(colour, ridge, max(inside, line));

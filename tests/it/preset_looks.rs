@@ -120,3 +120,16 @@ fn every_slider_at_both_ends_leaves_a_picture_in_range() {
         }
     }
 }
+
+/// Light is at most 1.5 times an ink and the line of the wave, and a picture about its square root, on a canvas where a
+/// pixel is as high as a ridge, too.
+#[test]
+fn spectrum_is_no_brighter_on_nine_pixels() {
+    let Some(gpu) = gpu() else { return };
+    for size in [(3, 3), (17, 31), (160, 90)] {
+        let mut engine = drawn(&gpu, &preset("spectrum", &[]), size, 0..1);
+        let most = picture(&mut engine).texels.iter().flat_map(|t| t[..3].to_vec()).fold(0.0, f32::max);
+        println!("{size:?}: {most}");
+        assert!((0.1..1.6).contains(&most), "{size:?}: {most}");
+    }
+}

@@ -153,7 +153,7 @@ mod tests {
                 }
             }
         }
-        assert!(accepted > 2000, "{accepted}");
+        assert!(accepted > 2100, "{accepted}");
     }
 
     #[test]
