@@ -37,8 +37,8 @@ fn splittings_of_second_order_are_of_second_order() {
     assert!(errors[1] > 0.05 && observed < 1.2, "{errors:?}, order {observed}");
 }
 
-/// APIC errs like a grid's methods of second order. A cell begins with four particles, is given new ones where it has fewer
-/// than three, and has six in the mean after four turns of the eddies.
+/// APIC errs like a grid's methods of second order. A cell begins with four particles, is given new ones where it has
+/// fewer than three, and has six in the mean after two units of time.
 #[test]
 fn particles_carry_the_eddies_and_stay_as_many() {
     let Some(rig) = rig() else { return };

@@ -9,9 +9,9 @@ pub(super) const ROOM_RADIUS: f64 = 0.6;
 /// The lines that [`HIGHEST_HORIZON`] takes the place of, from the first to the last.
 const SECTORS: [&str; 2] = ["        uint mask = 0u;", "        hidden += share * s.all * part / 32.0;"];
 
-/// Ground-truth ambient occlusion as J. Jimenez, X. Wu, A. Pesce and A. Jarabo published it in 2016, and Intel as XeGTAO in
-/// 2021: all below the highest horizon of a side is hidden. A horizon sinks to the surface's plane as what makes it gets
-/// farther away.
+/// Ground-truth ambient occlusion as J. Jimenez, X. Wu, A. Pesce and A. Jarabo published it in 2016, and Intel as
+/// XeGTAO in 2021: all below the highest horizon of a side is hidden. A horizon sinks to the surface's plane as what
+/// makes it gets farther away.
 const HIGHEST_HORIZON: &str = "
         float open = 0.0;
         for (int side = -1; side <= 1; side += 2) {
