@@ -116,8 +116,8 @@ fn a_vortex_spreads_as_lamb_and_oseen_say() {
     assert!(error > 0.05 && u < 0.95, "{error} {r} {u}");
 }
 
-/// Re 100 and 400 within .01 of the tables, Re 1000 of the lines of a high-order method, from which the table's own v
-/// is up to .0185 off; and no noise under the lid.
+/// As the preset's header says: Re 100 within .01 of the tables and Re 400 within .004, Re 1000 within .009 of the lines
+/// of a high-order method, from which the table's own v is up to .0185 off; and no noise under the lid.
 fn cavity_at(column: usize, time: f64) {
     let Some(rig) = rig() else { return };
     let reynolds = REYNOLDS[column];
@@ -130,7 +130,9 @@ fn cavity_at(column: usize, time: f64) {
         println!("off high-order lines of Re 1000 {high:?}, extrema {off}");
         assert!(off < 0.015, "{off}");
     }
-    assert!(u < 0.01 && v < 0.01, "Re {reynolds}: {u} {v}");
+    // To the digit that the header gives.
+    let most = [0.01, 0.0045, 0.0095][column];
+    assert!(u < most && v < most, "Re {reynolds}: {u} {v}");
     assert!(lines.noise < 5e-4, "{}", lines.noise);
 }
 
@@ -151,7 +153,7 @@ fn the_cavity_of_re_1000_is_that_of_high_order_methods() {
     cavity_at(2, 70.0);
 }
 
-/// Of second order, the error at half of the grid is four times as large: .028 in u and .032 in v at steps of four
+/// Of second order, the error at half of the grid is four times as large: .022 in u and .029 in v at steps of four
 /// texels.
 #[test]
 fn the_cavity_of_re_1000_on_a_coarse_grid_is_four_times_as_far_off() {
@@ -162,7 +164,7 @@ fn the_cavity_of_re_1000_on_a_coarse_grid_is_four_times_as_far_off() {
     assert!(u < 0.035 && v < 0.035, "{u} {v}");
 }
 
-/// The like at Re = 400, where 128 x 128 texels come within .0019 in u and .0039 in v: .0086 and .0056. This grid takes
+/// The like at Re = 400, where 128 x 128 texels come within .0024 in u and .0042 in v: .0071 and .0036. This grid takes
 /// seconds where the gates above take a minute.
 #[test]
 fn the_cavity_of_re_400_on_a_coarse_grid_is_four_times_as_far_off() {
