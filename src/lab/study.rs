@@ -60,6 +60,13 @@ pub struct Point {
     pub grid: u32,
 }
 
+impl Point {
+    /// Returns whether its method, one of these, is at its usual setting.
+    pub fn is_usual(&self, methods: &[Method]) -> bool {
+        methods.iter().any(|m| m.name == self.method && m.usual == self.setting)
+    }
+}
+
 /// A case in which many a method fails.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HardCase {

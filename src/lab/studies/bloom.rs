@@ -233,8 +233,7 @@ fn drawn(point: &Point) -> Setup {
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let n = point.grid;
-    let is_usual = METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting);
-    let count = if is_usual && n >= 512 { PERIOD * PERIOD } else { COMPARED };
+    let count = if point.is_usual(METHODS) && n >= 512 { PERIOD * PERIOD } else { COMPARED };
     let (mut worst, mut compared) = (SpotExtremes::NONE, Vec::new());
     let at = |size, count| (0..count).map(|i| phase(i, size)).collect::<Vec<_>>();
     let on_grid = setup(&point.method, point.setting, (n, n));

@@ -29,11 +29,6 @@ const TIMES: [f64; 3] = [12.0, 40.0, 70.0];
 /// From this grid on the bounds of the hard cases hold.
 const FINE: u32 = 128;
 
-/// At its usual Courant number a method is asked for Re = 400 and 1000 too, which take minutes.
-fn is_usual(point: &Point) -> bool {
-    METHODS.iter().any(|m| m.name == point.method && m.usual == point.setting)
-}
-
 /// A method's project at a Courant number of the lid, which crosses a texel in a unit of time.
 pub fn solver(name: &str, n: u32, courant: f64, reynolds: f64) -> Solver {
     let flow = Flow { n, dt: courant, viscosity: f64::from(n) / reynolds };
@@ -195,7 +190,8 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     };
     let quiet = |noise: f64| HardCase::at_most("noise under the lid", noise, 5e-4);
     measured = measured.hard(within(0, (u, v)));
-    if !is_usual(point) {
+    // Re = 400 and 1000 take minutes.
+    if !point.is_usual(METHODS) {
         return Ok(measured.hard(quiet(slow.noise)));
     }
     let (middle, fast) = (run(1)?.0, run(2)?.0);

@@ -232,7 +232,8 @@ pub static LAMB_OSEEN: Study = Study {
     text: "A vortex of greatest speed 1 whose core grows from .03 to .05 of the side of the box in one unit of \
            time, nearly five turns, against its closed form with its images. r_peak and u_peak are the radius \
            and the size of the greatest speed over those of the closed form read in the same way; \
-           l2_in_balance is as in the shear layers. The hard case is that the energy never exceeds that at first by .001 of it.",
+           l2_in_balance is as in the shear layers. The hard case is that the energy never exceeds that at first \
+           by .001 of it.",
     signed: Some("energy_error"),
     ..of(|point| Torus::LambOseen.setup(point), |rig, point| Torus::LambOseen.measure(rig, point))
 };
