@@ -50,7 +50,7 @@ fn what_projects_share_is_the_same_in_each() {
             ],
             &["image.glsl"],
         ),
-        (LAB, &["fluid_strang", "fluid_reflection", "fluid_weno"], &["common.glsl"]),
+        (LAB, &["fluid_strang", "fluid_reflection"], &["common.glsl"]),
         (
             LAB,
             &["fluid_strang", "fluid_reflection", "fluid_weno", "fluid_particles"],
@@ -73,8 +73,9 @@ fn what_projects_share_is_the_same_in_each() {
     for (projects, begins) in [
         (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
         (&["fluid_projection", "fluid_strang"], &["vec2 vortex(", "float pressureAt(", "vec2 bilinear("]),
-        (&["fluid_strang", "fluid_covector", "fluid_particles"], &["vec2 vortex(", "vec2 spreadAlong("]),
-        (&["fluid_strang", "fluid_particles"], &["vec2 gradient("]),
+        (&["fluid_strang", "fluid_weno"], &["vec2 at(", "float pressureAt("]),
+        (&["fluid_strang", "fluid_covector", "fluid_weno", "fluid_particles"], &["vec2 vortex(", "vec2 spreadAlong("]),
+        (&["fluid_strang", "fluid_weno", "fluid_particles"], &["vec2 gradient("]),
         (&["fluid_covector", "fluid_particles"], &["float pressureAt("]),
         (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
         (

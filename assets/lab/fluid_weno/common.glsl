@@ -39,24 +39,6 @@ float pressureAt(sampler2D field, ivec2 p) {
 #endif
 }
 
-vec2 bilinear(sampler2D field, vec2 p) {
-#ifdef CAVITY
-    p = clamp(p, vec2(0.0), iResolution.xy - 1e-3);
-#endif
-    vec2 base = floor(p - 0.5), t = p - 0.5 - base;
-    ivec2 i = ivec2(base);
-    vec2 a = at(field, i), b = at(field, i + ivec2(1, 0)), c = at(field, i + ivec2(0, 1)), d = at(field, i + ivec2(1, 1));
-    vec2 low = a + t.x * (b - a), high = c + t.x * (d - c);
-    return low + t.y * (high - low);
-}
-
-// Where what is at `p` was `span` of time ago; negative: where it will be. By the midpoint rule, in the velocity of the
-// middle of the step.
-vec2 departure(sampler2D drift, vec2 p, float span) {
-    vec2 middle = p - 0.5 * span * at(drift, ivec2(p));
-    return p - span * bilinear(drift, middle);
-}
-
 // Half of the step's viscosity along one direction, exactly on the grid: the heat kernel's weights e^(-2a) I_n(2a) by
 // Miller's recurrence (Abramowitz and Stegun, 9.12), where a = viscosity t. The differences from the middle are summed, so
 // that an even velocity stays as it is.
