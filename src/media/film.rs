@@ -1,9 +1,9 @@
 //! Videos that a channel names: the project's own files, and stand-ins for those of the site.
 
 use super::{MediaError, Texels};
-use eddy_project::{FileError, Media, confine, limits};
+use eddy_project::{FileError, Media, confine, limits, next_numbered};
 use eddy_texture::TexelFormat;
-use eddy_video::{FileLocation, Frame, FrameSource, Pace, Pool, Tools, Video, VideoError, is_animation, next_numbered};
+use eddy_video::{FileLocation, Frame, FrameSource, Pace, Pool, Tools, Video, VideoError, is_animation};
 use std::{
     fs::File,
     io::Read,

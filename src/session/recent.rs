@@ -222,4 +222,24 @@ mod tests {
         let (mut none, trouble) = Recent::open(None);
         assert_eq!((trouble, none.opened(&Origin::File("a.glsl".into()), Dialect::Shadertoy)), (None, Ok(None)));
     }
+
+    #[test]
+    fn files_of_earlier_versions_are_read_and_lose_nothing() {
+        for text in [
+            include_str!("../../tests/saved/recents/two.toml"),
+            include_str!("../../tests/saved/recents/all-members.toml"),
+        ] {
+            let dir = tempfile::tempdir().unwrap();
+            let file = dir.path().join(NAME);
+            let text = text.replace("@FOLDER@", dir.path().to_str().unwrap());
+            std::fs::write(&file, &text).unwrap();
+            let (mut recent, trouble) = Recent::open(Some(dir.path()));
+            assert_eq!(trouble, None);
+            let before = recent.list().to_vec();
+            assert_eq!(before.len(), text.matches("[[project]]").count());
+            std::fs::write(dir.path().join("new.glsl"), "").unwrap();
+            recent.opened(&Origin::File(dir.path().join("new.glsl")), Dialect::Shadertoy).unwrap();
+            assert_eq!(Recent::open(Some(dir.path())).0.list()[1..], before);
+        }
+    }
 }

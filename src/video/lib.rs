@@ -20,7 +20,7 @@ pub use animation::{is_animated, is_animation};
 pub use camera::{Camera, CameraDevice, CameraFrame, CameraSource, PLACEHOLDER, cameras};
 pub use encoder::{Encoder, file_name};
 pub use error::VideoError;
-pub use numbered::{frame_rate_of, next_numbered};
+pub use numbered::frame_rate_of;
 pub use process::{Stop, Tools};
 pub use reader::Pool;
 

@@ -1,30 +1,15 @@
 //! Numbered image files as a video: `walk/0001.png`, `walk/0002.png` and so on.
 
 use super::{Decode, FileLocation, Film, ReadFile, VideoError, VideoInfo, check_size, process::Stop};
-use eddy_project::limits;
+use eddy_project::{limits, next_numbered};
 use image::{ImageReader, Limits};
 use std::{
-    ffi::OsString,
     io::Cursor,
     path::{Path, PathBuf},
 };
 
 /// Frames a second of a sequence that says nothing else.
 const FRAME_RATE: f64 = 25.0;
-
-/// Returns the name that comes after one which ends in digits: `brain_009.png` and then `brain_010.png`.
-pub fn next_numbered(path: &Path) -> Option<PathBuf> {
-    let stem = path.file_stem()?.to_str()?;
-    let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-    let (begin, number) = stem.split_at(stem.len() - digits);
-    let next = number.parse::<u32>().ok()?.checked_add(1)?;
-    let mut name = OsString::from(format!("{begin}{next:0digits$}"));
-    if let Some(ending) = path.extension() {
-        name.push(".");
-        name.push(ending);
-    }
-    Some(path.with_file_name(name))
-}
 
 /// Returns the frames a second that the folder of a sequence says at the end of its name: `walk-12fps`, `walk_29.97fps`. Others
 /// have 25.
@@ -141,11 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_count_up_and_folders_say_how_fast() {
-        let next = |name: &str| next_numbered(Path::new(name)).map(|p| p.display().to_string());
-        assert_eq!(next("a/brain_009.png").as_deref(), Some("a/brain_010.png"));
-        assert_eq!(next("99.png").as_deref(), Some("100.png"));
-        assert_eq!((next("a.png"), next("4294967295.png")), (None, None));
+    fn folder_names_give_the_frame_rate() {
         for (path, rate) in [
             ("walk-12fps/1.png", 12.0),
             ("walk_29.97fps/1.png", 29.97),

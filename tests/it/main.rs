@@ -93,6 +93,7 @@ mod recovery;
 mod reload;
 mod reopened_pictures;
 mod replaying;
+mod saved_files;
 mod session;
 mod session_compare;
 mod session_inside;

@@ -503,7 +503,7 @@ impl Key {
         self.as_it_is(&Settings::default())
     }
 
-    fn as_it_is(&self, settings: &Settings) -> Change {
+    pub fn as_it_is(&self, settings: &Settings) -> Change {
         match &self.control {
             Control::Theme => Change::Theme(settings.theme),
             Control::Switch { get, change } => change(get(settings)),

@@ -223,4 +223,16 @@ mod tests {
         let (remembered, mistakes) = read("x = \n");
         assert_eq!((remembered, mistakes.len()), (WindowState::default(), 1));
     }
+
+    #[test]
+    fn window_files_of_earlier_versions_are_read_and_written_the_same() {
+        for file in [
+            include_str!("../../../tests/saved/window/plain.toml"),
+            include_str!("../../../tests/saved/window/layout.toml"),
+        ] {
+            let (state, mistakes) = read(file);
+            assert_eq!(mistakes, []);
+            assert_eq!(text(&state), file);
+        }
+    }
 }

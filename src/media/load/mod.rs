@@ -10,10 +10,9 @@ mod texture_file;
 mod volume;
 
 use super::{MediaError, MediaKey, Texels, builtin, error::Excess, npy, played::Played, site};
-use eddy_project::{FileError, Media, confine, limits, nearest};
+use eddy_project::{FileError, Media, confine, face_file, limits, nearest, next_numbered};
 use eddy_texture::Dimension;
 use eddy_texture::TexelFormat;
-use eddy_video::next_numbered;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{
     io::Cursor,
@@ -116,30 +115,18 @@ impl Source<'_> {
     fn cube(&self, first: Vec<u8>, vflip: bool) -> Result<Texels, MediaError> {
         let failed = |reason| MediaError::Cubemap { path: self.shown.to_owned(), reason };
         let picture = |bytes, shown: &Path| decoded(bytes, shown, false, self.room / 2);
-        let second = match (self.read)(&face_path(self.path, 1)) {
+        let second = match (self.read)(&face_file(self.path, 1)) {
             Ok(bytes) => bytes,
             Err(_) => return cube::of_picture(picture(first, self.shown)?, vflip).map_err(failed),
         };
-        let mut faces = vec![picture(first, self.shown)?, picture(second, &face_path(self.shown, 1))?];
+        let mut faces = vec![picture(first, self.shown)?, picture(second, &face_file(self.shown, 1))?];
         for n in 2..6 {
-            let bytes = (self.read)(&face_path(self.path, n))?;
-            faces.push(picture(bytes, &face_path(self.shown, n))?);
+            let bytes = (self.read)(&face_file(self.path, n))?;
+            faces.push(picture(bytes, &face_file(self.shown, n))?);
         }
         let faces: [Texels; 6] = faces.try_into().expect("two and four are six");
         cube::of_faces(faces, vflip).map_err(failed)
     }
-}
-
-/// The file of face `n` of a cubemap of six files: the base name for +X, then `_1` to `_5` before the ending for -X,
-/// +Y, -Y, +Z and -Z.
-fn face_path(path: &Path, n: usize) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("_{n}"));
-    if let Some(ending) = path.extension() {
-        name.push(".");
-        name.push(ending);
-    }
-    path.with_file_name(name)
 }
 
 /// The same with the rows of each layer in the other order.

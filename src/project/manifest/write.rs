@@ -9,7 +9,8 @@ use super::{
 };
 use crate::{
     Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules,
-    Wrap, file_names::pass_of_stem,
+    Wrap,
+    file_names::{Role, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -39,7 +40,7 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
     set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
     uniforms(root, project);
     controls::write_controls(root, project);
-    common(root, project, has_common_file);
+    common(root, project, has_common_file, is_new);
     passes(root, project);
     settings::write_groups(root, project);
     let extra = &project.info.extra;
@@ -85,8 +86,10 @@ fn written(value: &CustomUniformValue) -> Value {
     }
 }
 
-fn common(root: &mut Table, project: &Project, has_common_file: bool) {
+/// `is_new`: there was no file. One that does not name Common reads its default file.
+fn common(root: &mut Table, project: &Project, has_common_file: bool, is_new: bool) {
     match &project.common {
+        Some(source) if !is_new && source.name == "common.glsl" && !root.contains_key("common") => {}
         Some(source) => {
             let is_said = root.get("common").is_some_and(Item::is_table_like);
             if let Some(table) = child(root, "common", false)
@@ -120,7 +123,9 @@ fn passes(root: &mut Table, project: &Project) {
         let is_old = table.contains_key(&key);
         let Some(entry) = child(table, &key, false) else { continue };
         let implied = geometry::own_file(entry).unwrap_or_else(|| format!("{}.glsl", pass.id.key()));
-        if !is_old || entry.contains_key("file") || pass.source.name != implied {
+        let role = Role::Pass(pass.id.clone());
+        let is_implied = pass.source.name == implied || role_of_file(&pass.source.name) == Some(role);
+        if !is_old || entry.contains_key("file") || !is_implied {
             set(entry, "file", Some(pass.source.name.as_str().into()));
         }
         channels(entry, &pass.channels);

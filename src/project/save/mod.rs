@@ -9,7 +9,7 @@ use super::{
     files::{Files, MANIFEST},
     files_beside, folder, ghostty, isf, json, limits,
     load::folder_name,
-    manifest, picked,
+    manifest, media_files, picked,
     writes::{self, Overwrite, Writes},
 };
 use eddy_diag::Diagnostic;
@@ -335,7 +335,9 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
     }
     for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
         if let Some(Media::File(path)) = channel.input.media() {
-            names.extend(named(path));
+            let Some(name) = named(path) else { continue };
+            names.extend(media_files::companions(base, &name, channel.input.kind()));
+            names.insert(name);
         }
     }
     for (.., fill) in project.fills() {

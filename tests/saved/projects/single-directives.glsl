@@ -1,0 +1,3 @@
+#iChannel0 "keyboard"
+#iChannel0::MinFilter "Nearest"
+void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }

@@ -1,0 +1,1 @@
+#iUniform int turns = 3 in { 0, 9 }
