@@ -16,7 +16,7 @@ use eddy_texture::TexelFormat;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{
     io::Cursor,
-    path::{Path, PathBuf},
+    path::Path,
 };
 
 /// Loads what a key names. A file lies in the project's folder `base`, see [`confine`]. For a file of the site, one of the
