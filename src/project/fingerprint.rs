@@ -17,7 +17,11 @@ impl Fingerprint {
         print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
         for pass in &project.passes {
             let channels = pass.channels.each_ref().map(|channel| channel.as_ref().map_or("None".into(), channel_text));
-            print.eat(format!("[{}] {:?}", channels.join(", "), pass.settings).as_bytes());
+            // Where the files lie does not count: another machine has them elsewhere.
+            let mut settings = pass.settings.clone();
+            let stages = settings.meshes_mut().into_iter().flat_map(|geometry| &mut geometry.stages);
+            stages.for_each(|stage| stage.path = None);
+            print.eat(format!("[{}] {settings:?}", channels.join(", ")).as_bytes());
         }
         print
     }
