@@ -7,7 +7,7 @@
 
 use eddy::{
     debugger::trace::{self, Extent, Traced},
-    engine::{Engine, FrameInputs, Program, Sources},
+    engine::{DrawFor, Engine, FrameInputs, Program, Sources},
     gpu::{Gpu, GpuOptions},
     media,
     project::{self, PassId},
@@ -37,7 +37,9 @@ fn main() {
         let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).expect("an engine");
         engine.set_program(built.program).expect("room for it");
         engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).expect("a frame");
-        let (_, inputs) = engine.draw_inspected(&FrameInputs::at_fixed_step(1, 60.0), &PassId::Image).expect("a frame");
+        let drawn =
+            engine.draw_for(&FrameInputs::at_fixed_step(1, 60.0), DrawFor::Inspect(&PassId::Image)).expect("a frame");
+        let inputs = drawn.read.expect("what Image reads");
         let drawn = engine.read(&PassId::Image).expect("its texels");
         let index = project.passes.iter().position(|p| p.id == PassId::Image).expect("an Image");
         let sources = Sources::new(&project);

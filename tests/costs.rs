@@ -6,7 +6,7 @@
 mod support;
 
 use eddy::{
-    engine::{BuildOptions, CostClock, FrameInputs, PassRole, ReadTiming},
+    engine::{BuildOptions, CostClock, DrawFor, Drawn, FrameInputs, PassRole, ReadTiming},
     gpu::GpuOptions,
     media::MediaSet,
     project::{PassSize, Project, TexelFormat},
@@ -94,7 +94,7 @@ fn without_timestamps_passes_are_waited_for_and_the_picture_is_the_same() {
         let inputs = FrameInputs::at_fixed_step(frame, 60.0);
         plain.draw(&inputs).unwrap();
         let mut now = || began.elapsed().as_secs_f64() * 1e3;
-        let (stats, times) = waited.draw_waited(&inputs, &mut now).unwrap();
+        let Drawn { stats, times, .. } = waited.draw_for(&inputs, DrawFor::Timed(&mut now)).unwrap();
         assert_eq!((stats.passes_drawn, times.len()), (3, 3));
         for (least, time) in least.iter_mut().zip(&times) {
             *least = least.min(time.gpu_millis);

@@ -4,7 +4,7 @@
 //! uniforms and on what frames before it drew, and not on when a condition last was true: runs that are drawn again,
 //! snapshots and frames in any order give the same bytes.
 
-use super::{EngineError, frame::NO_VALUE, program::Program, running::Running, shared::Shared};
+use super::{EngineError, encode::NO_VALUE, program::Program, running::Running, shared::Shared};
 use eddy_graph::Traffic;
 use eddy_project::{CustomUniformType, PassId};
 

@@ -14,7 +14,7 @@ pub enum CostClock {
     /// The device's timestamps before and after each pass.
     Timestamps,
     /// The wall's clock, on a device without timestamps: each pass is handed in and waited for by itself, less the time
-    /// of handing in nothing. See [`Engine::draw_waited`].
+    /// of handing in nothing. See [`DrawFor::Timed`](super::DrawFor::Timed).
     Waited,
 }
 
@@ -124,7 +124,7 @@ impl Engine {
     }
 
     /// Returns the clock by which this device can say how long passes take: that of [`Engine::pass_times`] or of
-    /// [`Engine::draw_waited`].
+    /// [`DrawFor::Timed`](super::DrawFor::Timed).
     pub fn cost_clock(&self) -> CostClock {
         if self.gpu().has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }

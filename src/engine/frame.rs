@@ -1,189 +1,177 @@
-//! A frame: the loop that executes a plan. The only place where passes are encoded, and where the time of each draw is
-//! taken.
+//! A frame: the loop that executes the operations of a [`Schedule`](eddy_graph::Schedule).
 
 use super::{
-    EngineError, FrameInputs, FrameStats, PassTime, Program,
-    bind::draw_fill,
-    display::Display,
-    host,
-    inspect::Capture,
-    pipelines::StagePipeline,
-    program::DrawBody,
-    running::{RemainingRows, Running},
-    shared::Shared,
-    sound, uniforms,
+    EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Program, display::Display, host, inspect::Capture,
+    running::Running, shared::Shared, sound, uniforms,
 };
-use eddy_glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP};
 use eddy_gpu::Gpu;
-use eddy_graph::Draw;
-use eddy_project::{Boundary, PassId, Region};
+use eddy_graph::{FrameOp, FrameState, Lap, Purpose};
+use eddy_project::{PassId, Region};
 
-/// The value of a probe that never was there.
-pub(super) const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
+/// Answers, before each part of a draw in bands, how many rows are drawn next; `None` stops there.
+pub type Rows<'a> = dyn FnMut() -> Option<u32> + 'a;
 
-/// The way in which a frame is handed to the device.
-pub(super) enum DrawMode<'a, 'b> {
-    /// All of it at once.
-    Whole,
-    /// Each draw by itself, and timed.
-    Watched(&'a mut Watch<'b>),
-    /// All of it, and what one pass reads is taken before it is drawn.
-    Inspected(&'a mut Capture<'b>),
-    /// All but a last draw that can be done in pieces, which [`Running::draw_remaining`] does.
-    Divided,
-    /// The draws that frames to come depend on.
-    Lasting,
+/// Why a frame is drawn, and what that needs from the caller.
+pub enum DrawFor<'a> {
+    /// To show it. Does not wait for the device.
+    Frame,
+    /// For the frames after it: those are the same as after [`DrawFor::Frame`], but only draws that they depend on are
+    /// done and nothing is shown. What other passes hold until the next frame is not specified.
+    Advance,
+    /// To know how long each pass takes on a device without timestamps: each pass is submitted by itself and waited for.
+    /// The function returns milliseconds since any moment. The frame takes longer this way.
+    Timed(&'a mut dyn FnMut() -> f64),
+    /// To read back what a pass reads when it is drawn; of a pass of several steps, what its last step reads. Waits for
+    /// the device.
+    Inspect(&'a PassId),
+    /// To show it without holding the device for long: waits for the device, and draws a last pass that no other pass
+    /// reads in bands of rows. Where the caller stops, the display keeps the frame before, though everything that later
+    /// frames read is drawn; [`Engine::resume`](super::Engine::resume) draws the rest.
+    Bands(&'a mut Rows<'a>),
 }
 
-/// Hands in what is encoded, and waits for it.
-fn flush(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineError> {
-    let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a pass of a frame") };
-    let full = std::mem::replace(encoder, gpu.device.create_command_encoder(&descriptor));
-    gpu.queue.submit([full.finish()]);
-    Ok(gpu.wait()?)
+/// A frame that was drawn.
+#[derive(Debug, Default)]
+pub struct Drawn {
+    pub stats: FrameStats,
+    /// The time of each pass, for [`DrawFor::Timed`].
+    pub times: Vec<PassTime>,
+    /// What the pass read, for [`DrawFor::Inspect`].
+    pub read: Option<PassInputs>,
+    /// All of it is drawn: the caller did not stop it.
+    pub is_whole: bool,
+}
+
+/// The operations of the newest frame that are not executed yet.
+#[derive(Debug, Default)]
+pub(super) struct Unfinished {
+    ops: std::vec::IntoIter<FrameOp>,
+    /// Of the first of them, an [`FrameOp::EncodeRows`], the rows that are drawn.
+    rows: u32,
+}
+
+/// What the loop asks the caller for.
+pub(super) struct Caller<'a, 'c> {
+    pub rows: &'a mut Rows<'a>,
+    pub watch: Option<&'a mut Watch<'c>>,
+    pub capture: Option<&'a mut Capture<'c>>,
 }
 
 impl Running {
-    /// Draws one frame, and the picture that a display shows.
+    /// Schedules a frame and executes it up to its end, or to where the caller stops it. Returns the work of the frame
+    /// and whether all of it is done. On a `display` the picture is shown.
     pub fn draw(
         &mut self,
         shared: &Shared,
         display: Option<&Display>,
         inputs: &FrameInputs,
-        mut mode: DrawMode<'_, '_>,
-    ) -> Result<FrameStats, EngineError> {
-        self.drop_remaining();
-        let mut off = self.turn_off(shared);
-        if matches!(mode, DrawMode::Lasting) {
-            off.iter_mut().zip(&self.lasting).for_each(|(off, lasts)| *off |= !lasts);
-        }
-        let gpu = &shared.gpu;
-        self.program.externals.iter_mut().for_each(|external| external.update(gpu, inputs));
-        self.set_uniforms(gpu, inputs);
-        // The same at every step.
-        let reads: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        // Stamps of a frame in pieces would not be of one submission.
-        let is_in_pieces = matches!(mode, DrawMode::Watched(_) | DrawMode::Divided);
-        if let Some(timer) = self.timer.as_mut().filter(|_| !is_in_pieces) {
-            timer.begin();
-        }
-        let left_over = if matches!(mode, DrawMode::Divided) { self.divisible_draw() } else { None };
-        if let DrawMode::Watched(watch) = &mut mode {
-            // What was handed in before is not this frame's.
-            flush(gpu, &mut encoder)?;
-            let began = watch.now();
-            flush(gpu, &mut encoder)?;
-            watch.set_floor(began);
-        }
-        self.steps_drawn.clear();
-        self.steps_drawn.resize(self.program.draws.len(), 0);
-        let mut stats = FrameStats::default();
-        for run in 0..self.program.plan.runs.len() {
-            for _ in 0..self.program.plan.runs[run].steps {
-                for index in self.program.plan.runs[run].draws.clone().filter(|index| !off[*index]) {
-                    if let DrawMode::Inspected(capture) = &mut mode
-                        && capture.wants(&self.program.draws[index])
-                    {
-                        flush(gpu, &mut encoder)?;
-                        capture.take(self, shared, index)?;
-                    }
-                    if self.is_tiled(index) {
-                        stats.passes_drawn += 1;
-                        continue;
-                    }
-                    if !self.is_due(index, &reads[index], &mut stats) {
-                        continue;
-                    }
-                    self.steps_drawn[index] += 1;
-                    if left_over == Some(index) {
-                        self.rest = Some(RemainingRows { draw: index, row: 0 });
-                        gpu.queue.submit([encoder.finish()]);
-                        return Ok(stats);
-                    }
-                    let DrawMode::Watched(watch) = &mut mode else {
-                        self.encode(shared, &mut encoder, index, None);
-                        continue;
-                    };
-                    let began = watch.now();
-                    self.encode(shared, &mut encoder, index, None);
-                    flush(gpu, &mut encoder)?;
-                    watch.add(index, began);
-                }
-            }
-        }
-        if let Some(timer) = &mut self.timer {
-            timer.resolve(&mut encoder);
-        }
-        if let Some(display) = display {
-            display.present(gpu, &mut encoder, &self.targets);
-        }
-        gpu.queue.submit([encoder.finish()]);
-        if let Some(timer) = &mut self.timer {
-            timer.submitted();
-        }
-        Ok(stats)
-    }
-
-    /// Does the draw that [`DrawMode::Divided`] has left over, so many rows at a time, and waits for each. Before each,
-    /// `goes_on` is asked. Says whether all is drawn; if not, another call draws what is left.
-    pub fn draw_remaining(
-        &mut self,
-        shared: &Shared,
-        display: &Display,
-        rows: u32,
-        goes_on: &mut dyn FnMut() -> bool,
-    ) -> Result<bool, EngineError> {
-        let gpu = &shared.gpu;
-        while let Some(RemainingRows { draw, row }) = self.rest {
-            if !goes_on() {
-                return Ok(false);
-            }
-            let (width, height) = self.targets[self.program.plan.draws[draw].targets.start].size();
-            let end = row.saturating_add(rows.max(1)).min(height);
-            let part = Region { x: 0, y: row, width, height: end - row };
-            let descriptor = wgpu::CommandEncoderDescriptor { label: Some("rows of a frame") };
-            let mut encoder = gpu.device.create_command_encoder(&descriptor);
-            self.encode(shared, &mut encoder, draw, Some(part));
-            self.rest = (end < height).then_some(RemainingRows { draw, row: end });
-            if self.rest.is_none() {
-                display.present(gpu, &mut encoder, &self.targets);
-            }
-            gpu.queue.submit([encoder.finish()]);
-            gpu.wait()?;
-        }
-        Ok(true)
+        purpose: Purpose,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<(FrameStats, bool), EngineError> {
+        self.drop_unfinished();
+        let off = self.turn_off(shared);
+        self.program.externals.iter_mut().for_each(|external| external.update(&shared.gpu, inputs));
+        self.set_uniforms(&shared.gpu, inputs);
+        // They are the same at every step.
+        let inputs: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
+        let state = FrameState { canvas: self.canvas, off: &off, inputs: &inputs, lasting: &self.lasting };
+        let schedule = self.program.plan.schedule(&state, &mut self.changes, purpose);
+        self.steps_drawn = schedule.steps;
+        let stats = FrameStats {
+            passes_drawn: schedule.drawn,
+            passes_cached: schedule.cached,
+            bytes_cached: schedule.cached_bytes,
+        };
+        self.unfinished = Some(Unfinished { ops: schedule.ops.into_iter(), rows: 0 });
+        let is_whole = self.execute(shared, display, caller).inspect_err(|_| self.changes.invalidate())?;
+        Ok((stats, is_whole))
     }
 
     /// Draws a tile of the picture of the pass that is drawn in tiles: `size` of its pixels from `origin` on, into the
-    /// first texels of its target, with the inputs of the newest frame. Before each part of it, `rows` says how many rows
-    /// are drawn at once. Waits for each part.
+    /// first texels of its target, with the inputs of the newest frame.
     pub fn draw_tile(
         &mut self,
         shared: &Shared,
         (origin, size): ((u32, u32), (u32, u32)),
-        rows: &mut dyn FnMut() -> u32,
+        caller: &mut Caller<'_, '_>,
     ) -> Result<(), EngineError> {
         let Some(tiled) = self.program.plan.tiled else { return Ok(()) };
-        let gpu = &shared.gpu;
         self.uniforms.set_tile_origin(tiled.draw, origin);
-        self.uniforms.write(gpu);
-        let (mut y, width) = (0, size.0);
-        while y < size.1 {
-            // Of whole blocks of the pixels that a device shades together.
-            let height = rows().max(1).next_multiple_of(4).min(size.1 - y);
-            let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a tile") };
-            let mut encoder = gpu.device.create_command_encoder(&descriptor);
-            self.encode(shared, &mut encoder, tiled.draw, Some(Region { x: 0, y, width, height }));
-            gpu.queue.submit([encoder.finish()]);
-            gpu.wait()?;
-            y += height;
-        }
+        self.uniforms.write(&shared.gpu);
+        let ops = self.program.plan.schedule_tile(size);
+        self.unfinished = Some(Unfinished { ops: ops.into_iter(), rows: 0 });
+        self.execute(shared, None, caller)?;
         Ok(())
     }
 
-    fn is_tiled(&self, draw: usize) -> bool {
-        self.program.plan.tiled.is_some_and(|tiled| tiled.draw == draw)
+    /// Executes what is left of the newest frame. Returns whether all of it is done now; if not, the caller stopped it and
+    /// another call continues there.
+    pub fn execute(
+        &mut self,
+        shared: &Shared,
+        display: Option<&Display>,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<bool, EngineError> {
+        let Some(mut unfinished) = self.unfinished.take() else { return Ok(true) };
+        let gpu = &shared.gpu;
+        let mut encoder = new_encoder(gpu);
+        while let Some(&op) = unfinished.ops.as_slice().first() {
+            match op {
+                FrameOp::StartTimestamps => self.timer.iter_mut().for_each(eddy_gpu::PassTimer::begin),
+                FrameOp::Encode { draw, layer } => self.encode(shared, &mut encoder, (draw, layer), None),
+                FrameOp::EncodeRows { draw, area, align } => {
+                    let Some(rows) = (caller.rows)() else {
+                        self.unfinished = Some(unfinished);
+                        return Ok(false);
+                    };
+                    let left = area.height - unfinished.rows;
+                    let height = rows.max(1).checked_next_multiple_of(align).map_or(left, |rows| rows.min(left));
+                    let part = Region { y: area.y + unfinished.rows, height, ..area };
+                    self.encode(shared, &mut encoder, (draw, 0), Some(part));
+                    unfinished.rows += height;
+                    if unfinished.rows < area.height {
+                        submit(gpu, &mut encoder);
+                        gpu.wait()?;
+                        continue;
+                    }
+                    unfinished.rows = 0;
+                }
+                FrameOp::Publish { draw } => self.publish(shared, &mut encoder, draw),
+                FrameOp::Capture { draw } => {
+                    if let Some(capture) = &mut caller.capture {
+                        capture.take(self, shared, draw)?;
+                    }
+                }
+                FrameOp::Clock(lap) => caller.watch.iter_mut().for_each(|watch| watch.lap(lap)),
+                FrameOp::Present => {
+                    if let Some(display) = display {
+                        display.present(gpu, &mut encoder, &self.targets);
+                    }
+                }
+                FrameOp::ResolveTimestamps => self.timer.iter_mut().for_each(|timer| timer.resolve(&mut encoder)),
+                FrameOp::Submit => {
+                    submit(gpu, &mut encoder);
+                    self.timer.iter_mut().for_each(eddy_gpu::PassTimer::submitted);
+                }
+                FrameOp::SubmitAndWait => {
+                    submit(gpu, &mut encoder);
+                    gpu.wait()?;
+                }
+            }
+            unfinished.ops.next();
+        }
+        Ok(true)
+    }
+
+    /// The targets of a draw hold what is encoded.
+    fn publish(&mut self, shared: &Shared, encoder: &mut wgpu::CommandEncoder, index: usize) {
+        let draw = &self.program.plan.draws[index];
+        for target in &mut self.targets[draw.targets.clone()] {
+            target.front = target.back();
+            if let Some(chain) = target.chains.get(target.front) {
+                shared.mips.build(&shared.gpu, encoder, chain);
+            }
+        }
     }
 
     /// Returns the size of the picture of a draw, which in tiles is more than that of its target.
@@ -192,11 +180,6 @@ impl Running {
             Some(tiled) => tiled.size.of(self.canvas),
             None => self.targets[self.program.plan.draws[draw].targets.start].size(),
         }
-    }
-
-    fn divisible_draw(&self) -> Option<usize> {
-        let is_screen = |index: &usize| matches!(self.program.draws[*index].body, DrawBody::Screen(_));
-        self.program.plan.divisible_draw().filter(is_screen)
     }
 
     /// Writes the uniforms of every draw.
@@ -231,161 +214,40 @@ impl Running {
         }
         read
     }
-
-    /// Says whether a draw is to be done: it is of some texels, and something that it reads has changed. The answer yes
-    /// counts as done.
-    fn is_due(&mut self, index: usize, inputs: &[u8], stats: &mut FrameStats) -> bool {
-        let Self { program, targets, changes, .. } = self;
-        let draw = &program.plan.draws[index];
-        let size = targets[draw.targets.start].size();
-        let texels = match draw.region {
-            None => u64::from(size.0) * u64::from(size.1),
-            Some(region) => match region.within(size) {
-                Some(region) => u64::from(region.width) * u64::from(region.height),
-                None => return false,
-            },
-        };
-        let texels = texels * u64::from(program.plan.layers(index));
-        if !changes.must_draw(index, draw, inputs) {
-            stats.passes_cached += 1;
-            let bytes = draw.all_targets().map(|target| program.plan.targets[target].format.bytes());
-            stats.bytes_cached += texels * bytes.sum::<u64>();
-            return false;
-        }
-        stats.passes_drawn += 1;
-        true
-    }
-
-    /// Encodes one draw, of all texels or of some; of a cube all faces.
-    fn encode(&mut self, shared: &Shared, encoder: &mut wgpu::CommandEncoder, index: usize, part: Option<Region>) {
-        for layer in 0..self.program.plan.layers(index) {
-            self.encode_layer(shared, encoder, (index, layer), part);
-        }
-        let draw = &self.program.plan.draws[index];
-        for target in &mut self.targets[draw.targets.clone()] {
-            target.front = target.back();
-            if let Some(chain) = target.chains.get(target.front) {
-                shared.mips.build(&shared.gpu, encoder, chain);
-            }
-        }
-    }
-
-    fn encode_layer(
-        &mut self,
-        shared: &Shared,
-        encoder: &mut wgpu::CommandEncoder,
-        (index, layer): (usize, u32),
-        part: Option<Region>,
-    ) {
-        let Self { program, targets, depths, bindings, timer, .. } = self;
-        let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
-        let size = targets[draw.targets.start].size();
-        let (uniforms, channels) = bindings.draws[index].groups(shared, compiled, draw, targets);
-        for target in &targets[draw.targets.clone()] {
-            if draw.region.is_some() && target.back() != target.front {
-                target.newest().copy_overlap(encoder, &target.textures[target.back()]);
-            }
-        }
-        let attach = |index: usize| {
-            let load = match draw.beside {
-                // What is discarded has no value, nor what lies outside of the region.
-                Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
-                Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
-                _ if part.is_some() => wgpu::LoadOp::Load,
-                _ => load_op(&shared.gpu, draw, &compiled.body),
-            };
-            Some(targets[index].textures[targets[index].back()].layer_attachment(layer, load))
-        };
-        let attachments: Vec<_> = draw.all_targets().map(attach).collect();
-        let depth = depths.get(index).and_then(Option::as_ref);
-        let descriptor = wgpu::RenderPassDescriptor {
-            label: None,
-            color_attachments: &attachments,
-            depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
-                view,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: timer.as_mut().and_then(|t| t.writes(index)),
-            ..Default::default()
-        };
-        let boundary = bindings.fills[index].boundary.as_mut().zip(compiled.boundary.as_ref());
-        shared.gpu.pass(encoder, descriptor, |pass| {
-            // Row 0 is the bottom, for a scissor too.
-            if let Some(region) = draw.region.and_then(|r| r.within(size)) {
-                pass.set_scissor_rect(region.x, region.y, region.width, region.height);
-            }
-            if let Some(part) = part {
-                pass.set_scissor_rect(part.x, part.y, part.width, part.height);
-            }
-            pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
-            let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
-                pass.set_pipeline(&program.pipeline.raw);
-                pass.set_bind_group(UNIFORM_GROUP, &uniforms[n], &[]);
-            };
-            match &compiled.body {
-                DrawBody::Screen(program) => {
-                    begin(pass, program, layer as usize);
-                    pass.draw(0..3, 0..1);
-                }
-                DrawBody::Meshes(meshes) => {
-                    for (n, (program, mesh)) in meshes.programs.iter().enumerate() {
-                        begin(pass, program, n);
-                        pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
-                        pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
-                        pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
-                    }
-                }
-            }
-            if let (Some((bound, fill)), Some(width)) = (boundary, draw.boundary) {
-                for [x, y, width, height] in Boundary::rectangles(width, size) {
-                    pass.set_scissor_rect(x, y, width, height);
-                    draw_fill(bound, shared, fill, pass);
-                }
-            }
-        });
-    }
 }
 
-/// Returns what the targets of a draw hold as it begins.
-fn load_op(gpu: &Gpu, draw: &Draw, body: &DrawBody) -> wgpu::LoadOp<wgpu::Color> {
-    match body {
-        _ if draw.keeps_content => wgpu::LoadOp::Load,
-        // The triangle covers all, and nothing of it is discarded.
-        DrawBody::Screen(_) => gpu.load_what_is_overwritten(),
-        DrawBody::Meshes(_) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-    }
+fn new_encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
 }
 
-/// A clock, and what it has said of each draw.
+/// Submits what is encoded. The encoder is empty afterwards.
+fn submit(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
+    let full = std::mem::replace(encoder, new_encoder(gpu));
+    gpu.queue.submit([full.finish()]);
+}
+
+/// The caller's clock, and the time of each draw by it.
 pub(super) struct Watch<'a> {
-    /// Gives milliseconds since any moment.
+    /// Returns milliseconds since any moment.
     now: &'a mut dyn FnMut() -> f64,
-    /// The time of handing in nothing and waiting for it.
-    floor: f64,
+    start: f64,
+    /// The milliseconds of an empty submission that is waited for.
+    overhead: f64,
     /// The milliseconds of each draw, all steps together.
     millis: Vec<f64>,
 }
 
 impl<'a> Watch<'a> {
     pub fn new(now: &'a mut dyn FnMut() -> f64, program: &Program) -> Self {
-        Self { now, floor: 0.0, millis: vec![0.0; program.draws.len()] }
+        Self { now, start: 0.0, overhead: 0.0, millis: vec![0.0; program.draws.len()] }
     }
 
-    pub fn now(&mut self) -> f64 {
-        (self.now)()
-    }
-
-    /// Takes the time since `began` for that of handing in nothing.
-    pub fn set_floor(&mut self, began: f64) {
-        self.floor = self.now() - began;
-    }
-
-    /// Adds what a draw took since `began`.
-    pub fn add(&mut self, draw: usize, began: f64) {
-        let millis = self.now() - began - self.floor;
-        if let Some(sum) = self.millis.get_mut(draw) {
-            *sum += millis.max(0.0);
+    fn lap(&mut self, lap: Lap) {
+        let now = (self.now)();
+        match lap {
+            Lap::Start => self.start = now,
+            Lap::Overhead => self.overhead = now - self.start,
+            Lap::Draw(draw) => self.millis[draw] += (now - self.start - self.overhead).max(0.0),
         }
     }
 

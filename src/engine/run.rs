@@ -1,11 +1,11 @@
 //! The engine: the program that is running, and what can be asked of it.
 
 use super::{
-    EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, TexelAt, display::Display,
-    frame::DrawMode, running::Running,
+    DrawFor, Drawn, EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, Rows, TexelAt,
+    display::Display, running::Running,
 };
 use super::{
-    frame::Watch,
+    frame::{Caller, Watch},
     inspect::{Capture, PassInputs},
     shared::Shared,
     snapshot::{self, Extent, Snapshot},
@@ -13,7 +13,7 @@ use super::{
     viewer::Viewer,
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
-use eddy_graph::Traffic;
+use eddy_graph::{Purpose, Traffic};
 use eddy_project::{CustomUniformValues, PassId};
 use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
@@ -86,7 +86,8 @@ impl Engine {
         inputs: &FrameInputs,
     ) -> Result<Program, EngineError> {
         let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
-        running.draw(&self.shared, None, inputs, DrawMode::Whole)?;
+        let mut caller = Caller { rows: &mut || None, watch: None, capture: None };
+        running.draw(&self.shared, None, inputs, Purpose::Frame, &mut caller)?;
         self.shared.gpu.wait()?;
         Ok(running.program)
     }
@@ -128,22 +129,60 @@ impl Engine {
         }
     }
 
-    /// Draws one frame. Does not wait for the device. A pass that is drawn in tiles is left out: [`Engine::draw_tile`]
-    /// draws it.
+    /// Draws one frame, to show it. Does not wait for the device. A pass that is drawn in tiles is left out:
+    /// [`Engine::draw_tile`] draws it.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
-        let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Whole)?;
-        self.shared.gpu.take_trouble("a frame")?;
-        Ok(stats)
+        Ok(self.draw_for(inputs, DrawFor::Frame)?.stats)
     }
 
-    /// Draws of a frame what frames to come depend on, and nothing else: no picture that only this frame would show. Those
-    /// to come are the same as after [`Engine::draw`]. What other passes hold until the next frame is not said.
-    pub fn advance(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
-        let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&self.shared, None, inputs, DrawMode::Lasting)?;
+    /// Draws one frame for a purpose. Without a program nothing is drawn.
+    pub fn draw_for(&mut self, inputs: &FrameInputs, purpose: DrawFor<'_>) -> Result<Drawn, EngineError> {
+        let Some(running) = &mut self.running else { return Ok(Drawn { is_whole: true, ..Drawn::default() }) };
+        let (shared, display) = (&self.shared, Some(&self.display));
+        let mut whole = || Some(u32::MAX);
+        let mut caller = Caller { rows: &mut whole, watch: None, capture: None };
+        let mut drawn = Drawn::default();
+        match purpose {
+            DrawFor::Frame => {
+                (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Frame, &mut caller)?;
+            }
+            DrawFor::Advance => {
+                (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Advance, &mut caller)?;
+            }
+            DrawFor::Timed(now) => {
+                let mut watch = Watch::new(now, &running.program);
+                caller.watch = Some(&mut watch);
+                (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Timed, &mut caller)?;
+                drawn.times = watch.times(&running.program);
+            }
+            DrawFor::Inspect(pass) => {
+                let none = || EngineError::NoSuchPass(pass.title());
+                let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
+                let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&shared.gpu));
+                let mut capture = Capture::new(pass, converter);
+                caller.capture = Some(&mut capture);
+                let purpose = Purpose::Inspect(index);
+                (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, purpose, &mut caller)?;
+                running.check_is_on(pass)?;
+                drawn.read = Some(capture.taken.ok_or_else(none)?);
+            }
+            DrawFor::Bands(rows) => {
+                let mut caller = Caller { rows, watch: None, capture: None };
+                (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Bands, &mut caller)?;
+            }
+        }
         self.shared.gpu.take_trouble("a frame")?;
-        Ok(stats)
+        Ok(drawn)
+    }
+
+    /// Continues a frame of [`DrawFor::Bands`] that the caller stopped. Returns whether there was one.
+    pub fn resume(&mut self, rows: &mut Rows<'_>) -> Result<bool, EngineError> {
+        let Some(running) = self.running.as_mut().filter(|running| running.unfinished.is_some()) else {
+            return Ok(false);
+        };
+        let mut caller = Caller { rows, watch: None, capture: None };
+        running.execute(&self.shared, Some(&self.display), &mut caller)?;
+        Ok(true)
     }
 
     /// Returns the size of the picture that is drawn in tiles, and the largest tile; `None` where the running program has no
@@ -158,7 +197,7 @@ impl Engine {
     /// Draws and reads a tile of the pass that is drawn in tiles ([`BuildOptions::tile`](super::BuildOptions::tile)), of the
     /// newest frame: the pixels from `x`, `y` on, which are multiples of 4, so that the
     /// pixels that a device shades together are those of one piece. A tile that does not lie in the picture is cut. Before each
-    /// part of it, `rows` says how many rows are drawn at once. Waits for the device.
+    /// part of it, `rows` answers how many rows are drawn at once. Waits for the device.
     pub fn draw_tile(&mut self, (x, y): (u32, u32), rows: &mut dyn FnMut() -> u32) -> Result<Pixels, EngineError> {
         let none = || EngineError::NoSuchPass("in tiles".into());
         let (picture, tile) = self.tiles().ok_or_else(none)?;
@@ -166,7 +205,9 @@ impl Engine {
         let running = self.running.as_mut().ok_or_else(none)?;
         let part = |at: u32, all: u32, most: u32| all.saturating_sub(at).min(most);
         let (width, height) = (part(x, picture.0, tile.0), part(y, picture.1, tile.1));
-        running.draw_tile(&self.shared, ((x, y), (width, height)), rows)?;
+        let mut rows = || Some(rows());
+        let mut caller = Caller { rows: &mut rows, watch: None, capture: None };
+        running.draw_tile(&self.shared, ((x, y), (width, height)), &mut caller)?;
         let plan = &running.program.plan;
         let target = plan.tiled.map(|tiled| plan.draws[tiled.draw].targets.start).ok_or_else(none)?;
         let drawn = running.targets[target].newest();
@@ -178,60 +219,6 @@ impl Engine {
         };
         let rows = texels.chunks_exact(tile.0 as usize).take(height as usize);
         Ok(Pixels { width, height, texels: rows.flat_map(|row| &row[..width as usize]).copied().collect() })
-    }
-
-    /// Does the same as [`Engine::draw`], with the same picture, but waits for the device, and draws a last pass that
-    /// nobody reads so many rows at a time. Before each, `goes_on` is asked. Where it says no, the picture stays the one
-    /// before, though everything that frames to come read is drawn; [`Engine::finish`] draws the rest. Says whether all
-    /// is drawn.
-    pub fn draw_in_bands(
-        &mut self,
-        inputs: &FrameInputs,
-        rows: u32,
-        goes_on: &mut dyn FnMut() -> bool,
-    ) -> Result<bool, EngineError> {
-        let Some(running) = &mut self.running else { return Ok(true) };
-        running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Divided)?;
-        self.shared.gpu.wait()?;
-        running.draw_remaining(&self.shared, &self.display, rows, goes_on)
-    }
-
-    /// Draws what [`Engine::draw_in_bands`] left over. Says whether that was anything.
-    pub fn finish(&mut self) -> Result<bool, EngineError> {
-        let Some(running) = self.running.as_mut().filter(|running| running.rest.is_some()) else { return Ok(false) };
-        running.draw_remaining(&self.shared, &self.display, u32::MAX, &mut || true)
-    }
-
-    /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how
-    /// long each takes can then be told where the device has no timestamps. `now` gives milliseconds since any moment.
-    /// A frame takes longer so.
-    pub fn draw_waited(
-        &mut self,
-        inputs: &FrameInputs,
-        now: &mut dyn FnMut() -> f64,
-    ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
-        let Some(running) = &mut self.running else { return Ok(Default::default()) };
-        let mut watch = Watch::new(now, &running.program);
-        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Watched(&mut watch))?;
-        self.shared.gpu.take_trouble("a frame")?;
-        Ok((stats, watch.times(&running.program)))
-    }
-
-    /// Does the same as [`Engine::draw`], and takes what a pass reads when it is drawn; of a pass of several steps,
-    /// what its last one reads. Waits for the device.
-    pub fn draw_inspected(
-        &mut self,
-        inputs: &FrameInputs,
-        pass: &PassId,
-    ) -> Result<(FrameStats, PassInputs), EngineError> {
-        let none = || EngineError::NoSuchPass(pass.title());
-        let running = self.running.as_mut().ok_or_else(none)?;
-        let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
-        let mut capture = Capture::new(pass, converter);
-        let stats = running.draw(&self.shared, Some(&self.display), inputs, DrawMode::Inspected(&mut capture))?;
-        self.shared.gpu.take_trouble("a frame")?;
-        running.check_is_on(pass)?;
-        Ok((stats, capture.taken.ok_or_else(none)?))
     }
 
     /// Copies what every target holds.

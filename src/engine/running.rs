@@ -5,6 +5,7 @@ use super::{
     EngineError, FrameInputs,
     bind::{Bindings, draw_fill},
     custom_uniforms,
+    frame::Unfinished,
     program::{Meshes, Program},
     shared::Shared,
     targets::{NewTargets, Target},
@@ -30,18 +31,10 @@ pub(super) struct Running {
     pub timer: Option<PassTimer>,
     /// The number of times that each draw was done in the newest frame.
     pub steps_drawn: Vec<u32>,
-    /// The draw of the newest frame that is not done yet.
-    pub rest: Option<RemainingRows>,
+    /// The newest frame, where the caller stopped it.
+    pub unfinished: Option<Unfinished>,
     /// Says of each draw whether frames to come depend on it.
     pub lasting: Vec<bool>,
-}
-
-/// A last draw of a frame that is not done yet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RemainingRows {
-    pub draw: usize,
-    /// The first row that is not drawn.
-    pub row: u32,
 }
 
 /// Textures that a program needs besides those that are there.
@@ -92,7 +85,7 @@ impl Running {
             is_blank: Vec::new(),
             timer: None,
             steps_drawn: Vec::new(),
-            rest: None,
+            unfinished: None,
             lasting: program.plan.lasting_draws(),
             program,
         };
@@ -109,7 +102,7 @@ impl Running {
     pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
-        self.drop_remaining();
+        self.drop_unfinished();
         self.changes.invalidate();
         self.take(shared, new);
         Ok(())
@@ -141,16 +134,16 @@ impl Running {
         is_changed
     }
 
-    /// Leaves a draw undone that was begun. The next frame does it.
-    pub fn drop_remaining(&mut self) {
-        if self.rest.take().is_some() {
+    /// Drops what is left of a frame that was stopped. The next frame draws everything.
+    pub fn drop_unfinished(&mut self) {
+        if self.unfinished.take().is_some() {
             self.changes.invalidate();
         }
     }
 
     /// Sets every target to its state before frame 0.
     pub fn reset(&mut self, shared: &Shared) {
-        self.drop_remaining();
+        self.drop_unfinished();
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
         let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
         for target in &self.targets {

@@ -121,7 +121,7 @@ impl Running {
         if !snapshot.is_of(self) {
             return false;
         }
-        self.drop_remaining();
+        self.drop_unfinished();
         let gpu = &shared.gpu;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("restore") });
         for (kept, target) in snapshot.targets.iter().zip(&mut self.targets) {

@@ -7,11 +7,12 @@
 use super::{
     Engine, EngineError, FrameInputs, Program,
     custom_uniforms::block,
-    frame::DrawMode,
+    frame::{Caller, Rows},
     program::{BoundChannel, CompiledDraw, DrawBody},
 };
 use eddy_audio::SAMPLE_RATE;
 use eddy_glsl::interface::UniformBlock;
+use eddy_graph::Purpose;
 use eddy_project::{CustomUniformValues, PassId};
 use std::sync::Arc;
 
@@ -36,7 +37,7 @@ impl Engine {
         &mut self,
         number: u32,
         date: [f32; 4],
-        rows: &mut dyn FnMut() -> Option<u32>,
+        rows: &mut Rows<'_>,
     ) -> Result<Option<Vec<[i16; 2]>>, EngineError> {
         let none = || EngineError::NoSuchPass(PassId::Sound.title());
         let running = self.running.as_mut().ok_or_else(none)?;
@@ -47,16 +48,11 @@ impl Engine {
             date: [year, month, day, seconds.floor()],
             ..FrameInputs::at_fixed_step(0, 60.0)
         };
-        running.draw(&self.shared, None, &inputs, DrawMode::Divided)?;
-        self.shared.gpu.wait()?;
-        while running.rest.is_some() {
-            let Some(rows) = rows() else {
-                running.drop_remaining();
-                return Ok(None);
-            };
-            let mut is_first = true;
-            let mut one = || std::mem::take(&mut is_first);
-            running.draw_remaining(&self.shared, &self.display, rows, &mut one)?;
+        let mut caller = Caller { rows, watch: None, capture: None };
+        let (_, is_whole) = running.draw(&self.shared, None, &inputs, Purpose::Sound, &mut caller)?;
+        if !is_whole {
+            running.drop_unfinished();
+            return Ok(None);
         }
         self.shared.gpu.take_trouble("a block of sound")?;
         let bytes = self.readback.rgba8(&self.shared.gpu, running.target(&PassId::Sound, 0)?.newest())?;

@@ -105,7 +105,7 @@ impl Running {
             }
             found.push((place, count, kept));
         }
-        self.drop_remaining();
+        self.drop_unfinished();
         let gpu = &shared.gpu;
         for (place, count, kept) in found {
             let target = &self.targets[place];

@@ -2,14 +2,15 @@
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
 //! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, when its picture of before
-//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), whether its last draw may be done in pieces, and
-//! which pass can be drawn in tiles ([`Undivided`]).
+//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), whether its last draw may be done in pieces,
+//! which pass can be drawn in tiles ([`Undivided`]), and the operations of each frame ([`Schedule`]).
 //! Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an engine
 //! executes in a loop.
 
 mod carried;
 mod changes;
 mod plan;
+mod schedule;
 #[cfg(test)]
 mod tests;
 mod tiles;
@@ -19,5 +20,6 @@ pub use carried::Carried;
 pub use changes::Changes;
 pub use plan::effective_sampler;
 pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, ReadTiming, Run, Target, TexelSource};
+pub use schedule::{FrameOp, FrameState, Lap, Purpose, Schedule};
 pub use tiles::{TiledDraw, Undivided};
 pub use traffic::Traffic;

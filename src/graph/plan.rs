@@ -84,6 +84,8 @@ pub struct Draw {
     pub beside: Option<usize>,
     /// `None` where the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
+    /// It rasterizes meshes into targets that are cleared first.
+    pub draws_meshes: bool,
     /// The pass begins with the texels that the target held.
     pub keeps_content: bool,
     /// Only these texels are drawn; the others are as they were drawn last.
@@ -200,6 +202,7 @@ impl FramePlan {
                 targets,
                 beside: None,
                 reads,
+                draws_meshes: is_cleared,
                 keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
                 region,
                 has_initial: project.passes[pass].settings.initial.is_some(),

@@ -10,8 +10,8 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_engine::{
-    BLOCK_SECS, BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels,
-    Program, State, StateError,
+    BLOCK_SECS, BuildError, BuildOptions, DrawFor, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime,
+    Pixels, Program, State, StateError,
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
@@ -188,10 +188,10 @@ impl Offline {
     }
 
     /// Does of the next frame what frames to come depend on, and draws no picture that only it would show: see
-    /// [`Engine::advance`]. Waits until the device has finished.
+    /// [`DrawFor::Advance`]. Waits until the device has finished.
     pub fn advance(&mut self) -> Result<DrawnFrame, OfflineError> {
         let inputs = self.next_inputs()?;
-        self.finish(inputs, Engine::advance)
+        self.finish(inputs, |engine, inputs| Ok(engine.draw_for(inputs, DrawFor::Advance)?.stats))
     }
 
     fn draw_with(&mut self, inputs: FrameInputs) -> Result<DrawnFrame, OfflineError> {
@@ -263,7 +263,10 @@ impl Offline {
     /// Draws the next frame, and takes what a pass reads when it is drawn.
     pub fn draw_inspected(&mut self, pass: &PassId) -> Result<PassInputs, OfflineError> {
         let (inputs, pass) = (self.next_inputs()?, pass.clone());
-        self.within(inputs.frame, move |engine| Ok(engine.draw_inspected(&inputs, &pass)?.1))
+        self.within(inputs.frame, move |engine| {
+            let drawn = engine.draw_for(&inputs, DrawFor::Inspect(&pass))?;
+            drawn.read.ok_or_else(|| EngineError::NoSuchPass(pass.title()))
+        })
     }
 
     /// Draws the next frame and gives the time of each pass: by the device's timestamps, or, where it has none, each
@@ -279,7 +282,7 @@ impl Offline {
         let inputs = self.next_inputs()?;
         self.within(inputs.frame, move |engine| {
             let began = Instant::now();
-            Ok(engine.draw_waited(&inputs, &mut || millis_since(began))?.1)
+            Ok(engine.draw_for(&inputs, DrawFor::Timed(&mut || millis_since(began)))?.times)
         })
     }
 

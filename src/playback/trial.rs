@@ -4,7 +4,7 @@
 //! child, which compiles a project as the parent would and draws one pixel of each pass ([`serve`]). Mesa keeps what it
 //! compiled in a cache on disk, so that the parent does not compile it a second time.
 
-use eddy_engine::{BuildOptions, FrameInputs, Trial, TrialError, TrialOrder};
+use eddy_engine::{BuildOptions, DrawFor, FrameInputs, Trial, TrialError, TrialOrder};
 use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media as media;
 use eddy_project::{self as project, PassId, limits};
@@ -177,7 +177,7 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
         step.fetch_add(1, Ordering::Relaxed);
         0.0
     };
-    offline.into_engine()?.draw_waited(&FrameInputs::at_fixed_step(0, FPS), &mut next_pass)?;
+    offline.into_engine()?.draw_for(&FrameInputs::at_fixed_step(0, FPS), DrawFor::Timed(&mut next_pass))?;
     Ok(())
 }
 

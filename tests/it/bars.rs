@@ -32,7 +32,7 @@ fn a_marcher_is_traced_in_50_milliseconds() {
     let lines = project.passes[0].source.text.lines().count();
     assert!(lines >= 500, "{lines} lines");
     let mut engine = ran(&gpu, &project, (64, 36), 1);
-    let mut read = engine.draw_inspected(&FrameInputs::at_fixed_step(1, 60.0), &PassId::Image).unwrap().1;
+    let mut read = inspect(&mut engine, &FrameInputs::at_fixed_step(1, 60.0), &PassId::Image);
     // The pixels of a larger picture, which nobody draws here.
     (read.size, read.uniforms.resolution) = ((640, 360), [640.0, 360.0, 1.0]);
     let sources = Sources::new(&project);

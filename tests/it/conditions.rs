@@ -6,7 +6,7 @@ use crate::support::{
 };
 use eddy::{
     diag::render_all,
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, PassRole, Program},
+    engine::{BuildError, BuildOptions, DrawFor, Engine, EngineError, FrameInputs, PassRole, Program},
     gpu::Gpu,
     media::MediaSet,
     project::{
@@ -106,7 +106,7 @@ fn what_is_off_costs_nothing_and_says_why() {
     assert_eq!(drawn(2, 2), (0, PassRole::Off, 0, said));
     for error in [
         engine.inspect(&buffer("A")).err().unwrap(),
-        engine.draw_inspected(&FrameInputs::at_fixed_step(3, 60.0), &buffer("A")).err().unwrap(),
+        engine.draw_for(&FrameInputs::at_fixed_step(3, 60.0), DrawFor::Inspect(&buffer("A"))).err().unwrap(),
     ] {
         assert!(matches!(&error, EngineError::Off { .. }), "{error}");
         assert!(error.to_string().contains("kind == 3 && width > 2"), "{error}");

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs},
+    engine::{BuildOptions, DrawFor, Engine, FrameInputs},
     gpu::Gpu,
     media,
     project::{PassId, presets},
@@ -30,7 +30,7 @@ fn bands_draw_what_one_piece_draws() {
         let (mut whole, mut banded) = (preset(&gpu, name), preset(&gpu, name));
         for (frame, rows) in [1, 64, 0, u32::MAX, 37].into_iter().enumerate() {
             whole.draw(&inputs(frame as i32)).unwrap();
-            assert!(banded.draw_in_bands(&inputs(frame as i32), rows, &mut || true).unwrap());
+            assert!(banded.draw_for(&inputs(frame as i32), DrawFor::Bands(&mut || Some(rows))).unwrap().is_whole);
             assert!(whole.picture().unwrap().bytes == banded.picture().unwrap().bytes, "{name}, {rows} rows");
         }
     }
@@ -48,7 +48,8 @@ fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it()
             let drawn = whole.picture().unwrap().bytes;
             // After none, one or two of three bands, or not at all.
             let mut left = 0..frame as u32 % (bands + 1);
-            let is_whole = banded.draw_in_bands(&inputs(frame), 64, &mut || left.next().is_some()).unwrap();
+            let mut rows = || left.next().map(|_| 64);
+            let is_whole = banded.draw_for(&inputs(frame), DrawFor::Bands(&mut rows)).unwrap().is_whole;
             assert_eq!(is_whole, frame as u32 % (bands + 1) == bands, "{name}, frame {frame}");
             if is_whole {
                 assert!(banded.picture().unwrap().bytes == drawn, "{name}, frame {frame}");
@@ -56,9 +57,9 @@ fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it()
             }
             assert!(banded.picture().unwrap().bytes == before, "{name}, frame {frame}: it is not finished");
             if frame % 2 == 0 {
-                assert!(banded.finish().unwrap());
+                assert!(banded.resume(&mut || Some(u32::MAX)).unwrap());
                 assert!(banded.picture().unwrap().bytes == drawn, "{name}, frame {frame}, finished");
-                assert!(!banded.finish().unwrap(), "once");
+                assert!(!banded.resume(&mut || Some(u32::MAX)).unwrap(), "once");
             }
         }
     }
@@ -77,8 +78,9 @@ fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
     let given_up = || {
         let mut engine = engine(&gpu, &still, SIZE);
         let mut left = 1;
-        let goes_on = &mut || std::mem::replace(&mut left, 0) > 0;
-        assert!(!engine.draw_in_bands(&FrameInputs::at_fixed_step(0, 60.0), 64, goes_on).unwrap());
+        let mut rows = || (std::mem::replace(&mut left, 0) > 0).then_some(64);
+        let drawn = engine.draw_for(&FrameInputs::at_fixed_step(0, 60.0), DrawFor::Bands(&mut rows)).unwrap();
+        assert!(!drawn.is_whole);
         engine
     };
     let mut next = given_up();
@@ -91,7 +93,7 @@ fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
     {
         let mut changed = given_up();
         change(&mut changed);
-        assert!(!changed.finish().unwrap(), "nothing is left of it");
+        assert!(!changed.resume(&mut || Some(u32::MAX)).unwrap(), "nothing is left of it");
         run(&mut changed, 1, 2);
         let mut fresh = engine(&gpu, &still, changed.size());
         run(&mut fresh, 1, 2);

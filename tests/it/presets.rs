@@ -2,7 +2,7 @@
 
 use crate::support::{presets::*, *};
 use eddy::{
-    engine::{BuildOptions, FrameInputs, Pixels},
+    engine::{BuildOptions, DrawFor, FrameInputs, Pixels},
     media::{Keyboard, MediaSet},
     project::{PassId, Project, presets},
 };
@@ -145,7 +145,7 @@ fn drawing_what_nobody_needs_changes_no_byte() {
         for frame in 0..12 {
             let frame_stats = match frame {
                 3 | 4 | 11 => engine.draw(&drag(frame)).unwrap(),
-                _ => engine.advance(&drag(frame)).unwrap(),
+                _ => engine.draw_for(&drag(frame), DrawFor::Advance).unwrap().stats,
             };
             drawn += if matches!(frame, 7) { frame_stats.passes_drawn } else { 0 };
         }

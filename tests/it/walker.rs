@@ -35,7 +35,7 @@ void mainImage(out vec4 o, in vec2 p) {
     let project = project(vec![image(code, Default::default())]);
     let mut engine = engine(&gpu, &project, (8, 4));
     let image = PassId::Image;
-    let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &image).unwrap();
+    let read = inspect(&mut engine, &FrameInputs::at_fixed_step(0, 60.0), &image);
     let texts = Sources::new(&project);
     let trace = trace::trace(&texts, 0, &read, (5, 1), Extent::default()).unwrap();
     let sources = project.sources();
@@ -265,7 +265,7 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
         let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
         (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
         for (frame, pass) in (3..).zip(pictures) {
-            let (_, read) = engine.draw_inspected(&inputs(frame), &pass.id).unwrap();
+            let read = inspect(&mut engine, &inputs(frame), &pass.id);
             let before = engine.read(&pass.id).unwrap();
             let Ok(after) = engine.inspect(&pass.id) else { continue };
             assert!(after == read, "{name}, {}", pass.id.title());

@@ -31,7 +31,7 @@ fn drawn(gpu: &Gpu, project: &Project, pass: &PassId, size: (u32, u32), frame: i
         FrameInputs { drag, ..FrameInputs::at_fixed_step(frame, 60.0) }
     };
     (0..frame).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
-    let (_, read) = engine.draw_inspected(&inputs(frame), pass).unwrap();
+    let read = inspect(&mut engine, &inputs(frame), pass);
     (read, engine.read(pass).unwrap())
 }
 

@@ -203,7 +203,7 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassId, Found)> {
         for (index, (id, found)) in found.iter_mut().enumerate() {
             // Passes of one group overwrite what others of it have read, so each is looked at in its own drawing.
             assert!(engine.restore(&before));
-            let (_, read) = engine.draw_inspected(&inputs(frame), id).unwrap();
+            let read = inspect(&mut engine, &inputs(frame), id);
             let drawn = engine.read(id).unwrap();
             walk_pass((&project, &sources), (index, frame), (&read, &drawn), found);
         }

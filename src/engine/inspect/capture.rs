@@ -30,10 +30,6 @@ impl<'a> Capture<'a> {
         Self { pass, converter, is_past: true, taken: None }
     }
 
-    pub fn wants(&self, compiled: &CompiledDraw) -> bool {
-        compiled.id == *self.pass
-    }
-
     /// Reads everything that a draw reads. What was encoded before has been handed in.
     pub fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);

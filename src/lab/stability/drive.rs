@@ -12,7 +12,7 @@ use crate::{
     LabError, Number,
     stability_record::{Outcome, Recovery, StabilityRecord, Violation},
 };
-use eddy_engine::{BuildOptions, Engine, Pixels, Program};
+use eddy_engine::{BuildOptions, DrawFor, Engine, Pixels, Program};
 use eddy_gpu::Gpu;
 use eddy_project::PassId;
 use std::collections::BTreeMap;
@@ -217,11 +217,7 @@ impl Run<'_, '_, '_> {
             }
         }
         let inputs = self.inputs.next(engine.size());
-        if is_seen {
-            engine.draw(&inputs)?
-        } else {
-            engine.advance(&inputs)?
-        };
+        engine.draw_for(&inputs, if is_seen { DrawFor::Frame } else { DrawFor::Advance })?;
         if (frame + 1).is_multiple_of(FRAMES_IN_FLIGHT) {
             engine.gpu().wait()?;
         }

@@ -14,10 +14,7 @@ use eddy_project::{FileError, Media, confine, face_file, limits, nearest, next_n
 use eddy_texture::Dimension;
 use eddy_texture::TexelFormat;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
-use std::{
-    io::Cursor,
-    path::Path,
-};
+use std::{io::Cursor, path::Path};
 
 /// Loads what a key names. A file lies in the project's folder `base`, see [`confine`]. For a file of the site, one of the
 /// same name in `media_dir` wins over the built-in fallback.

@@ -67,7 +67,7 @@ pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
         };
         let mut engine = eddy::engine::Engine::new(gpu.clone(), 1, 1).unwrap();
         engine.set_program(built.program).unwrap();
-        let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &buffer("A")).unwrap();
+        let read = inspect(&mut engine, &FrameInputs::at_fixed_step(0, 60.0), &buffer("A"));
         let got = texel(&engine.read(&buffer("A")).unwrap(), 0, 0);
         let close = |(&got, &want): (&f32, &f32)| {
             got == want || (got.is_nan() && want.is_nan()) || (got - want).abs() <= 2e-5 * want.abs().max(1.0)

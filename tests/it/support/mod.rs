@@ -25,7 +25,7 @@ pub mod window;
 
 pub use eddy::gpu::testing::{gpu, gpu_with, skipped};
 use eddy::{
-    engine::{BuildOptions, Builder, Engine, FrameInputs, Pixels},
+    engine::{BuildOptions, Builder, DrawFor, Engine, FrameInputs, PassInputs, Pixels},
     gpu::Gpu,
     lab::Rig,
     media::MediaSet,
@@ -72,6 +72,11 @@ pub fn project(passes: Vec<Pass>) -> Project {
 }
 
 /// An engine at a size with the project's program in it.
+/// Draws a frame and returns what a pass reads in it.
+pub fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassId) -> PassInputs {
+    engine.draw_for(inputs, DrawFor::Inspect(pass)).unwrap().read.unwrap()
+}
+
 pub fn engine_with(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions, size: (u32, u32)) -> Engine {
     Engines::new(gpu).with(project, media, options, size)
 }

@@ -6,7 +6,7 @@
 //! ([`History::prepare_again`]). That state is kept, for the next time.
 
 use super::{BUDGET, Frame, History};
-use eddy_engine::{Engine, EngineError, FrameInputs, Snapshot};
+use eddy_engine::{DrawFor, Engine, EngineError, FrameInputs, Snapshot};
 use std::{sync::Arc, time::Duration};
 
 impl History {
@@ -78,7 +78,7 @@ impl History {
             let Some(frame) = self.frame(frame).cloned() else { return Ok(false) };
             engine.resize(frame.size.0, frame.size.1)?;
             engine.set_custom_uniforms(&frame.values);
-            engine.advance(&frame.inputs)?;
+            engine.draw_for(&frame.inputs, DrawFor::Advance)?;
         }
         engine.gpu().wait()?;
         engine.set_custom_uniforms(&self.values);

@@ -5,7 +5,7 @@ use super::{
     history::History,
     job::{Changes, Done, DrawnFrame, Job, TileLimit},
 };
-use eddy_engine::{CostClock, Engine, EngineError, FrameInputs, PassTime, Program};
+use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime, Program};
 use eddy_gpu::Gpu;
 use std::time::{Duration, Instant};
 
@@ -258,7 +258,10 @@ impl Renderer {
             return false;
         }
         // A device that is lost is told of by what is asked of it next.
-        self.engine.finish().inspect_err(|e| log::error!("a frame could not be finished: {e}")).unwrap_or(false)
+        self.engine
+            .resume(&mut || Some(u32::MAX))
+            .inspect_err(|e| log::error!("a frame could not be finished: {e}"))
+            .unwrap_or(false)
     }
 
     /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks at the costs.
@@ -269,12 +272,13 @@ impl Renderer {
         let rows = if self.engine.gpu().is_cpu() { band_rows(self.engine.size().1, self.whole_took) } else { None };
         if let (Some(gate), Some(rows), false) = (gate, rows, is_watched) {
             let mut waited = Duration::ZERO;
-            let is_whole = self.engine.draw_in_bands(inputs, rows, &mut || {
+            let mut next_rows = || {
                 let asked = Instant::now();
                 let goes_on = gate.pass();
                 waited += asked.elapsed();
-                goes_on
-            })?;
+                goes_on.then_some(rows)
+            };
+            let is_whole = self.engine.draw_for(inputs, DrawFor::Bands(&mut next_rows))?.is_whole;
             self.is_given_up = !is_whole;
             let took = began.elapsed().saturating_sub(waited);
             if is_whole {
@@ -283,7 +287,7 @@ impl Renderer {
             return Ok(DrawnFrame { cpu_micros: took.as_secs_f64() * 1e6, times: None, took });
         }
         if is_watched && self.engine.cost_clock() == CostClock::Waited {
-            let (_, waited) = self.engine.draw_waited(inputs, &mut || micros() / 1e3)?;
+            let waited = self.engine.draw_for(inputs, DrawFor::Timed(&mut || micros() / 1e3))?.times;
             (cpu_micros, times) = (micros(), Some(waited));
         } else {
             self.engine.draw(inputs)?;
