@@ -7,8 +7,17 @@
 const int LANTERNS = 6;
 const float WATER = -0.16; // height of its surface
 
-float hash(vec2 p) {
-    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
+// A number in 0..1 for a cell, of integers alone and so the same on every GPU: pcg2d (M. Jarzynski, M. Olano, "Hash
+// Functions for GPU Rendering", JCGT 9(3), 2020).
+float hash(ivec2 cell) {
+    uvec2 v = uvec2(cell) * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    return float(v.x >> 8u) / 16777216.0;
 }
 
 // Where the string hangs.
@@ -19,8 +28,8 @@ float stringHeight(float x) {
 // A lantern's middle (xy) and half width (z). Each swings a little, in its own time.
 vec3 lantern(int i, float time) {
     float f = float(i);
-    float x = -0.75 + 0.30 * f + 0.03 * hash(vec2(f, 3.0));
-    float size = 0.050 + 0.018 * hash(vec2(f, 5.0));
+    float x = -0.75 + 0.30 * f + 0.03 * hash(ivec2(i, 3));
+    float size = 0.050 + 0.018 * hash(ivec2(i, 5));
     float swing = 0.12 * sin(1.3 * time + 2.4 * f);
     return vec3(x + 0.10 * swing, stringHeight(x) - 0.07 - 1.3 * size, size);
 }
@@ -38,7 +47,7 @@ vec3 overWater(vec2 p, float pixel, float time) {
     light = mix(light, vec3(0.003, 0.004, 0.008), inHill);
     vec2 house = floor(p * vec2(34.0, 60.0));
     vec2 inHouse = abs(fract(p * vec2(34.0, 60.0)) - 0.5);
-    float lit = step(0.93, hash(house)) * step(max(inHouse.x, inHouse.y), 0.22) * step(house.y / 60.0 + 0.02, hill);
+    float lit = step(0.93, hash(ivec2(house))) * step(max(inHouse.x, inHouse.y), 0.22) * step(house.y / 60.0 + 0.02, hill);
     light += lit * inHill * vec3(1.0, 0.62, 0.25) * 1.2;
     // The string.
     float string = clamp((0.0012 - abs(p.y - stringHeight(p.x))) / pixel + 0.5, 0.0, 1.0);

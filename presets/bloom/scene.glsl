@@ -14,8 +14,17 @@ float triangleDistance(vec2 p, float r) {
     return min(segmentDistance(p, a, b), min(segmentDistance(p, b, c), segmentDistance(p, c, a)));
 }
 
-float hash(vec2 p) {
-    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
+// A number in 0..1 for a cell, of integers alone and so the same on every GPU: pcg2d (M. Jarzynski, M. Olano, "Hash
+// Functions for GPU Rendering", JCGT 9(3), 2020).
+float hash(ivec2 cell) {
+    uvec2 v = uvec2(cell) * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    return float(v.x >> 8u) / 16777216.0;
 }
 
 const int TUBES = 4;
@@ -33,7 +42,7 @@ void tubes(vec2 p, float time, out vec4 far, out vec4 burning) {
     vec2 lamp = vec2(0.42 + 0.30 * sin(1.1 * time), -0.20 + 0.045 * cos(2.2 * time));
     far.w = length(p - lamp) - 0.006;
     float old = fract(0.23 * time); // the triangle's transformer is not what it was
-    burning = vec4(1.0, old > 0.90 ? step(0.4, hash(vec2(floor(24.0 * time), 1.0))) : 1.0, 1.0, 1.5);
+    burning = vec4(1.0, old > 0.90 ? step(0.4, hash(ivec2(floor(24.0 * time), 1))) : 1.0, 1.0, 1.5);
 }
 
 // Radiance at p; y runs from -0.5 to 0.5, `pixel` is the size of one.
@@ -47,8 +56,8 @@ vec3 scene(vec2 p, float pixel, float time) {
     vec2 inBrick = abs(fract(course) - 0.5) / vec2(9.0, 20.0);
     vec2 edge = vec2(0.5) / vec2(9.0, 20.0) - inBrick;
     float mortar = 1.0 - smoothstep(0.0015, 0.0025 + pixel, min(edge.x, edge.y));
-    vec3 wall = mix(vec3(0.24, 0.10, 0.07) * (0.6 + 0.6 * hash(floor(course))), vec3(0.20, 0.19, 0.18), mortar);
-    wall *= 0.85 + 0.3 * hash(floor(course * vec2(18.0, 8.0)));
+    vec3 wall = mix(vec3(0.24, 0.10, 0.07) * (0.6 + 0.6 * hash(ivec2(floor(course)))), vec3(0.20, 0.19, 0.18), mortar);
+    wall *= 0.85 + 0.3 * hash(ivec2(floor(course * vec2(18.0, 8.0))));
 
     // The tubes light the wall: each is near a line, whose light falls with the distance; they stand 0.05 before it.
     vec3 light = vec3(0.020, 0.024, 0.040);

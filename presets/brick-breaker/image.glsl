@@ -28,8 +28,18 @@ float inside(float d) {
     return clamp(0.5 - d / pixel, 0.0, 1.0);
 }
 
-float hash(float n) {
-    return fract(sin(n * 12.9898) * 43758.5453);
+// Four numbers in 0..1 for a point of the field and a number, of integers alone and so the same on every GPU: pcg4d
+// (M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020).
+vec4 hash(ivec2 at, int number) {
+    uvec4 v = uvec4(ivec4(at, number, 0)) * 1664525u + 1013904223u;
+    for (int i = 0; i < 2; i++) {
+        v.x += v.y * v.w;
+        v.y += v.z * v.x;
+        v.z += v.x * v.y;
+        v.w += v.y * v.z;
+        if (i == 0) v ^= v >> 16u;
+    }
+    return vec4(v >> 8u) / 16777216.0;
 }
 
 // ------------------------------------------------------------------------------------------------------- letters
@@ -115,10 +125,11 @@ vec3 bursts(vec2 p) {
         vec3 own = brick ? ROW_COLOUR[int(b.w) % ROWS] : LIGHT;
         light += own * 0.5 * (1.0 - t) * (1.0 - t) * exp(-dot(p - b.xy, p - b.xy) / (brick ? 160.0 : 40.0));
         int shards = brick ? 12 : 5;
+        ivec2 place = ivec2(floor(b.xy + 0.25)); // the centre of a brick is a multiple of a half
         for (int k = 0; k < shards; k++) {
-            float seed = float(k) + 7.31 * b.x + 3.17 * b.y;
-            float angle = 6.2832 * hash(seed), fast = (brick ? 55.0 : 28.0) * (0.35 + 0.65 * hash(seed + 0.5));
-            vec2 at = b.xy + (brick ? vec2(8.0, 3.0) * (vec2(hash(seed + 0.2), hash(seed + 0.7)) - 0.5) : vec2(0.0));
+            vec4 random = hash(place, k);
+            float angle = 6.2832 * random.x, fast = (brick ? 55.0 : 28.0) * (0.35 + 0.65 * random.y);
+            vec2 at = b.xy + (brick ? vec2(8.0, 3.0) * (random.zw - 0.5) : vec2(0.0));
             at += vec2(cos(angle), sin(angle)) * fast * b.z + vec2(0.0, -60.0) * b.z * b.z * (brick ? 1.0 : 0.3);
             float size = (brick ? 1.3 : 0.7) * (1.0 - t);
             light += (own + 0.15) * inside(length(p - at) - size) * (1.0 - t);

@@ -1,7 +1,16 @@
 // The card that is blurred: fine things at every angle, hard edges, no anti-aliasing, and below it one lit texel.
 
-float hash(vec2 p) {
-    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
+// A number in 0..1 for a cell, of integers alone and so the same on every GPU: pcg2d (M. Jarzynski, M. Olano, "Hash
+// Functions for GPU Rendering", JCGT 9(3), 2020).
+float hash(ivec2 cell) {
+    uvec2 v = uvec2(cell) * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    return float(v.x >> 8u) / 16777216.0;
 }
 
 mat2 turned(float angle) {
@@ -18,7 +27,7 @@ vec3 card(vec2 p) {
         float sector = (a + 0.15 * time) / 6.2832 * 24.0, id = mod(floor(sector), 24.0);
         vec2 local = vec2((fract(sector) - 0.5) * 6.2832 / 24.0 * r, r - 0.765);
         vec3 own = 0.5 + 0.5 * cos(6.2832 * (id / 24.0 + vec3(0.0, 0.33, 0.67)));
-        float size = 0.02 + 0.07 * hash(vec2(id, 3.0));
+        float size = 0.02 + 0.07 * hash(ivec2(id, 3));
         return length(local) < size ? 1.6 * own : vec3(0.012, 0.015, 0.03);
     }
     if (r > 0.55) return vec3(0.85, 0.80, 0.70);

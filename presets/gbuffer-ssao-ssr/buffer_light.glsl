@@ -12,20 +12,30 @@ vec3 paint(int material) {
          : material == 4 ? vec3(0.640, 0.040, 0.030) : vec3(0.780, 0.740, 0.660);
 }
 
-float hash(vec2 p) {
-    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
+// A number in 0..1 for a cell, of integers alone and so the same on every GPU: pcg2d (M. Jarzynski, M. Olano, "Hash
+// Functions for GPU Rendering", JCGT 9(3), 2020).
+float hash(ivec2 cell) {
+    uvec2 v = uvec2(cell) * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    return float(v.x >> 8u) / 16777216.0;
 }
 
 float noise(vec2 p) {
-    vec2 i = floor(p), f = p - i;
+    vec2 base = floor(p), f = p - base;
+    ivec2 i = ivec2(base);
     f = f * f * (3.0 - 2.0 * f);
-    return mix(mix(hash(i), hash(i + vec2(1.0, 0.0)), f.x), mix(hash(i + vec2(0.0, 1.0)), hash(i + 1.0), f.x), f.y);
+    return mix(mix(hash(i), hash(i + ivec2(1, 0)), f.x), mix(hash(i + ivec2(0, 1)), hash(i + 1), f.x), f.y);
 }
 
 // Boards of walnut. What is finer than a pixel, `blur` wide, is left out.
 vec3 walnut(vec2 p, float blur) {
     p = vec2(0.94 * p.x + 0.34 * p.y, 0.94 * p.y - 0.34 * p.x);
-    float board = floor(p.y / 0.62), across = p.y / 0.62 - board, own = hash(vec2(board, 3.0));
+    float board = floor(p.y / 0.62), across = p.y / 0.62 - board, own = hash(ivec2(board, 3));
     vec2 q = vec2(0.55 * p.x + 17.0 * own, p.y + 5.0 * own);
     float rings = sin(22.0 * (q.y + 0.35 * noise(q * vec2(0.9, 1.6))) + 5.0 * noise(q * vec2(0.5, 3.0)));
     float fibre = noise(q * vec2(7.0, 130.0));

@@ -225,8 +225,14 @@ fn drawn(point: &Point) -> Setup {
     let setup = whole(&point.method, point.setting, (point.grid, point.grid));
     let source = source(&setup);
     // Something to draw in every frame, as a scene has.
+    // Integers alone (M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d).
     let scene = "void mainImage(out vec4 light, in vec2 fragCoord) {
-        light = vec4(vec3(fract(sin(dot(floor(fragCoord / 8.0), vec2(12.9898, 78.233)) + iTime) * 43758.5453)), 1.0);
+        uvec3 v = uvec3(ivec3(ivec2(fragCoord) / 8, iFrame)) * 1664525u + 1013904223u;
+        v.x += v.y * v.z;
+        v.y += v.z * v.x;
+        v.z += v.x * v.y;
+        v ^= v >> 16u;
+        light = vec4(vec3((v.x + v.y * v.z) >> 8u) / 16777216.0, 1.0);
     }";
     setup.text(source, scene)
 }
