@@ -29,6 +29,7 @@ mod farms;
 mod fills;
 mod films;
 mod fixes;
+mod float_hashes;
 mod frame_bands;
 mod gamepads;
 mod geometry;

@@ -5,7 +5,7 @@ use super::{
     names::{Interner, Symbol},
     with_room,
 };
-use eddy_diag::{Diagnostic, Span};
+use eddy_diag::{Diagnostic, Severity, Span};
 use std::{
     fmt,
     hash::{Hash, Hasher},
@@ -177,6 +177,12 @@ impl Origins {
     pub fn warning(&self, names: &Interner, loc: impl Into<Loc>, message: impl Into<String>) -> Diagnostic {
         let loc = loc.into();
         self.with_macro(names, loc, Diagnostic::warning(self.span(loc), message))
+    }
+
+    /// As [`Origins::error`], for a note.
+    pub fn note(&self, names: &Interner, loc: impl Into<Loc>, message: impl Into<String>) -> Diagnostic {
+        let loc = loc.into();
+        self.with_macro(names, loc, Diagnostic::new(Severity::Note, self.span(loc), message))
     }
 
     fn with_macro(&self, names: &Interner, loc: Loc, diagnostic: Diagnostic) -> Diagnostic {

@@ -182,6 +182,7 @@ impl<'a> Checker<'a> {
         self.finish_calls();
         if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {
             self.finish_size();
+            self.finish_float_hashes();
         }
     }
 

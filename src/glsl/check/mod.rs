@@ -21,6 +21,7 @@ pub(crate) mod env;
 mod expr;
 mod facts;
 mod fault;
+mod float_hash;
 mod fold;
 mod function;
 mod given;

@@ -70,13 +70,13 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("noise", "there is no built-in noise: hash the coordinates, or sample a noise texture"),
     (
         "random",
-        "there is no built-in random: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * \
-         43758.5453)`",
+        "there is no built-in random: hash integers, for instance by pcg3d (Jarzynski and Olano 2020); \
+         `fract(sin(x) * 43758.5)` differs between GPUs",
     ),
     (
         "rand",
-        "there is no built-in rand: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * \
-         43758.5453)`",
+        "there is no built-in rand: hash integers, for instance by pcg3d (Jarzynski and Olano 2020); \
+         `fract(sin(x) * 43758.5)` differs between GPUs",
     ),
     (
         "printf",
