@@ -26,10 +26,10 @@ struct Hash {
     is_alone: bool,
 }
 
-/// What an integer hash takes in place of an angle.
+/// The value that an integer hash takes in place of an angle.
 struct Input {
     ty: TypeId,
-    /// Where it is written, or the name of the variable.
+    /// The place where it is written, or the name of the variable.
     text: Result<Span, Symbol>,
     /// Tells hashes of one value apart that differ in their constants.
     seed: u32,
