@@ -5,6 +5,7 @@ use super::{
     args::{CheckArgs, Consumer},
     machine::{Machine, RunError, millis_since},
     report::{Printer, Report},
+    terminal,
 };
 use crate::{
     diag::{self, Diagnostic},
@@ -26,7 +27,7 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
         let mut report = Report::new(spec);
         let mut dumped = String::new();
         machine.attempt(&mut report, |_, report| check(report, spec, args, &mut dumped));
-        io::stdout().write_all(dumped.as_bytes())?;
+        terminal::out().write_all(dumped.as_bytes())?;
         let errors = report.errors();
         let warnings = report.diagnostics.iter().filter(|m| m.severity == "warning").count();
         let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });

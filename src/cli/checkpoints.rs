@@ -93,11 +93,11 @@ impl<'a> Checkpoints<'a> {
             return Ok(None);
         };
         debug_assert!(every > 0);
-        let path = checkpoint::path(self.folder(), &self.stem, next);
+        let (folder, name) = (self.folder(), checkpoint::file_name(&self.stem, next));
         let state = offline.engine()?.state()?;
-        checkpoint::write(&path, &Moment { frame: next, ..self.moment.clone() }, &state)
+        checkpoint::write(folder, &name, &Moment { frame: next, ..self.moment.clone() }, &state)
             .map_err(anyhow::Error::from)?;
-        Ok(Some(path))
+        Ok(Some(folder.join(name)))
     }
 
     fn folder(&self) -> &Path {

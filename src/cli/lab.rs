@@ -4,7 +4,7 @@ use super::{
     args::{LabArgs, LabCommand},
     failure::trouble,
     machine::shard_and_device,
-    precision, stability,
+    precision, stability, terminal,
 };
 use crate::lab::{
     Extent, LabError, PresentFingerprints, RESULTS_FILE, Results, Study,
@@ -86,7 +86,7 @@ fn report(out: &Path, studies: &[&'static Study], results: &Results) -> Result<S
 fn finish(done: Result<String, LabError>) -> io::Result<u8> {
     match done {
         Ok(words) => {
-            writeln!(io::stdout(), "{words}")?;
+            writeln!(terminal::out(), "{words}")?;
             Ok(0)
         }
         Err(error) => Ok(trouble(error)),
@@ -94,7 +94,7 @@ fn finish(done: Result<String, LabError>) -> io::Result<u8> {
 }
 
 fn list(studies: &[&Study]) -> io::Result<u8> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     for study in studies {
         writeln!(out, "{}: {}", study.name, study.title)?;
         for method in study.methods {
@@ -139,10 +139,7 @@ impl Progress {
                     return;
                 }
             };
-            let mut err = io::stderr().lock();
-            // Nobody is left to tell where standard error is closed.
-            let _ = if self.is_terminal { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
-            let _ = err.flush();
+            terminal::say_over(&words, self.is_terminal);
         }
     }
 }

@@ -35,6 +35,7 @@ mod source_excerpt;
 mod stability;
 mod sweep;
 mod targets;
+mod terminal;
 mod text_place;
 mod tiles;
 mod trace;
@@ -61,9 +62,14 @@ pub enum Next {
     Window(Window),
 }
 
+/// Returns the definition of the command line.
+pub fn definition() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
+}
+
 /// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
-    let Cli { window, command } = Cli::parse().with_guests();
+    let Cli { window, command } = Cli::try_parse().unwrap_or_else(|error| failure::usage(&error)).with_guests();
     let Some(command) = command else { return Next::Window(window.with_project_of_file()) };
     if matches!(
         command,

@@ -3,6 +3,7 @@
 //! The logger and the panic hook are the process's own: [`install`] is called once, by `main`.
 
 use crate::{
+    diag,
     gpu::loss::is_loss,
     session::{self, PanicReport, home_as_tilde},
 };
@@ -81,7 +82,12 @@ impl log::Log for Logger {
 pub fn install() {
     // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
     let environment = env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn");
-    let terminal = env_logger::Builder::from_env(environment).build();
+    let terminal = env_logger::Builder::from_env(environment)
+        .format(|out, record| {
+            let line = format!("[{} {}] {}", record.level(), record.target(), record.args());
+            writeln!(out, "{}", diag::indented(&diag::escaped(&line)))
+        })
+        .build();
     let recent = Arc::new(Mutex::new(Recent::default()));
     let most = terminal.filter().max(log::LevelFilter::Info);
     if log::set_boxed_logger(Box::new(Logger { terminal, recent: recent.clone() })).is_ok() {
@@ -113,7 +119,7 @@ fn tell(report: &PanicReport, folder: &Path) {
         Err(error) => format!("A report of this bug could not be written to {}: {error}", folder.display()),
     };
     // Nobody is left to tell where standard error is closed.
-    let _ = writeln!(std::io::stderr(), "{said}");
+    let _ = writeln!(super::terminal::err(), "{said}");
 }
 
 fn report(panic: &PanicHookInfo<'_>, recent: &Mutex<Recent>) -> PanicReport {

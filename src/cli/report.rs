@@ -1,5 +1,6 @@
 //! A report says how one project fared, in words or as one JSON object a line.
 
+use super::terminal;
 use crate::{
     diag::{self, Diagnostic, Severity, SourceMap},
     project::Project,
@@ -93,9 +94,10 @@ impl Report {
         Report { sweep: sweep.to_vec(), ..Report::new(project) }
     }
 
-    /// The project, and what `--sweep` set.
+    /// The project, and what `--sweep` set, in one line.
     pub fn title(&self) -> String {
-        self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"))
+        let title = self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"));
+        diag::one_line(&title).into_owned()
     }
 
     /// Adds diagnostics; an error among them is what became of the project.
@@ -165,17 +167,18 @@ impl Printer {
     /// The same with a JSON object that says more than the report.
     pub fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
         self.worst = self.worst.max(report.status);
-        let mut out = io::stdout().lock();
         if self.json {
-            serde_json::to_writer(&mut out, line)?;
-            return out.write_all(b"\n").and_then(|()| out.flush());
+            return terminal::json_line(line);
         }
         if !report.carets.is_empty() {
-            writeln!(io::stderr().lock(), "{}:\n{}", report.title(), report.carets)?;
+            writeln!(terminal::err(), "{}:\n{}", report.title(), report.carets)?;
         }
+        // A project's name may hold line breaks, and is part of many lines.
+        let words = words.replace(&report.project, &diag::one_line(&report.project));
         if self.is_piped && !words.is_empty() {
-            return writeln!(io::stderr().lock(), "{words}");
+            return writeln!(terminal::err(), "{words}");
         }
+        let mut out = terminal::out();
         if !words.is_empty() {
             writeln!(out, "{words}")?;
         }

@@ -1,6 +1,6 @@
 //! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
 
-use super::{args::StabilityArgs, failure::trouble, machine::shard_and_device};
+use super::{args::StabilityArgs, failure::trouble, machine::shard_and_device, terminal};
 use crate::lab::{
     Extent, LabError, Results, Shard,
     stability::{
@@ -47,7 +47,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
     if of_these.is_empty() && options.shard == Shard::WHOLE {
         return Ok(trouble("no case has this text in its name or kind"));
     }
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     write!(out, "{}", stability::table(&of_these))?;
     write!(out, "\n{}", run::coverage(&subjects, &options, &results))?;
     if let Some(folder) = &args.out {
@@ -68,8 +68,5 @@ pub fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Resu
 /// Says on standard error what is drawn: on a terminal in one line that is written over, else a line a case.
 fn tell(step: Step<'_>) {
     let words = format!("{}/{} {}: {}", step.done + 1, step.all, step.project, step.case.name);
-    let mut err = io::stderr().lock();
-    // Nobody is left to tell where standard error is closed.
-    let _ = if err.is_terminal() { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
-    let _ = err.flush();
+    terminal::say_over(&words, io::stderr().is_terminal());
 }

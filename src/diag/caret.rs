@@ -2,7 +2,7 @@
 //!
 //! The shape is rustc's, which people know. Plain text only; a terminal front end may colour the first word.
 
-use super::{Diagnostic, SourceMap, Span};
+use super::{Diagnostic, SourceMap, Span, escaped, indented, one_line};
 use std::fmt::Write;
 
 /// Every diagnostic in caret form, a blank line between two.
@@ -13,7 +13,7 @@ pub fn render_all(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
 /// One diagnostic in caret form, ending in a line break.
 pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), diagnostic.message);
+    let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), indented(&escaped(&diagnostic.message)));
     let places: Vec<(Span, &str, char)> = diagnostic
         .span
         .iter()
@@ -31,7 +31,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
         excerpt(&mut out, sources, span, message, mark, gutter, &mut last_source);
     }
     for hint in &diagnostic.hints {
-        let _ = writeln!(out, "{:gutter$} = help: {hint}", "");
+        let _ = writeln!(out, "{:gutter$} = help: {}", "", indented(&escaped(hint)));
     }
     out
 }
@@ -54,11 +54,12 @@ fn excerpt(
 ) {
     let (Some(source), Some(at)) = (sources.get(span.source), sources.line_column(span)) else { return };
     let arrow = if last_source.replace(span.source).is_none() { "-->" } else { ":::" };
-    let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", source.name, at.line, at.column);
+    let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", one_line(&source.name), at.line, at.column);
     let (line, start) = line_around(&source.text, span.start as usize);
     // A tab is drawn as four spaces so that the mark stands under its character in any terminal.
-    let width = |text: &str| -> usize { text.chars().map(|c| if c == '\t' { 4 } else { 1 }).sum() };
-    let shown = line.replace('\t', "    ");
+    let shown_as = |text: &str| escaped(text).replace('\t', "    ");
+    let width = |text: &str| shown_as(text).chars().count();
+    let shown = shown_as(line);
     let before = width(&line[..start]);
     let length = source.text.get(span.range()).map_or(1, |s| {
         let s = s.split('\n').next().unwrap_or("").trim_end_matches('\r');
@@ -70,7 +71,7 @@ fn excerpt(
     let marks: String = marks.chars().take(WIDTH.saturating_sub(before - from).max(1)).collect();
     let _ = writeln!(out, "{:gutter$} |", "");
     let _ = writeln!(out, "{:>gutter$} | {part}", at.line);
-    let line = format!("{:gutter$} | {:pad$}{marks} {message}", "", "", pad = before - from);
+    let line = format!("{:gutter$} | {:pad$}{marks} {}", "", "", one_line(message), pad = before - from);
     let _ = writeln!(out, "{}", line.trim_end());
 }
 
@@ -109,6 +110,26 @@ mod tests {
                 "2 |     float x = 2;",
                 "  |     ----- declared float here",
                 "  = help: write 2.0\n",
+            ]
+            .join("\n")
+        );
+    }
+
+    #[test]
+    fn control_characters_are_shown_escaped_and_the_mark_stays_under_its_place() {
+        let mut sources = SourceMap::default();
+        let id = sources.add("a\u{1b}\nb", "/*\u{1b}]0;x\u{7}*/ bad\n");
+        let place = "/*\u{1b}]0;x\u{7}*/ ".len();
+        let d = Diagnostic::error(Span::new(id, place..place + 3), "\u{9b}2J\nerror: forged");
+        assert_eq!(
+            render(&d, &sources),
+            [
+                "error: \\u{9b}2J",
+                "    error: forged",
+                " --> a\\u{1b}\\u{a}b:1:12",
+                "  |",
+                "1 | /*\\u{1b}]0;x\\u{7}*/ bad",
+                "  |                      ^^^\n",
             ]
             .join("\n")
         );

@@ -6,9 +6,11 @@
 //! never a `Diagnostic`.
 
 mod caret;
+mod escape;
 mod follow;
 
 pub use caret::{render, render_all};
+pub use escape::{escaped, escaped_json, indented, one_line};
 pub use follow::{follow, follow_line};
 
 use std::{ops::Range, sync::Arc};

@@ -35,7 +35,7 @@ impl Report {
         if self.enabled {
             // A reader that went away is no reason to end a person's session.
             let mut out = std::io::stdout().lock();
-            let _ = writeln!(out, "{event}").and_then(|()| out.flush());
+            let _ = writeln!(out, "{}", crate::diag::escaped_json(&event.to_string())).and_then(|()| out.flush());
         }
     }
 

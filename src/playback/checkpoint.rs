@@ -8,7 +8,7 @@
 use crate::script::ScriptedInputs;
 use eddy_engine::{State, TargetState};
 use eddy_media::MediaSet;
-use eddy_project::{FileError, Fingerprint, PassId, Project, confine, limits, write_with};
+use eddy_project::{FileError, Fingerprint, PassId, Project, confine, limits, write_into};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use flate2::{Compression, bufread::GzDecoder, write::GzEncoder};
 use serde::{Deserialize, Serialize};
@@ -122,8 +122,8 @@ impl Moment {
     }
 }
 
-/// Writes a checkpoint, whole or not at all.
-pub fn write(path: &Path, moment: &Moment, state: &State) -> Result<(), CheckpointError> {
+/// Writes a checkpoint into a folder, whole or not at all. A link of this name that leads out of the folder is refused.
+pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Result<(), CheckpointError> {
     let target = |target: &TargetState| TargetHead {
         pass: target.pass.key(),
         target: target.index,
@@ -146,7 +146,7 @@ pub fn write(path: &Path, moment: &Moment, state: &State) -> Result<(), Checkpoi
         }
         packed.finish()?.flush()
     };
-    write_with(path, put).map_err(|source| CheckpointError::Write { path: path.into(), source })
+    write_into(folder, name, put).map_err(|source| CheckpointError::Write { path: folder.join(name), source })
 }
 
 /// Reads a checkpoint of a run that is as `run` in its first frame.
@@ -242,9 +242,9 @@ pub fn latest(folder: &Path, stem: &str, frame: u32) -> io::Result<Option<(u32, 
     Ok(best)
 }
 
-/// Returns the file of a checkpoint before a frame.
-pub fn path(folder: &Path, stem: &str, frame: u32) -> PathBuf {
-    folder.join(format!("{stem}_{frame:06}.{EXTENSION}"))
+/// Returns the name of the file of a checkpoint before a frame.
+pub fn file_name(stem: &str, frame: u32) -> String {
+    format!("{stem}_{frame:06}.{EXTENSION}")
 }
 
 fn frame_of(path: &Path, stem: &str) -> Option<u32> {
@@ -284,8 +284,9 @@ mod tests {
     #[test]
     fn a_state_comes_back_bit_for_bit() {
         let dir = tempfile::tempdir().unwrap();
-        let file = path(dir.path(), "waves", 40);
-        write(&file, &moment(), &state()).unwrap();
+        let name = file_name("waves", 40);
+        let file = dir.path().join(&name);
+        write(dir.path(), &name, &moment(), &state()).unwrap();
         assert_eq!(read(&file, &moment()).unwrap(), Checkpoint { moment: moment(), state: state() });
         assert_eq!(super::moment(&file).unwrap(), moment());
     }
@@ -294,7 +295,7 @@ mod tests {
     fn another_run_is_refused_with_the_reason() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("a.eddystate");
-        write(&file, &moment(), &state()).unwrap();
+        write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
         for (run, said) in [
             (Moment { eddy: "1.2.4".into(), ..moment() }, "written by Eddy 1.2.3, and this is 1.2.4"),
             (Moment { size: (8, 5), ..moment() }, "of 8x4 pixels, and this one of 8x5"),
@@ -312,7 +313,7 @@ mod tests {
     fn damaged_files_are_refused() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("a.eddystate");
-        write(&file, &moment(), &state()).unwrap();
+        write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
         let whole = std::fs::read(&file).unwrap();
         let line = whole.iter().position(|b| *b == b'\n').unwrap();
         let mut accepted = 0;
@@ -345,9 +346,9 @@ mod tests {
     fn the_latest_checkpoint_before_a_frame_is_found() {
         let dir = tempfile::tempdir().unwrap();
         for frame in [0, 100, 200, 1_000_000] {
-            std::fs::write(path(dir.path(), "a", frame), "").unwrap();
+            std::fs::write(dir.path().join(file_name("a", frame)), "").unwrap();
         }
-        std::fs::write(path(dir.path(), "a_b", 150), "").unwrap();
+        std::fs::write(dir.path().join(file_name("a_b", 150)), "").unwrap();
         std::fs::write(dir.path().join("a_x.eddystate"), "").unwrap();
         let found = |frame| latest(dir.path(), "a", frame).unwrap().map(|(frame, _)| frame);
         assert_eq!([0, 99, 100, 199, 5_000_000].map(found), [0, 0, 100, 100, 1_000_000].map(Some));

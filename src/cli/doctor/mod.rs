@@ -4,7 +4,7 @@
 mod folders;
 mod text;
 
-use super::args::DoctorArgs;
+use super::{args::DoctorArgs, terminal};
 use crate::{
     gpu::{AdapterReport, DeviceReport, GpuError},
     session::home_as_tilde,
@@ -162,14 +162,13 @@ struct EncoderLine {
 pub fn run(args: &DoctorArgs) -> io::Result<u8> {
     assert!(!args.panic, "`eddy doctor --panic` was called");
     let doctor = Doctor::examine();
-    let mut out = io::stdout().lock();
     if args.json {
-        serde_json::to_writer(&mut out, &doctor)?;
-        out.write_all(b"\n")?;
+        terminal::json_line(&doctor)?;
     } else {
+        let mut out = terminal::out();
         out.write_all(home_as_tilde(&text::of(&doctor)).as_bytes())?;
+        out.flush()?;
     }
-    out.flush()?;
     // A machine without a device draws nothing.
     Ok(if matches!(doctor.device, Answer::Is(_)) { 0 } else { super::TROUBLE })
 }

@@ -5,6 +5,7 @@ mod openjd;
 mod terminal;
 
 use super::report::Report;
+use crate::diag;
 use estimate::Estimate;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{
@@ -80,7 +81,7 @@ impl CallProgress {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
-        bar.set_prefix(title.to_owned());
+        bar.set_prefix(diag::one_line(title).into_owned());
         let now = Instant::now();
         // Where nobody sees a bar, a call that takes hours says so once.
         let estimate = (self.style == Style::Auto && bar.is_hidden()).then(RefCell::default);
@@ -175,6 +176,7 @@ fn words(title: &str, (done, all, unit): (u64, u64, &str), elapsed: Duration) ->
 /// Writes a line at once, so that lines of others do not come between. Nobody is left to tell where standard error is
 /// closed.
 fn say(line: &str) {
+    let line = diag::one_line(line);
     let _ = io::stderr().lock().write_all(format!("{line}\n").as_bytes());
 }
 
