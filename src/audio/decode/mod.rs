@@ -1,7 +1,11 @@
 //! Sound files of all common kinds, decoded as a whole.
 
+mod pcm;
+mod wave;
+
 use crate::{SAMPLE_RATE, Sound};
 use eddy_signal::resample_stereo;
+use pcm::Samples;
 use std::{
     io::Cursor,
     sync::{
@@ -19,6 +23,7 @@ use symphonia::core::{
     io::{MediaSourceStream, MediaSourceStreamOptions},
     meta::MetadataOptions,
 };
+use wave::{Format, Wave};
 
 /// Bounds of one file, held before memory is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +39,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { seconds: 20 * 60, channels: 8, rate: (4_000, 384_000), patience: Duration::from_secs(60) }
+        Limits { seconds: 20 * 60, channels: 32, rate: (1_000, 768_000), patience: Duration::from_secs(60) }
     }
 }
 
@@ -43,6 +48,9 @@ impl Default for Limits {
 pub enum AudioError {
     #[error("no sound file that Eddy reads ({0})")]
     Unknown(String),
+    /// A file that is in order, of a kind that is not read here. ffmpeg may read it.
+    #[error("{0} are not supported")]
+    Unsupported(String),
     #[error("no sound in the file")]
     NoTrack,
     #[error("{0} channels; at most {1} are read")]
@@ -61,7 +69,9 @@ impl AudioError {
     /// Returns what to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            AudioError::Unknown(_) => "wav, mp3, ogg, flac, m4a and aac are read; convert it: ffmpeg -i FILE music.ogg",
+            AudioError::Unknown(_) | AudioError::Unsupported(_) => {
+                "wav, mp3, ogg, flac, m4a and aac are read; convert it: ffmpeg -i FILE music.ogg"
+            }
             AudioError::NoTrack => "choose a file with sound in it",
             AudioError::Channels(..) => "mix it down: ffmpeg -i FILE -ac 2 music.ogg",
             AudioError::Rate(..) => "resample it: ffmpeg -i FILE -ar 44100 music.ogg",
@@ -106,10 +116,13 @@ fn decode_packets(
     limits: &Limits,
     go_on: impl Fn() -> bool,
 ) -> Result<Sound, AudioError> {
-    // symphonia-format-riff 0.6.1 shifts a word by the number of channels, however many that are.
-    if let Some(channels) = wav_channels(&file).filter(|channels| *channels > limits.channels) {
-        return Err(AudioError::Channels(channels, limits.channels));
-    }
+    let file = match wave::find(&file).transpose()? {
+        Some(wave) => match Samples::of(&wave.format).transpose()? {
+            Some(samples) => return decode_pcm(&wave, &file, samples, limits, go_on),
+            None => other_codec(&wave, &file, limits)?,
+        },
+        None => file,
+    };
     let mut format = open(file, extension)?;
     let mut track = Track::of(&*format)?;
     let mut stereo = Stereo::new(limits);
@@ -158,17 +171,38 @@ fn decode_packets(
 /// has 38.
 const MOST_SILENT: u32 = 10_000;
 
-/// Returns the number of channels that the format chunk of a WAV file has (Multimedia Programming Interface and Data
-/// Specifications 1.0, page 58).
-fn wav_channels(file: &[u8]) -> Option<usize> {
-    let mut chunks = file.strip_prefix(b"RIFF")?.get(4..)?.strip_prefix(b"WAVE")?;
-    loop {
-        let (head, rest) = chunks.split_at_checked(8)?;
-        let length = u32::from_le_bytes([head[4], head[5], head[6], head[7]]) as usize;
-        if head.starts_with(b"fmt ") {
-            return rest.get(2..4).map(|count| usize::from(u16::from_le_bytes([count[0], count[1]])));
+/// Decodes a WAV file without compression.
+fn decode_pcm(
+    wave: &Wave,
+    file: &[u8],
+    samples: Samples,
+    limits: &Limits,
+    go_on: impl Fn() -> bool,
+) -> Result<Sound, AudioError> {
+    let Format { channels, rate, .. } = wave.format;
+    let mut stereo = Stereo::new(limits);
+    stereo.expect(rate, channels, 1)?;
+    for block in pcm::blocks(wave, file, samples) {
+        if !go_on() {
+            return Err(AudioError::Late(limits.patience));
         }
-        chunks = rest.get(length.checked_next_multiple_of(2)?..)?;
+        if !stereo.push(&block) {
+            break;
+        }
+    }
+    stereo.finish()
+}
+
+/// Returns what the readers of a codec take of a WAV file: MP3 without the file around it, ADPCM in one with right sizes.
+fn other_codec(wave: &Wave, file: &[u8], limits: &Limits) -> Result<Arc<[u8]>, AudioError> {
+    // symphonia-format-riff 0.6.1 shifts a word by the number of channels, however many that are.
+    if wave.format.channels == 0 || wave.format.channels > limits.channels {
+        return Err(AudioError::Channels(wave.format.channels, limits.channels));
+    }
+    match wave.format.tag {
+        0x2 | 0x11 if !wave.is_big => Ok(wave.plain(file).into()),
+        0x55 => Ok(file[wave.data.clone()].into()),
+        tag => Err(AudioError::Unsupported(format!("WAV files with codec {tag:#06x}"))),
     }
 }
 

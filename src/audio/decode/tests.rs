@@ -72,10 +72,10 @@ fn what_is_no_sound_is_refused() {
     assert_eq!(read(&wav(&[])), Err(AudioError::NoTrack));
     let mut file = wav(&sine(100, 44_100.0));
     file[24..28].copy_from_slice(&1u32.to_le_bytes());
-    assert_eq!(read(&file), Err(AudioError::Rate(1, 4_000, 384_000)));
+    assert_eq!(read(&file), Err(AudioError::Rate(1, 1_000, 768_000)));
     let mut file = wav(&sine(100, 44_100.0));
     file[22..24].copy_from_slice(&511u16.to_le_bytes());
-    assert_eq!(read(&file), Err(AudioError::Channels(511, 8)));
+    assert_eq!(read(&file), Err(AudioError::Channels(511, 32)));
 }
 
 #[test]
@@ -105,4 +105,137 @@ fn channels_are_mixed() {
     assert_eq!(mix(&[0.5]), [0.5, 0.5]);
     assert_eq!(mix(&[1.0, 0.0, 0.5, 0.25]), [0.75, 0.125]);
     assert_eq!(mix(&[0.1, 0.2, 0.0, 9.0, 0.0, 0.0]), [0.1, 0.2]);
+}
+
+/// A WAV file of mono samples at 44,100 Hz, with other chunks before its data.
+fn wav_of(tag: u16, bits: u16, between: &[u8], data: &[u8]) -> Vec<u8> {
+    let mut file = wav(&[]);
+    let align = bits.div_ceil(8);
+    for (at, field) in [(20, tag), (22, 1), (32, align), (34, bits)] {
+        file[at..at + 2].copy_from_slice(&field.to_le_bytes());
+    }
+    file[28..32].copy_from_slice(&(44_100 * u32::from(align)).to_le_bytes());
+    file.truncate(36);
+    file.extend(between);
+    file.extend(b"data");
+    file.extend((data.len() as u32).to_le_bytes());
+    file.extend(data);
+    let size = file.len() as u32 - 8;
+    file[4..8].copy_from_slice(&size.to_le_bytes());
+    file
+}
+
+fn left(file: &[u8]) -> Vec<f32> {
+    read(file).unwrap().frames.iter().map(|frame| frame[0]).collect()
+}
+
+/// As a recorder leaves a file that was cut off, and as Chromium plays it.
+#[test]
+fn wrong_sizes_of_a_wav_file_change_nothing() {
+    let data: Vec<u8> = (0..200i16).flat_map(|n| (n * 100).to_le_bytes()).collect();
+    let good = wav_of(1, 16, &[], &data);
+    let right = left(&good);
+    assert_eq!(right.len(), 200);
+    for riff in [0, 3, 4, 100, u32::MAX] {
+        for size in [data.len() as u32, 0, u32::MAX, data.len() as u32 + 1] {
+            let mut file = good.clone();
+            file[4..8].copy_from_slice(&riff.to_le_bytes());
+            file[40..44].copy_from_slice(&size.to_le_bytes());
+            assert_eq!(left(&file), right, "{riff} {size}");
+        }
+    }
+    for list in [
+        &b"LIST\x05\0\0\0INFOx\0"[..],
+        b"LIST\x05\0\0\0INFOx",
+        b"LIST\x0c\0\0\0INFOINAM\xff\xff\xff\xff",
+        b"LIST\0\0\0\0",
+        b"JUNK\x03\0\0\0abc\0fact\x04\0\0\0\xff\xff\xff\xff",
+    ] {
+        assert_eq!(left(&wav_of(1, 16, list, &data)), right, "{list:?}");
+    }
+    let mut after = good.clone();
+    after.extend(b"LIST\x04\0\0\0INFO");
+    assert_eq!(left(&after), right, "what follows the sound is not played");
+    assert_eq!(left(&good[..good.len() - 1]), right[..199], "half a sample at the end is left out");
+}
+
+#[test]
+fn sizes_of_64_bits_are_read() {
+    let data: Vec<u8> = (0..20i16).flat_map(|n| (n * 100).to_le_bytes()).collect();
+    let plain = wav_of(1, 16, &[], &data);
+    for (name, samples) in [(b"RF64", 20), (b"BW64", 20), (b"RF64", 7)] {
+        let mut file = [name, &[0xff; 4], &b"WAVEds64\x1c\0\0\0"[..]].concat();
+        for size in [0, 2 * samples as u64, samples as u64] {
+            file.extend(size.to_le_bytes());
+        }
+        file.extend([0; 4]);
+        file.extend(&plain[12..]);
+        let at = file.len() - data.len() - 4;
+        file[at..at + 4].fill(0xff);
+        assert_eq!(left(&file), left(&plain)[..samples], "{samples}");
+    }
+}
+
+#[test]
+fn samples_without_compression_are_read_in_every_form() {
+    for (tag, bits, data, right) in [
+        // 12 bits are the upper ones of 16.
+        (1, 12, &[0x00, 0x40, 0x00, 0x80][..], [0.5 * 32_768.0 / 32_767.0, -1.0]),
+        (1, 24, &[0, 0, 0x40, 0, 0, 0x80], [0.5, -1.0]),
+        (1, 20, &[0, 0, 0x40, 0, 0, 0x80], [0.5, -1.0]),
+        (1, 32, &[0, 0, 0, 0x40, 0, 0, 0, 0x80], [0.5, -1.0]),
+        (1, 5, &[0, 128], [-1.0, 0.0]),
+        (6, 8, &[0x2a, 0xd5], [-32_256.0 / 32_768.0, 8.0 / 32_767.0]),
+        (7, 8, &[0x00, 0xff], [-32_124.0 / 32_768.0, 0.0]),
+    ] {
+        assert_eq!(left(&wav_of(tag, bits, &[], data)), right, "codec {tag} of {bits} bits");
+    }
+    // The same with the most significant byte first.
+    let mut file = wav_of(1, 16, &[], &[0x40, 0x00, 0x80, 0x00]);
+    file[..4].copy_from_slice(b"RIFX");
+    for field in [4..8, 16..20, 20..22, 22..24, 24..28, 28..32, 32..34, 34..36, 40..44] {
+        file[field].reverse();
+    }
+    assert_eq!(left(&file), [0.5 * 32_768.0 / 32_767.0, -1.0]);
+    // An extensible format, whose subformat says what its samples are.
+    let floats: Vec<u8> = [0.25f32, -2.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    let plain = wav_of(3, 32, &[], &floats);
+    let extension = [&[22, 0, 32, 0, 4, 0, 0, 0, 3, 0][..], &[0; 14]].concat();
+    let mut file = [&plain[..36], &extension, &plain[36..]].concat();
+    file[16] = 40;
+    file[20..22].copy_from_slice(&[0xfe, 0xff]);
+    assert_eq!(left(&file), [0.25, -2.0]);
+}
+
+#[test]
+fn a_wav_file_with_many_channels_plays_its_first_two() {
+    let mut file = wav_of(1, 8, &[], &[0, 255, 128, 128, 128, 128, 128, 128, 128, 128]);
+    file[22] = 10;
+    assert_eq!(read(&file).unwrap().frames, [[-1.0, 1.0]]);
+}
+
+#[test]
+fn a_wav_file_of_another_codec_is_called_unsupported_and_not_damaged() {
+    let error = read(&wav_of(0x31, 8, &[], &[0; 100])).unwrap_err();
+    assert_eq!(error.to_string(), "WAV files with codec 0x0031 are not supported");
+    let error = read(&wav_of(3, 16, &[], &[0; 100])).unwrap_err();
+    assert_eq!(error.to_string(), "samples of 16 bits are not supported");
+    assert!(matches!(read(b"RIFF\0\0\0\0WAVEfmt \x10\0\0\0\x01\0"), Err(AudioError::Damaged(_))));
+    assert!(matches!(read(b"RIFF\0\0\0\0WAVE"), Err(AudioError::Damaged(_))));
+}
+
+/// Every cut and every changed byte of a file ends in a sound or an error.
+#[test]
+fn malformed_wav_files_do_not_panic() {
+    let file = wav_of(1, 16, b"LIST\x05\0\0\0INFOx\0", &[1; 64]);
+    for end in 0..file.len() {
+        let _ = decode_packets(file[..end].into(), None, &Limits::default(), || true);
+    }
+    for at in 0..60 {
+        for value in [0, 1, 2, 0x11, 0x7f, 0x80, 0xfe, 0xff] {
+            let mut file = file.clone();
+            file[at] = value;
+            let _ = decode_packets(file.into(), None, &Limits::default(), || true);
+        }
+    }
 }
