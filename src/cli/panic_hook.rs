@@ -81,7 +81,7 @@ impl log::Log for Logger {
 /// Starts the log, and has each panic leave a report.
 pub fn install() {
     // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
-    let environment = env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn");
+    let environment = env_logger::Env::default().default_filter_or("error,naga=off,symphonia=off,eddy=warn");
     let terminal = env_logger::Builder::from_env(environment)
         .format(|out, record| {
             let line = format!("[{} {}] {}", record.level(), record.target(), record.args());
