@@ -13,7 +13,11 @@ pub use caret::{render, render_all};
 pub use escape::{escaped, escaped_json, indented, one_line};
 pub use follow::{follow, follow_line};
 
-use std::{ops::Range, sync::Arc};
+use std::{
+    collections::{HashMap, HashSet},
+    ops::Range,
+    sync::Arc,
+};
 
 /// Names the text of a [`SourceMap`] that a span points into: one per tab, included file or project file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -104,7 +108,7 @@ impl Fix {
     /// Returns the mend that puts a text in the place of another.
     pub fn replace(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
-        Self::new(format!("Replace with `{text}`"), vec![Edit { span, text }])
+        Self::new(shortened(format!("Replace with `{text}`")), vec![Edit { span, text }])
     }
 
     /// Returns `text`, which is that of a source, with the edits of it made. An edit of bytes that the text does not have
@@ -148,7 +152,7 @@ impl Diagnostic {
         Self {
             severity,
             span: span.into(),
-            message: message.into(),
+            message: shortened(message),
             labels: Vec::new(),
             hints: Vec::new(),
             fixes: Vec::new(),
@@ -165,13 +169,13 @@ impl Diagnostic {
 
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
-        self.labels.push(Label { span, message: message.into() });
+        self.labels.push(Label { span, message: shortened(message) });
         self
     }
 
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hints.push(hint.into());
+        self.hints.push(shortened(hint));
         self
     }
 
@@ -192,13 +196,44 @@ impl Diagnostic {
     }
 }
 
+/// Bytes of a message, a label or a hint. They quote texts, of which one word or line may have megabytes.
+pub const MESSAGE_BYTES: usize = 2_000;
+
+/// Returns a message of at most [`MESSAGE_BYTES`] bytes: a longer one ends with `...` and its size.
+pub fn shortened(message: impl Into<String>) -> String {
+    let mut message = message.into();
+    if message.len() > MESSAGE_BYTES {
+        let end = format!("... ({} bytes)", message.len());
+        message.truncate(message.floor_char_boundary(MESSAGE_BYTES - end.len()));
+        message.push_str(&end);
+        message.shrink_to_fit();
+    }
+    message
+}
+
 /// Adds what repeats nothing in `all`. A mistake in a text that several passes share is found in each of them, and told
 /// of once.
 pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnostic>) {
+    let mut found = found.into_iter().peekable();
+    if found.peek().is_none() {
+        return;
+    }
+    let mut messages: HashMap<String, HashSet<Option<Span>>> = HashMap::new();
+    for known in all.iter() {
+        messages.entry(known.message.clone()).or_default().insert(known.span);
+    }
     for diagnostic in found {
-        if !all.iter().any(|known| diagnostic.repeats(known)) {
-            all.push(diagnostic);
+        let is_known = match messages.get_mut(&diagnostic.message) {
+            Some(places) => diagnostic.span.is_none() || !places.insert(diagnostic.span),
+            None => {
+                messages.insert(diagnostic.message.clone(), HashSet::from([diagnostic.span]));
+                false
+            }
+        };
+        if is_known {
+            continue;
         }
+        all.push(diagnostic);
     }
 }
 

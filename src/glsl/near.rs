@@ -1,35 +1,148 @@
-//! "Did you mean": the known word that is nearest to one nobody knows.
+//! "Did you mean": the known word that is nearest to one that is not known.
+
+/// Letters and cells of distances that one compile may look at to find nearest names, all its unknown names together:
+/// some tens of milliseconds. Names that come after it are reported without a suggestion.
+pub(super) const BUDGET: u64 = 8_000_000;
+
+/// The work that is left for suggestions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    left: u64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { left: BUDGET }
+    }
+}
+
+impl Budget {
+    /// Takes some work out. Returns false where that much is not left, and nothing is from then on.
+    fn take(&mut self, work: usize) -> bool {
+        let left = self.left.checked_sub(work as u64);
+        self.left = left.unwrap_or(0);
+        left.is_some()
+    }
+
+    /// Returns how much was used.
+    #[cfg(test)]
+    pub fn used(&self) -> u64 {
+        BUDGET - self.left
+    }
+}
 
 /// Returns the candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped (the
 /// optimal string alignment distance), with case that counts unless nothing else differs. `None` where nothing is near
 /// enough to be worth saying. Names of files and settings are measured by `project::nearest`, for which case and `-`,
 /// `_` and spaces count for nothing.
 pub(super) fn nearest_identifier<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    nearest_within(&mut Budget::default(), word, candidates)
+}
+
+/// As [`nearest_identifier`], with what is left of a budget. Candidates after its end are not looked at.
+pub(super) fn nearest_within<'c>(
+    budget: &mut Budget,
+    word: &str,
+    candidates: impl IntoIterator<Item = &'c str>,
+) -> Option<&'c str> {
     // One slip in a short word, two in a long one. Two letters may lack a third; any other two are another name.
-    let is_pair = word.chars().count() == 2;
-    let allowed = match word.chars().count() {
+    let letters: Vec<char> = word.chars().collect();
+    let is_pair = letters.len() == 2;
+    let allowed = match letters.len() {
         0..=1 => return None,
         2..=5 => 1,
         6..=10 => 2,
         _ => 3,
     };
-    candidates
-        .into_iter()
-        .filter(|candidate| *candidate != word && candidate.len().abs_diff(word.len()) <= 2 * allowed)
-        .filter(|candidate| !is_pair || candidate.len() > word.len() || candidate.eq_ignore_ascii_case(word))
+    let mask = letter_mask(word);
+    let mut other: Vec<char> = Vec::new();
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        if !budget.take(1) {
+            break;
+        }
+        // Characters have up to four bytes; `distance` counts them, which this only bounds.
+        if candidate.len() > 4 * (letters.len() + allowed) || 4 * candidate.len() + 4 * allowed < letters.len() {
+            continue;
+        }
+        if is_pair && candidate.len() <= word.len() && !candidate.eq_ignore_ascii_case(word) {
+            continue;
+        }
+        if !budget.take(candidate.len()) {
+            break;
+        }
+        if candidate == word {
+            continue;
+        }
         // Letter case counts for nothing when it is all that differs.
-        .map(|candidate| {
-            let same = candidate.eq_ignore_ascii_case(word);
-            (if same { 0 } else { strsim::osa_distance(word, candidate) }, candidate)
-        })
-        .filter(|&(distance, _)| distance <= allowed)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
+        let found = if candidate.eq_ignore_ascii_case(word) {
+            Some(0)
+        } else if (letter_mask(candidate) ^ mask).count_ones() as usize > 2 * allowed {
+            // A slip takes at most one kind of letter out and puts one in.
+            None
+        } else {
+            other.clear();
+            other.extend(candidate.chars());
+            if !budget.take(letters.len() * (2 * allowed + 1)) {
+                break;
+            }
+            distance(&letters, &other, allowed)
+        };
+        if let Some(found) = found
+            && best.is_none_or(|(best, _)| found < best)
+        {
+            best = Some((found, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Returns which kinds of letters a word has, each a bit.
+fn letter_mask(word: &str) -> u64 {
+    word.bytes().fold(0, |mask, byte| if byte.is_ascii() { mask | 1 << (byte & 63) } else { mask })
+}
+
+/// Returns the optimal string alignment distance (Boytsov 2011, "Indexing methods for approximate dictionary searching",
+/// section 2.1) of two words, or `None` where it is larger than `most`. Only the cells within `most` of the diagonal are
+/// computed, as Ukkonen (1985, "Algorithms for approximate string matching") does.
+fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
+    /// Cells of a row: `most` is at most 3.
+    const BAND: usize = 7;
+    debug_assert!(2 * most < BAND);
+    if a.len().abs_diff(b.len()) > most {
+        return None;
+    }
+    let far = most + 1;
+    // Cell `k` of row `i` is the distance of the first `i` of `a` and the first `i + k - most` of `b`.
+    let (mut before, mut last, mut row) = ([far; BAND], [far; BAND], [far; BAND]);
+    for i in 0..=a.len() {
+        for k in 0..=2 * most {
+            row[k] = far;
+            let Some(j) = (i + k).checked_sub(most).filter(|j| *j <= b.len()) else { continue };
+            if i == 0 || j == 0 {
+                row[k] = (i + j).min(far);
+                continue;
+            }
+            // In the row before it, the same place of `b` is one cell further on.
+            let above = if k < 2 * most { last[k + 1] } else { far };
+            let left = if k > 0 { row[k - 1] } else { far };
+            let mut cell = (last[k] + usize::from(a[i - 1] != b[j - 1])).min(above + 1).min(left + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                cell = cell.min(before[k] + 1);
+            }
+            row[k] = cell.min(far);
+        }
+        if row[..=2 * most].iter().all(|cell| *cell == far) {
+            return None;
+        }
+        (before, last) = (last, row);
+    }
+    Some(last[most + b.len() - a.len()]).filter(|distance| *distance <= most)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::nearest_identifier;
+    use super::*;
 
     #[test]
     fn finds_slips_and_leaves_strangers() {
@@ -43,5 +156,44 @@ mod tests {
         assert_eq!(nearest_identifier("mx", words), Some("mix"));
         assert_eq!(nearest_identifier("uV", ["uw", "vu", "uv"]), Some("uv"));
         assert_eq!(nearest_identifier("ua", ["uw", "au", "uv"]), None);
+    }
+
+    #[test]
+    fn the_bounded_distance_equals_the_full_one() {
+        let mut state = 1u32;
+        let mut random = |below: u32| {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            (state >> 16) % below
+        };
+        for _ in 0..20_000 {
+            let mut word = || -> String {
+                let length = random(9);
+                (0..length).map(|_| ['a', 'b', 'c', 'é'][random(4) as usize]).collect()
+            };
+            let (a, b) = (word(), word());
+            let full = strsim::osa_distance(&a, &b);
+            let chars = |word: &str| word.chars().collect::<Vec<_>>();
+            for most in 1..=3 {
+                assert_eq!(distance(&chars(&a), &chars(&b), most), (full <= most).then_some(full), "{a} {b} {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_work_of_a_budget_is_bounded_whatever_the_names_are() {
+        let names: Vec<String> = (0..5_000).map(|i| format!("a_name_of_a_function_{i}")).collect();
+        let mut budget = Budget::default();
+        assert_eq!(
+            nearest_within(&mut budget, "a_name_of_a_funktion_17", names.iter().map(String::as_str)),
+            Some("a_name_of_a_function_17")
+        );
+        let once = budget.used();
+        assert!(once < BUDGET / 4, "one name takes {once}");
+        for _ in 0..1_000 {
+            nearest_within(&mut budget, "a_name_of_a_funktion_17", names.iter().map(String::as_str));
+        }
+        assert_eq!(budget.used(), BUDGET);
+        let long = "x".repeat(1 << 20);
+        assert_eq!(nearest_within(&mut budget, &long, [long.as_str()]), None, "nothing is left");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{positions::Lines, program::Program};
 use eddy_diag::SourceId;
+use eddy_project::limits;
 use gen_lsp_types::{InlayHint, InlayHintKind, Label};
 use std::ops::Range;
 
@@ -11,6 +12,7 @@ pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: R
     let of_language = program.analysis(id).map(|analysis| analysis.hints(id, range.clone())).unwrap_or_default();
     let mut hints: Vec<InlayHint> = of_language
         .into_iter()
+        .take(limits::LSP_ITEMS)
         .map(|hint| {
             let kind = match hint.is_parameter {
                 true => Some(InlayHintKind::Parameter),
@@ -24,8 +26,8 @@ pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: R
     let Some(project) = &program.project else { return hints };
     let declared = project.custom_uniforms();
     for (name, span) in program.uniforms.iter().filter(|(_, span)| span.source == id) {
-        let value = project.custom_uniform_values.get(name);
-        let (Some(uniform), Some(value)) = (declared.get(name), value) else { continue };
+        let Some(value) = project.custom_uniform_values.get(name) else { continue };
+        let Some(uniform) = declared.get(name) else { continue };
         if range.start <= span.end as usize && (span.start as usize) <= range.end {
             let text = program.text(id);
             let at = text[span.end as usize..].find('\n').map_or(text.len(), |i| span.end as usize + i);

@@ -2,7 +2,9 @@
 
 use super::{program::Program, published::Places};
 use eddy_diag::{SourceId, Span};
+use eddy_project::limits;
 use gen_lsp_types::{DocumentHighlight, DocumentHighlightKind, Location};
+use std::collections::HashSet;
 
 /// Returns where what is named at a byte is declared: in GLSL, by an `#iUniform` line, or the file that an `#include` line
 /// names.
@@ -36,13 +38,15 @@ pub(crate) fn references(
     // At a declaration, that is itself the declaration.
     let is_declaration = |span: &Span| Some(*span) == declared || lines.contains(span);
     let wanted = found.into_iter().filter(|span| with_declaration || !is_declaration(span));
-    let mut locations: Vec<Location> = Vec::new();
-    for location in wanted.filter_map(|span| places.location(span)) {
-        if !locations.contains(&location) {
-            locations.push(location);
-        }
-    }
-    locations
+    // Two texts may be of one file.
+    let mut seen = HashSet::new();
+    let locations = wanted.filter_map(|span| {
+        let location = places.location(span)?;
+        let (start, end) = (location.range.start, location.range.end);
+        let key = (location.uri.0.clone(), (start.line, start.character), (end.line, end.character));
+        seen.insert(key).then_some(location)
+    });
+    locations.take(limits::LSP_ITEMS).collect()
 }
 
 /// Returns the places in one text.
@@ -53,6 +57,7 @@ pub(crate) fn highlights(
     at: usize,
 ) -> Vec<DocumentHighlight> {
     let here = spans(program, id, at).into_iter().filter(|span| span.source == id);
+    let here = here.take(limits::LSP_ITEMS);
     here.map(|span| DocumentHighlight { range: places.range(span), kind: Some(DocumentHighlightKind::Text) }).collect()
 }
 

@@ -8,9 +8,10 @@ use super::{
 };
 use eddy_diag::{SourceId, Span};
 use eddy_glsl::services::{OutlineKind, Outlined};
+use eddy_project::limits;
 use gen_lsp_types::{BaseSymbolInformation, DocumentSymbol, SymbolKind, WorkspaceSymbol, WorkspaceSymbolLocation};
 
-/// Symbols that are returned at most: an editor asks again with more letters.
+/// Symbols of all projects that are returned at most, as an editor asks again with more letters; members of a struct.
 const MOST: usize = 500;
 
 fn kind(kind: OutlineKind) -> SymbolKind {
@@ -29,13 +30,15 @@ fn kind(kind: OutlineKind) -> SymbolKind {
 pub(crate) fn of_document(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     let outline = program.analysis(id).map(|analysis| analysis.outline(id)).unwrap_or_default();
     let mut symbols: Vec<DocumentSymbol> = uniforms(program, id, lines);
-    symbols.extend(outline.iter().map(|one| symbol(one, lines)));
+    symbols.extend(outline.iter().take(limits::LSP_ITEMS).map(|one| symbol(one, lines)));
+    symbols.truncate(limits::LSP_ITEMS);
     symbols.sort_by_key(|symbol| symbol.selection_range.start);
     symbols
 }
 
 fn uniforms(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     let here = program.uniforms.iter().filter(|(_, span)| span.source == id);
+    let here = here.take(limits::LSP_ITEMS);
     here.map(|(name, span)| made(name, "#iUniform", SymbolKind::Variable, lines, span.range(), span.range())).collect()
 }
 
@@ -62,7 +65,7 @@ fn made(
 
 fn symbol(one: &Outlined, lines: &Lines<'_>) -> DocumentSymbol {
     let mut symbol = made(&one.name, &one.detail, kind(one.kind), lines, one.whole.clone(), one.place.clone());
-    let children: Vec<DocumentSymbol> = one.members.iter().map(|member| symbol_of(member, lines)).collect();
+    let children: Vec<DocumentSymbol> = one.members.iter().take(MOST).map(|member| symbol_of(member, lines)).collect();
     symbol.children = (!children.is_empty()).then_some(children);
     symbol
 }

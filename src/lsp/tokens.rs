@@ -3,6 +3,7 @@
 use super::{positions::Lines, program::Program};
 use eddy_diag::SourceId;
 use eddy_glsl::services::{Class, FoldKind};
+use eddy_project::limits;
 use gen_lsp_types::{FoldingRange, FoldingRangeKind, Position, SemanticToken, SemanticTokens, SemanticTokensLegend};
 
 /// The types of tokens, by the protocol's names where it has one.
@@ -88,5 +89,5 @@ pub(crate) fn folds(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<F
         };
         (end_line > start.line).then(|| FoldingRange { start_line: start.line, end_line, kind, ..Default::default() })
     };
-    folds.into_iter().filter_map(fold).collect()
+    folds.into_iter().filter_map(fold).take(limits::LSP_ITEMS).collect()
 }

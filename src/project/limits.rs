@@ -114,6 +114,9 @@ pub const GLTF_VALUES: u64 = 8 << 20;
 /// Memory of the process in which a driver that compiles on the processor tries a large shader.
 pub const DRIVER_BYTES: u64 = 3 << 29;
 
+/// The steps of a trace, with the values in them. Those after it are counted.
+pub const TRACE_BYTES: usize = 256 << 20;
+
 /// Passes of a project.
 pub const PASSES: usize = 1_000;
 /// Files with a text of their own: passes, stages, Common and included files.
@@ -126,6 +129,8 @@ pub const FILES: usize = 50_000;
 pub const FOLDERS_UP: usize = 16;
 /// A message to the language server.
 pub const LSP_MESSAGE: Limit = Limit { bytes: 64 << 20, of: "a message to the language server" };
+/// Symbols, folds and hints of a document, and places of a name, that the language server returns for a request, each.
+pub const LSP_ITEMS: usize = 10_000;
 /// Passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
 pub const DRAWS: u64 = 20_000;
 /// Letters of the condition of a pass (`when`).

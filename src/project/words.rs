@@ -1,5 +1,7 @@
 //! Words in the text of a shader, found without reading its language.
 
+use std::collections::HashSet;
+
 /// Returns whether a word stands in a text outside of comments.
 pub fn names_word(text: &str, name: &str) -> bool {
     find_word(text, name).is_some()
@@ -29,6 +31,30 @@ pub(crate) fn find_word(text: &str, word: &str) -> Option<usize> {
     None
 }
 
+/// Returns every word of a text outside of comments: letters, digits and `_`.
+pub(crate) fn all_words(text: &str) -> HashSet<&str> {
+    let bytes = text.as_bytes();
+    let is_letter = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let mut found = HashSet::new();
+    let mut at = 0;
+    while at < bytes.len() {
+        let rest = &bytes[at..];
+        at += if rest.starts_with(b"//") {
+            memchr::memchr(b'\n', rest).unwrap_or(rest.len())
+        } else if rest.starts_with(b"/*") {
+            memchr::memmem::find(&rest[2..], b"*/").map_or(rest.len(), |end| end + 4)
+        } else {
+            let length = rest.iter().position(|byte| !is_letter(byte)).unwrap_or(rest.len());
+            if length > 0 {
+                // Both ends are beside ASCII, or are the text's.
+                found.extend(text.get(at..at + length));
+            }
+            length.max(1)
+        };
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,6 +73,7 @@ mod tests {
             ("a/main", Some(2)),
         ] {
             assert_eq!(find_word(text, "main"), at, "{text}");
+            assert_eq!(all_words(text).contains("main"), at.is_some(), "{text}");
         }
     }
 }

@@ -124,7 +124,7 @@ pub struct TraceArgs {
     /// probes, each of which compiles a program; 0 disables the search
     #[arg(long, value_name = "N", default_value_t = MOST)]
     pub probes: usize,
-    /// Print at most this number of steps [default: all]
+    /// Print at most this number of steps [default: as many as 256 MiB hold]
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
     /// Print one JSON object per line instead of text

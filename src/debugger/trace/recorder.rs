@@ -9,6 +9,7 @@ use eddy_glsl::{
     walk::{Cell, Observer, Real, View},
     walkable::Walkable,
 };
+use eddy_project::limits;
 
 pub struct Recorder<'w> {
     walkable: &'w Walkable,
@@ -16,6 +17,8 @@ pub struct Recorder<'w> {
     names: Vec<Vec<Option<&'w str>>>,
     steps: Vec<Step>,
     most: usize,
+    /// Bytes that are left for steps, what they hold among them.
+    room: usize,
     left_out: u64,
     depth: u32,
     /// The turns of the loops so far, of each call under way.
@@ -30,7 +33,16 @@ impl<'w> Recorder<'w> {
             names
         });
         let names = names.collect();
-        Self { walkable, names, steps: Vec::new(), most, left_out: 0, depth: 0, turns: Vec::new() }
+        Self {
+            walkable,
+            names,
+            steps: Vec::new(),
+            most,
+            room: limits::TRACE_BYTES,
+            left_out: 0,
+            depth: 0,
+            turns: Vec::new(),
+        }
     }
 
     /// The steps, and how many more there were.
@@ -38,11 +50,19 @@ impl<'w> Recorder<'w> {
         (self.steps, self.left_out)
     }
 
-    fn push(&mut self, event: Event, span: Option<Span>) {
-        if self.steps.len() >= self.most {
-            self.left_out += 1;
-            return;
+    /// Returns whether a step is kept that holds so many bytes beside its own; one that is not is counted. From the first
+    /// that is not kept on, none is.
+    fn has_room(&mut self, bytes: usize) -> bool {
+        let room = self.room.checked_sub(size_of::<Step>() + bytes);
+        let is_kept = self.left_out == 0 && self.steps.len() < self.most && room.is_some();
+        match room.filter(|_| is_kept) {
+            Some(room) => self.room = room,
+            None => self.left_out += 1,
         }
+        is_kept
+    }
+
+    fn push(&mut self, event: Event, span: Option<Span>) {
         self.steps.push(Step { event, depth: self.depth, span });
     }
 
@@ -55,6 +75,9 @@ impl<'w> Recorder<'w> {
     }
 
     fn set<R: Real>(&mut self, view: &View<'_, '_, R>, name: String, (ty, cells): (TypeId, &[Cell<R>]), loc: Loc) {
+        if !self.has_room(name.len() + cells.len() * size_of::<Number>()) {
+            return;
+        }
         let mut value = Vec::with_capacity(cells.len());
         numbers(view, ty, &mut cells.iter(), &mut value);
         let span = self.span(loc);
@@ -117,7 +140,9 @@ impl<R: Real> Observer<R> for Recorder<'_> {
     fn enter(&mut self, view: &View<'_, '_, R>) {
         self.turns.push(0);
         let Some(name) = self.walkable.function_name(view.function_id()) else { return };
-        self.push(Event::Enter(name.to_owned()), None);
+        if self.has_room(name.len()) {
+            self.push(Event::Enter(name.to_owned()), None);
+        }
         self.depth += 1;
         // What was passed by value; the rest is the caller's.
         let function = view.function();
@@ -134,7 +159,9 @@ impl<R: Real> Observer<R> for Recorder<'_> {
         self.turns.pop();
         if self.walkable.function_name(view.function_id()).is_some() {
             self.depth -= 1;
-            self.push(Event::Leave, None);
+            if self.has_room(0) {
+                self.push(Event::Leave, None);
+            }
         }
     }
 
@@ -142,7 +169,9 @@ impl<R: Real> Observer<R> for Recorder<'_> {
         let Some(turns) = self.turns.last_mut() else { return };
         *turns += 1;
         let turn = *turns;
-        self.push(Event::Iteration(turn), None);
+        if self.has_room(0) {
+            self.push(Event::Iteration(turn), None);
+        }
     }
 
     fn value(&mut self, view: &View<'_, '_, R>, value: Value) {

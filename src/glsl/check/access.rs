@@ -91,7 +91,10 @@ impl Checker<'_> {
             return;
         }
         let members: Vec<_> = self.module[self.module[id].members].iter().map(|m| self.name(m.name.symbol)).collect();
-        match crate::near::nearest_identifier(text, members.iter().copied()) {
+        let mut budget = self.suggestions;
+        let near = crate::near::nearest_within(&mut budget, text, members.iter().copied());
+        self.suggestions = budget;
+        match near {
             Some(near) => self.did_you_mean(loc.last, near),
             None => self.hint(format!("its members are {}", quoted(&members))),
         }

@@ -10,6 +10,7 @@ use super::{
 use crate::{
     ast::{self, Ast, Interner, Loc, Origins, Symbol},
     hir::{self, FuncId, Module, TypeId},
+    near::Budget,
     report::MAX_ERRORS,
     source::{ChannelKind, CustomUniform, Dialect, UniformValue},
 };
@@ -86,6 +87,8 @@ pub(super) struct Checker<'a> {
     pub pending_channels: Vec<(hir::ExprId, u8)>,
     /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is said once.
     pub unknown_said: Vec<u32>,
+    /// The work that is left to find what unknown names may be slips of.
+    pub suggestions: Budget,
     /// An expression was refused because its tree is too deep.
     pub too_deep_told: bool,
     /// Outputs at file scope of a pass that is no stage.
@@ -153,6 +156,7 @@ impl<'a> Checker<'a> {
             word_stack: Vec::new(),
             pending_channels: Vec::new(),
             unknown_said: Vec::new(),
+            suggestions: Budget::default(),
             outputs: Vec::new(),
             too_deep_told: false,
             depth_range: checkpoint.depth_range,
@@ -216,7 +220,7 @@ impl<'a> Checker<'a> {
     pub fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
         if let Some(last) = self.diagnostics.last_mut() {
-            last.labels.push(eddy_diag::Label { span, message: message.into() });
+            last.labels.push(eddy_diag::Label { span, message: eddy_diag::shortened(message) });
         }
     }
 
@@ -224,7 +228,7 @@ impl<'a> Checker<'a> {
     #[cold]
     pub fn hint(&mut self, hint: impl Into<String>) {
         if let Some(last) = self.diagnostics.last_mut() {
-            last.hints.push(hint.into());
+            last.hints.push(eddy_diag::shortened(hint));
         }
     }
 

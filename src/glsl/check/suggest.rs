@@ -319,7 +319,10 @@ impl Checker<'_> {
             .map(|(symbol, _)| self.name(symbol))
             .collect();
         let all = BasicType::ALL.iter().map(|b| b.name()).chain(structs);
-        if let Some(near) = near::nearest_identifier(name, all) {
+        let mut budget = self.suggestions;
+        let near = near::nearest_within(&mut budget, name, all);
+        self.suggestions = budget;
+        if let Some(near) = near {
             self.did_you_mean(token, near);
         } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
             let at = def.name.expect("just seen");
@@ -329,13 +332,16 @@ impl Checker<'_> {
     }
 
     /// The visible name of a fitting kind that is spelled most like this one.
-    fn near(&self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
+    fn near(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
         if self.is_full() {
             return None;
         }
         let visible = self.scopes.visible().filter(|&(_, binding)| fits(binding));
         let visible = visible.filter(|&(_, binding)| binding != Binding::Poison);
-        let near = near::nearest_identifier(name, visible.map(|(symbol, _)| self.name(symbol)))?;
+        let mut budget = self.suggestions;
+        let near = near::nearest_within(&mut budget, name, visible.map(|(symbol, _)| self.name(symbol)));
+        self.suggestions = budget;
+        let near = near?;
         let at = self.names.find(near).and_then(|symbol| self.declared_at(self.scopes.get(symbol)));
         Some((near.to_owned(), at))
     }

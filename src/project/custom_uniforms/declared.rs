@@ -71,7 +71,11 @@ fn declarations(blank: &str) -> Vec<Range<usize>> {
     while let Some(start) = blank[at..].find("uniform").map(|n| at + n) {
         at = start + "uniform".len();
         let is_word = !blank[..start].ends_with(is_of_word) && !blank[at..].starts_with(is_of_word);
-        let Some(end) = blank[at..].find([';', '{', '}']).map(|n| at + n).filter(|_| is_word) else { continue };
+        if !is_word {
+            continue;
+        }
+        // Without an end there is none for any word after it.
+        let Some(end) = blank[at..].find([';', '{', '}']).map(|n| at + n) else { break };
         if blank[end..].starts_with(';') {
             all.push(start..end);
         }
@@ -91,19 +95,24 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 /// With blanks in place of comments, as many as they have bytes.
 fn blanked(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(at) = rest.find("/*").into_iter().chain(rest.find("//")).min() {
-        let end = if rest[at..].starts_with("/*") {
-            rest[at + 2..].find("*/").map(|n| at + 4 + n)
-        } else {
-            rest[at..].find('\n').map(|n| at + n)
+    let mut done = 0;
+    // Each byte is looked at once, whichever kind of comment the text has.
+    let slashes = memchr::memchr_iter(b'/', text.as_bytes());
+    for at in slashes {
+        if at < done {
+            continue;
+        }
+        let end = match text.as_bytes().get(at + 1) {
+            Some(b'*') => text[at + 2..].find("*/").map(|n| at + 4 + n),
+            Some(b'/') => memchr::memchr(b'\n', &text.as_bytes()[at..]).map(|n| at + n),
+            _ => continue,
         };
-        let end = end.unwrap_or(rest.len());
-        out.push_str(&rest[..at]);
+        let end = end.unwrap_or(text.len());
+        out.push_str(&text[done..at]);
         out.extend(std::iter::repeat_n(' ', end - at));
-        rest = &rest[end..];
+        done = end;
     }
-    out + rest
+    out + &text[done..]
 }
 
 #[cfg(test)]

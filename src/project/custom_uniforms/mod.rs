@@ -19,6 +19,7 @@ pub(super) use declared::words_of_uniforms;
 use eddy_diag::{Diagnostic, SourceId, Span};
 use line::Declaration;
 pub(super) use line::{is_declaration, value};
+use std::collections::HashMap;
 pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
 
 /// The uniforms that the texts of a project declare in `#iUniform` lines.
@@ -30,48 +31,69 @@ pub struct CustomUniforms {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// Lines with errors that are reported, as many as the compiler reports of a text.
+const ERRORS: usize = 100;
+
+/// The lines of each custom uniform of a list joined, and where each name is in the list.
+#[derive(Default)]
+struct Said {
+    lines: Vec<Declaration>,
+    places: HashMap<String, usize>,
+}
+
 impl CustomUniforms {
     /// Reads the declarations of texts, which come in the order of their ids.
     pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> CustomUniforms {
         let mut custom_uniforms = CustomUniforms::default();
         // What the lines of each custom uniform say so far, since one may leave to another what it does not say.
-        let mut said: Vec<Declaration> = Vec::new();
+        let mut said = Said::default();
         for (source, text) in texts {
-            let groups = groups(text);
+            let mut groups = groups(text).into_iter().peekable();
+            let mut group = "";
             for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
-                let group = groups.iter().rfind(|(at, _)| *at < hash.range.start).map_or("", |(_, name)| name);
+                // Both lists are in the order of the text.
+                while let Some((_, name)) = groups.next_if(|(at, _)| *at < hash.range.start) {
+                    group = name;
+                }
                 match line::parse(hash, source, group) {
                     Ok(line) => custom_uniforms.add(line, source, &mut said),
-                    Err(diagnostic) => custom_uniforms.diagnostics.push(diagnostic),
+                    Err(diagnostic) => custom_uniforms.report(diagnostic),
                 }
             }
         }
-        for (custom_uniform, line) in custom_uniforms.list.iter_mut().zip(&said) {
+        for (custom_uniform, line) in custom_uniforms.list.iter_mut().zip(&said.lines) {
             line.complete(custom_uniform, &mut custom_uniforms.diagnostics);
         }
         custom_uniforms
     }
 
-    fn add(&mut self, line: Declaration, source: SourceId, said: &mut Vec<Declaration>) {
-        let Some(at) = self.list.iter().position(|k| k.name == line.name) else {
+    fn add(&mut self, line: Declaration, source: SourceId, said: &mut Said) {
+        let Some(&at) = said.places.get(&line.name) else {
+            said.places.insert(line.name.clone(), self.list.len());
             self.list.push(line.custom_uniform(source));
-            said.push(line);
+            said.lines.push(line);
             return;
         };
         let known = &mut self.list[at];
         let contradiction = if line.ty != known.ty {
             Some(format!("`{}` is a {} here and a {} elsewhere", line.name, line.ty.name(), known.ty.name()))
         } else {
-            said[at].join(&line).err().map(|what| format!("`{}` has another {what} elsewhere", line.name))
+            said.lines[at].join(&line).err().map(|what| format!("`{}` has another {what} elsewhere", line.name))
         };
         match contradiction {
-            Some(message) => self.diagnostics.push(
-                Diagnostic::error(line.span, message)
-                    .label(known.span, "declared here too")
-                    .hint("a name has one slider: make both lines equal, or choose another name"),
-            ),
-            None if known.declared_in.contains(&source) => {}
+            Some(message) => {
+                let diagnostic = Diagnostic::error(line.span, message).label(known.span, "declared here too");
+                self.report(diagnostic.hint("a name has one slider: make both lines equal, or choose another name"));
+            }
+            // Texts come one after the other.
+            None if known.declared_in.last() == Some(&source) => {}
             None => known.declared_in.push(source),
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        if self.diagnostics.len() < ERRORS {
+            self.diagnostics.push(diagnostic);
         }
     }
 

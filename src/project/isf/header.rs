@@ -103,10 +103,15 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
         let place = Span::new(id, start + at..start + at + 1);
         header.warnings.push(Diagnostic::warning(place, message).hint("remove the comma"));
     }
+    let written = |key: &str| match object.get(key) {
+        Some(Value::Array(all)) => all.len(),
+        Some(Value::Object(all)) => all.len(),
+        _ => 0,
+    };
     for (count, most, of) in [
-        (header.passes.len(), limits::PASSES, "passes"),
-        (header.inputs.len(), limits::UNIFORMS, "inputs"),
-        (header.imported.len(), limits::PASSES, "imported images"),
+        (written("PASSES"), limits::PASSES, "passes"),
+        (written("INPUTS"), limits::UNIFORMS, "inputs"),
+        (written("IMPORTED"), limits::PASSES, "imported images"),
     ] {
         if count > most {
             let message = format!("the ISF file has {count} {of}: at most {most} are read");
@@ -143,6 +148,11 @@ fn ends_with_value(before: &[u8]) -> bool {
     before.iter().rev().find(|byte| !byte.is_ascii_whitespace()).is_some_and(|byte| !b"[{,:".contains(byte))
 }
 
+/// Categories that are read.
+const CATEGORIES: usize = 1_000;
+/// Errors in a header that are said.
+const ERRORS: usize = 100;
+
 struct Reader<'t> {
     json: &'t str,
     id: SourceId,
@@ -152,19 +162,30 @@ struct Reader<'t> {
 
 impl Reader<'_> {
     fn header(&mut self, object: &Map<String, Value>) -> Header {
-        let list = |key: &str| object.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
+        // One more than is allowed is enough to say that there are too many.
+        let list = |key: &str, most: usize| {
+            let all = object.get(key).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+            &all[..all.len().min(most + 1)]
+        };
         Header {
             description: text(object.get("DESCRIPTION")),
             credit: text(object.get("CREDIT")),
-            categories: list("CATEGORIES").iter().filter_map(Value::as_str).map(str::to_owned).collect(),
-            inputs: list("INPUTS").iter().filter_map(|input| self.input(input.as_object()?)).collect(),
-            passes: list("PASSES").iter().filter_map(Value::as_object).map(pass).collect(),
+            categories: list("CATEGORIES", CATEGORIES).iter().filter_map(Value::as_str).map(str::to_owned).collect(),
+            inputs: list("INPUTS", limits::UNIFORMS)
+                .iter()
+                .filter_map(|input| self.input(input.as_object()?))
+                .collect(),
+            passes: list("PASSES", limits::PASSES).iter().filter_map(Value::as_object).map(pass).collect(),
             imported: self.imported(object.get("IMPORTED")),
             warnings: Vec::new(),
         }
     }
 
     fn error(&mut self, at: &str, message: String, hint: impl Into<String>) {
+        // Each takes a search through the header.
+        if self.found.len() >= ERRORS {
+            return;
+        }
         let place = self.json.find(&format!("\"{at}\"")).map_or(0..0, |i| i..i + at.len() + 2);
         let span = Span::new(self.id, self.start + place.start..self.start + place.end);
         self.found.push(Diagnostic::error(span, message).hint(hint));
@@ -213,8 +234,12 @@ impl Reader<'_> {
             }
         };
         match value {
-            Some(Value::Object(files)) => files.iter().for_each(|(name, file)| add(self, name.clone(), file)),
-            Some(Value::Array(files)) => files.iter().for_each(|file| add(self, text(file.get("NAME")), file)),
+            Some(Value::Object(files)) => {
+                files.iter().take(limits::PASSES + 1).for_each(|(name, file)| add(self, name.clone(), file))
+            }
+            Some(Value::Array(files)) => {
+                files.iter().take(limits::PASSES + 1).for_each(|file| add(self, text(file.get("NAME")), file))
+            }
             _ => {}
         }
         all

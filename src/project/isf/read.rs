@@ -9,13 +9,18 @@ use super::{
 use crate::{
     Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassId, PassSize,
     Project, ProjectError, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
-    words::find_word, writes::Writes,
+    writes::Writes,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
-use std::{collections::BTreeSet, path::Path};
+use std::{
+    collections::{BTreeSet, HashSet},
+    path::Path,
+};
 
 /// Channels of a pass.
 const CHANNELS: usize = 4;
+/// Images that a message lists at most.
+const SHOWN: usize = 12;
 /// Textures that stand in for images that the person does not choose, one after the other.
 const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
 
@@ -31,7 +36,14 @@ pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -
         Err(found) => return Some(refuse(found, sources)),
     };
     let found = std::mem::take(&mut header.warnings);
-    let mut maker = Maker { header, name, text, at: Span::new(id, start..start + json.len()), found };
+    let mut maker = Maker {
+        header,
+        name,
+        text,
+        words: texts::TextWords::of(text),
+        at: Span::new(id, start..start + json.len()),
+        found,
+    };
     let vertex = path.with_extension("vs").file_name().map(|n| n.to_string_lossy().into_owned());
     let vertex = vertex.filter(|vertex| files.exists(vertex));
     let mut project = maker.project(path, vertex.as_deref());
@@ -51,6 +63,7 @@ struct Maker<'t> {
     header: Header,
     name: &'t str,
     text: &'t str,
+    words: texts::TextWords<'t>,
     /// The header.
     at: Span,
     found: Vec<Diagnostic>,
@@ -91,7 +104,7 @@ impl Maker<'_> {
             }
             let id = target.as_ref().map_or(PassId::Image, |target| PassId::Buffer(buffer_name(target)));
             let mut pass =
-                Pass::new(id.clone(), generated(&id, texts::pass(index, &images, (self.name, self.text), vertex)));
+                Pass::new(id.clone(), generated(&id, texts::pass(index, &images, (self.name, &self.words), vertex)));
             if target.is_some() {
                 pass.settings.format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
                 pass.settings.size = self.size_of(index);
@@ -125,11 +138,12 @@ impl Maker<'_> {
     /// The buffers that passes draw, each once.
     fn targets(&mut self) -> Vec<String> {
         let mut targets: Vec<String> = Vec::new();
+        let mut buffers: HashSet<String> = HashSet::new();
         let mut wrong = Vec::new();
         for pass in self.header.passes.iter().filter(|pass| !pass.target.is_empty()) {
             if !header::is_name(&pass.target) {
                 wrong.push((format!("\"{}\" is not a name of a buffer", pass.target), "use letters, digits and _"));
-            } else if targets.iter().any(|known| buffer_name(known) == buffer_name(&pass.target)) {
+            } else if !buffers.insert(buffer_name(&pass.target)) {
                 let message =
                     format!("two passes draw the buffer \"{}\": Eddy draws a buffer by one pass", pass.target);
                 wrong.push((message, "give each pass a TARGET of its own"));
@@ -146,10 +160,11 @@ impl Maker<'_> {
         let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
         let imported = self.header.imported.iter().map(|image| &image.name);
         let all: Vec<&String> = inputs.chain(imported).chain(targets).collect();
-        let is_read = |name: &String| vertex.is_some() || find_word(self.text, name).is_some();
+        let is_read = |name: &String| vertex.is_some() || self.words.words.contains(name.as_str());
         let mut read: Vec<String> = Vec::new();
+        let mut seen: HashSet<&String> = HashSet::new();
         for name in all.into_iter().filter(|name| is_read(name)) {
-            if !read.contains(name) {
+            if seen.insert(name) {
                 read.push(name.clone());
             }
         }
@@ -157,7 +172,7 @@ impl Maker<'_> {
             let message = format!(
                 "the shader reads {} images, and a pass of Eddy has {CHANNELS} channels: {}",
                 read.len(),
-                read.join(", ")
+                read[..read.len().min(SHOWN)].join(", ")
             );
             self.error(message, "read at most four images, buffers among them");
         }
@@ -195,7 +210,7 @@ impl Maker<'_> {
         let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
         let has_pixels = |name: &str| {
             vertex.is_some()
-                || reads.iter().any(|word| find_word(self.text, word).is_some())
+                || reads.iter().any(|word| self.words.words.contains(word))
                 || self.text.contains(&format!("_{name}_img"))
         };
         let is_free = |name: &str| targets.iter().all(|target| buffer_name(target) != buffer_name(name));
@@ -226,9 +241,11 @@ impl Maker<'_> {
             Some(input.default.first().or(input.min.first()).copied().unwrap_or(0.0))
         };
         let expressions = [&pass.width, &pass.height].map(|side| side.clone());
-        let is_moved = inputs
-            .iter()
-            .any(|input| expressions.iter().flatten().any(|text| text.contains(&format!("${}", input.name))));
+        let named: HashSet<&str> = (expressions.iter().flatten())
+            .flat_map(|text| text.split('$').skip(1))
+            .map(|rest| rest.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default())
+            .collect();
+        let is_moved = inputs.iter().any(|input| named.contains(input.name.as_str()));
         match size((expressions[0].as_deref(), expressions[1].as_deref()), &input) {
             Ok((size, said)) => {
                 if let Some(said) = said {

@@ -1,8 +1,8 @@
 //! The GLSL that stands around the text of an ISF file: what an ISF host declares, in terms of Shadertoy's.
 
 use super::header::{Header, IsfInput, Kind};
-use crate::words::find_word;
-use std::fmt::Write;
+use crate::words::all_words;
+use std::{collections::HashSet, fmt::Write};
 
 /// Names that Eddy or GLSL ES has taken, which an input of ISF may have all the same.
 const TAKEN: [&str; 52] = [
@@ -140,9 +140,33 @@ fn declaration(name: &str, input: &IsfInput) -> String {
     }
 }
 
-/// Returns the text of a pass: which images lie in which channels, and the files whose text it is, of which `text` is the
-/// fragment shader's.
-pub(super) fn pass(index: usize, images: &[String], (fragment, text): (&str, &str), vertex: Option<&str>) -> String {
+/// What the passes of a file need to know of its text, which is read once for all of them.
+pub(super) struct TextWords<'t> {
+    pub words: HashSet<&'t str>,
+    /// It has an entry point of Shadertoy's that it calls itself. One that it names otherwise by a macro, as exported files
+    /// do, needs no other name.
+    has_main_image: bool,
+}
+
+impl<'t> TextWords<'t> {
+    pub fn of(text: &'t str) -> Self {
+        let words = all_words(text);
+        let defines = |line: &str| {
+            line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))
+        };
+        let has_main_image = words.contains("mainImage") && !text.lines().any(defines);
+        Self { words, has_main_image }
+    }
+}
+
+/// Returns the text of a pass: which images lie in which channels, and the files whose text it is, of which `of` tells about
+/// the fragment shader's.
+pub(super) fn pass(
+    index: usize,
+    images: &[String],
+    (fragment, of): (&str, &TextWords<'_>),
+    vertex: Option<&str>,
+) -> String {
     let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
     let _ = writeln!(out, "#define PASSINDEX {index}");
     for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
@@ -156,20 +180,20 @@ pub(super) fn pass(index: usize, images: &[String], (fragment, text): (&str, &st
             ("flip", "false".to_owned()),
         ] {
             let uniform = format!("_{name}_{ending}");
-            if find_word(text, &uniform).is_some() {
+            if of.words.contains(uniform.as_str()) {
                 let _ = writeln!(out, "#define {uniform} {value}");
             }
         }
     }
     // A function of the text may be called as the entry point below is.
-    if has_main_image(text) {
+    if of.has_main_image {
         out.push_str("#define mainImage isf_mainImage\n");
     }
     if let Some(vertex) = vertex {
         let _ = write!(out, "\n#define main isf_vertexMain\n#include \"{vertex}\"\n#undef main\n");
     }
     let _ = write!(out, "\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n");
-    if has_main_image(text) {
+    if of.has_main_image {
         out.push_str("#undef mainImage\n");
     }
     out.push_str("void mainImage(out vec4 isf_color, in vec2 isf_at) {\n");
@@ -198,15 +222,6 @@ void mainImage(out vec4 color, in vec2 at) {
     color = texture(iChannel0, at / iResolution.xy);
 }
 ";
-
-/// Returns whether a text has an entry point of Shadertoy's that it calls itself. One that it names otherwise by a macro, as
-/// exported files do, needs no other name.
-fn has_main_image(text: &str) -> bool {
-    let defines = |line: &str| {
-        line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))
-    };
-    find_word(text, "mainImage").is_some() && !text.lines().any(defines)
-}
 
 /// The text of a buffer that makes an image of the resolution of the picture from the one in channel 0.
 pub(super) const SCALED: &str = "\
