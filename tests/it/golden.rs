@@ -5,9 +5,6 @@
 //! they are no longer within their tolerance (or missing); then look at every one that git shows as changed. A preset
 //! without a case, and a case without a preset, are failures. What a failing case drew is left in `target/tmp/golden`,
 //! beside the difference.
-//!
-//! The tolerance of a case also bounds how far another driver may be. SwiftShader (`libvk_swiftshader.so` of Chromium,
-//! chosen by `VK_DRIVER_FILES`) draws all of them within it, as lavapipe does.
 
 use crate::support::*;
 use eddy::{

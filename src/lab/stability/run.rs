@@ -153,7 +153,8 @@ mod tests {
                 }
             }
         }
-        assert!(accepted > 2100, "{accepted}");
+        // Of 2,135 rows, 321 are of earlier texts of `bloom`, `bloom-sized`, `brick-breaker`, `gbuffer-ssao-ssr` and `taa`.
+        assert!(accepted > 1780, "{accepted}");
     }
 
     #[test]
