@@ -16,7 +16,7 @@ float hash(ivec2 cell) {
 
 vec3 wall(vec2 q) {
     vec2 tile = floor(q * 6.0), f = fract(q * 6.0);
-    float kind = hash(ivec2(tile));
+    float kind = hash(ivec2(tile) + 1);
     vec3 ground = mix(vec3(0.10, 0.13, 0.20), vec3(0.15, 0.20, 0.29), mod(tile.x + tile.y, 2.0));
     vec3 line = mix(vec3(0.95, 0.62, 0.25), vec3(0.35, 0.75, 0.80), step(0.5, fract(7.0 * kind)));
     float lines = kind < 0.3 ? abs(fract((f.x + f.y) * 4.0) - 0.5)

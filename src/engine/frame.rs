@@ -11,7 +11,7 @@ use eddy_project::{PassId, Region};
 /// Answers, before each part of a draw in bands, how many rows are drawn next; `None` stops there.
 pub type Rows<'a> = dyn FnMut() -> Option<u32> + 'a;
 
-/// Why a frame is drawn, and what that needs from the caller.
+/// The purpose of drawing a frame, and what that needs from the caller.
 pub enum DrawFor<'a> {
     /// To show it. Does not wait for the device.
     Frame,
@@ -36,7 +36,7 @@ pub struct Drawn {
     pub stats: FrameStats,
     /// The time of each pass, for [`DrawFor::Timed`].
     pub times: Vec<PassTime>,
-    /// What the pass read, for [`DrawFor::Inspect`].
+    /// The inputs of the pass, for [`DrawFor::Inspect`].
     pub read: Option<PassInputs>,
     /// All of it is drawn: the caller did not stop it.
     pub is_whole: bool,
@@ -46,11 +46,11 @@ pub struct Drawn {
 #[derive(Debug, Default)]
 pub(super) struct Unfinished {
     ops: std::vec::IntoIter<FrameOp>,
-    /// Of the first of them, an [`FrameOp::EncodeRows`], the rows that are drawn.
+    /// The rows that are drawn of the first of them, an [`FrameOp::EncodeRows`].
     rows: u32,
 }
 
-/// What the loop asks the caller for.
+/// The caller's part in a frame.
 pub(super) struct Caller<'a, 'c> {
     pub rows: &'a mut Rows<'a>,
     pub watch: Option<&'a mut Watch<'c>>,

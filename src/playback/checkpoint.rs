@@ -284,9 +284,8 @@ mod tests {
     #[test]
     fn a_state_comes_back_bit_for_bit() {
         let dir = tempfile::tempdir().unwrap();
-        let name = file_name("waves", 40);
-        let file = dir.path().join(&name);
-        write(dir.path(), &name, &moment(), &state()).unwrap();
+        let (name, file) = ("waves_000040.eddystate", dir.path().join("waves_000040.eddystate"));
+        write(dir.path(), name, &moment(), &state()).unwrap();
         assert_eq!(read(&file, &moment()).unwrap(), Checkpoint { moment: moment(), state: state() });
         assert_eq!(super::moment(&file).unwrap(), moment());
     }

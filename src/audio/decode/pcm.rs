@@ -14,7 +14,7 @@ const MU_LAW: u16 = 7;
 /// A form of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Samples {
-    /// Of 8 bits or fewer, with silence at 128.
+    /// Unsigned numbers of 8 bits or fewer, with silence at 128.
     Unsigned,
     /// Whole numbers of this many bytes. Fewer bits than these hold are the most significant ones.
     Signed(usize),

@@ -209,18 +209,4 @@ mod tests {
         assert_eq!(rows.len(), KEYS.len());
         assert_eq!(read(&rows.join("\n")), (Settings::default(), vec![]));
     }
-
-    #[test]
-    fn settings_of_earlier_versions_are_read_and_written_the_same() {
-        let all = include_str!("../../../tests/saved/settings/all.toml");
-        let (settings, mistakes) = read(all);
-        assert_eq!(mistakes, []);
-        for key in KEYS {
-            assert!(!key.is_usual(&settings), "{} is not in the file", key.name);
-            assert_eq!(change(all, &key.as_it_is(&settings)).unwrap(), all, "{}", key.name);
-        }
-        let (settings, mistakes) = read(include_str!("../../../tests/saved/settings/few.toml"));
-        assert_eq!(mistakes, []);
-        assert_eq!((settings.theme, settings.midi), (Theme::Light, MidiChoice::All));
-    }
 }

@@ -44,7 +44,10 @@ impl SettingsFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::settings::Theme;
+    use crate::{
+        control::midi::MidiChoice,
+        gui::settings::{Theme, keys::KEYS},
+    };
     use std::fs;
 
     #[test]
@@ -81,5 +84,19 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).unwrap(), "zoom = = 2\n", "a file that is not understood stays as it is");
         assert_eq!(file.refresh().len(), 1);
         assert!(file.trouble().is_some_and(|why| why.starts_with(&format!("{}:1: ", path.display()))));
+    }
+
+    #[test]
+    fn settings_of_earlier_versions_are_read_and_written_the_same() {
+        let all = include_str!("../../../tests/saved/settings/all.toml");
+        let (settings, mistakes) = file::read(all);
+        assert_eq!(mistakes, []);
+        for key in KEYS {
+            assert!(!key.is_usual(&settings), "{} is not in the file", key.name);
+            assert_eq!(file::change(all, &key.as_it_is(&settings)).unwrap(), all, "{}", key.name);
+        }
+        let (settings, mistakes) = file::read(include_str!("../../../tests/saved/settings/few.toml"));
+        assert_eq!(mistakes, []);
+        assert_eq!((settings.theme, settings.midi), (Theme::Light, MidiChoice::All));
     }
 }

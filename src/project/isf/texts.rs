@@ -140,7 +140,7 @@ fn declaration(name: &str, input: &IsfInput) -> String {
     }
 }
 
-/// What the passes of a file need to know of its text, which is read once for all of them.
+/// The facts of a text that all its passes need, which is read once for them.
 pub(super) struct TextWords<'t> {
     pub words: HashSet<&'t str>,
     /// It has an entry point of Shadertoy's that it calls itself. One that it names otherwise by a macro, as exported files
