@@ -23,7 +23,7 @@ use std::{
 /// The input of every run that draws a project.
 const INPUT: [&str; 8] =
     ["--size", "32x18", "--frames", "4", "--mouse", "0:down 4,4; 2:move 20,9", "--keys", "1:down 65"];
-/// Stands for the folder of a test in files that name one.
+/// The placeholder for the folder of a test in files that name one.
 const FOLDER: &str = "@FOLDER@";
 /// Steps of 1/255 by which another device may differ, and the part of the pixels that may differ by more.
 const LEVELS: u8 = 2;
@@ -331,7 +331,7 @@ fn until<T>(session: &mut Session, what: &str, mut value: impl FnMut(&Session) -
     }
 }
 
-/// The folder's path stands in a file as [`FOLDER`].
+/// Replaces a folder's path in a file, which is [`FOLDER`] in the set.
 fn with_folder(bytes: &[u8], from: &str, to: &str) -> Vec<u8> {
     String::from_utf8(bytes.to_vec()).unwrap().replace(from, to).into_bytes()
 }

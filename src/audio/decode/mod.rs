@@ -241,12 +241,16 @@ impl Track {
 /// offset, which the first bins of the analyser show in 16 bits. FFmpeg, which decodes there, has integers of 8 (only in
 /// WAV files), 16 and 32 bits.
 fn scale_above_zero(audio: &GenericAudioBufferRef<'_>, bits: Option<u32>) -> f32 {
-    let steps = match (audio, bits) {
-        (GenericAudioBufferRef::F32(_) | GenericAudioBufferRef::F64(_), _) => return 1.0,
-        (GenericAudioBufferRef::U8(_), _) => 128.0,
-        (_, Some(..=16)) => 32_768.0,
-        _ => return 1.0,
-    };
+    match (audio, bits) {
+        (GenericAudioBufferRef::F32(_) | GenericAudioBufferRef::F64(_), _) => 1.0,
+        (GenericAudioBufferRef::U8(_), _) => factor(128.0),
+        (_, Some(..=16)) => factor(32_768.0),
+        _ => 1.0,
+    }
+}
+
+/// Returns that factor for integers with so many steps on either side of zero.
+fn factor(steps: f32) -> f32 {
     steps / (steps - 1.0)
 }
 

@@ -59,12 +59,14 @@ impl Samples {
     /// Returns a sample from -1 to 1; floats may lie beyond. Both ends of the range of whole numbers up to 16 bits are those
     /// of Chromium: see [`super::scale_above_zero`].
     pub fn value(self, bytes: &[u8], is_big: bool) -> f32 {
-        let of_i16 = |value: i16| f32::from(value) / if value > 0 { 32_767.0 } else { 32_768.0 };
+        // The same operations as for other files, so that a FLAC file of the same samples is the same sound bit for bit.
+        let scaled = |value: i16, steps: f32| {
+            let value = f32::from(value) / steps;
+            if value > 0.0 { value * super::factor(steps) } else { value }
+        };
+        let of_i16 = |value: i16| scaled(value, 32_768.0);
         match self {
-            Samples::Unsigned => {
-                let value = i16::from(bytes[0]) - 128;
-                f32::from(value) / if value > 0 { 127.0 } else { 128.0 }
-            }
+            Samples::Unsigned => scaled(i16::from(bytes[0]) - 128, 128.0),
             Samples::Signed(2) => of_i16((top(bytes, is_big) >> 48) as i16),
             Samples::Signed(_) => (top(bytes, is_big) as f64 / 2f64.powi(63)) as f32,
             Samples::Float32 => f32::from_bits((top(bytes, is_big) as u64 >> 32) as u32),
