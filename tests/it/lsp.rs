@@ -2,7 +2,7 @@
 //! that are edited at random against `eddy check`.
 
 use crate::support::program::Bench;
-use eddy::lsp::Server;
+use eddy::{lsp::Server, project::limits};
 use serde_json::{Value, json};
 use std::{
     collections::BTreeSet,
@@ -173,6 +173,20 @@ fn a_session_of_edits() {
     session.ask("textDocument/unheardOf", json!({}));
     session.ask("shutdown", Value::Null);
     insta::assert_snapshot!(session.log);
+}
+
+/// A text of megabytes must not make an answer of gigabytes.
+#[test]
+fn lists_of_a_document_have_a_limit() {
+    let text = "float a;\n".repeat(limits::LSP_ITEMS + 100);
+    let mut session = Session::new(&[("many.glsl", &text)]);
+    session.open("many.glsl", &text);
+    session.log.clear();
+    session.ask_about("textDocument/documentSymbol", "many.glsl");
+    assert_eq!(session.log.matches("\"selectionRange\"").count(), limits::LSP_ITEMS);
+    session.log.clear();
+    session.ask_at("textDocument/references", "many.glsl", (0, 6), json!({"context": {"includeDeclaration": true}}));
+    assert!(session.log.matches("\"range\"").count() <= limits::LSP_ITEMS);
 }
 
 fn framed(message: &Value) -> Vec<u8> {

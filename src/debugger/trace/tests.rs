@@ -1,10 +1,10 @@
 use super::{
-    Breakpoint, Examiner, Iteration, MomentKind, Number, Traced,
+    Breakpoint, Event, Examiner, Extent, Iteration, MomentKind, Number, Step, Traced, Tracer,
     travel::{self, Direction, Stride},
     ulps,
 };
-use eddy_engine::{PassInputs, Pixels, TextureCopy};
-use eddy_project::{PassId, Project, Tab};
+use eddy_engine::{PassInputs, Pixels, Sources, TextureCopy};
+use eddy_project::{PassId, Project, Tab, limits};
 use std::sync::Arc;
 
 const CODE: &str = "float glow = 0.25;
@@ -255,4 +255,23 @@ fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
                 after each draw";
     assert_eq!(refused(&project, [0.1, 0.3]), Err(edge.into()));
     assert_eq!(refused(&project, [0.3, 0.3]), Ok(()));
+}
+
+#[test]
+fn the_steps_of_a_trace_have_a_limit_of_bytes() {
+    // Each turn sets 4,000 numbers.
+    let code = "void mainImage(out vec4 o, in vec2 c) { float a[4000], b[4000]; a[0] = c.x; \
+                for (int i = 0; i < 6000; i++) { b = a; a[0] += 1.0; } o = vec4(b[0]); }";
+    let project = Project::of_image("Untitled".into(), code.into());
+    let (sources, inputs) = (Sources::new(&project), inputs());
+    let tracer = Tracer::new(&sources, 0, &inputs, Extent::default()).unwrap();
+    let trace = tracer.trace((1, 1)).unwrap();
+    let bytes = |step: &Step| match &step.event {
+        Event::Set { name, value } => name.len() + size_of_val(value.as_slice()),
+        Event::Enter(name) => name.len(),
+        Event::Leave | Event::Iteration(_) => 0,
+    };
+    let kept: usize = trace.steps.iter().map(|step| size_of::<Step>() + bytes(step)).sum();
+    assert!(trace.left_out > 0 && kept <= limits::TRACE_BYTES, "{kept} bytes, {} left out", trace.left_out);
+    assert!(kept > limits::TRACE_BYTES / 2, "{kept} bytes");
 }
