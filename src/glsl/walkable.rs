@@ -1,7 +1,7 @@
 //! A pass as the walker takes it: lowered, with no pass of the optimiser and no work-around, and with the names and
 //! places of the author's text.
 
-pub use super::lower::{Precondition, StatementEvent};
+pub use super::lower::{Precondition, StatementEvent, UnsetKind};
 
 use super::{
     PassSource,
@@ -33,6 +33,17 @@ pub struct Walkable {
     type_texts: Vec<String>,
     /// Holds what a stage of vertices hands on.
     pub varyings: Vec<Varying>,
+}
+
+/// A value that GLSL leaves undefined, by the declaration that should have given it one.
+#[derive(Clone, Copy, Debug)]
+pub struct Unset<'w> {
+    /// The zero in its place; or a variable of the function that has no value when the function starts.
+    pub value: ir::Value,
+    pub kind: UnsetKind,
+    pub name: &'w str,
+    /// The place of the name.
+    pub span: Span,
 }
 
 /// Says what a program is lowered for.
@@ -108,7 +119,7 @@ impl Walkable {
 
     /// The author's variables of the module that the program has, with their names.
     pub fn globals(&self) -> impl Iterator<Item = (&str, ir::GlobalId)> {
-        self.names.globals.iter().map(|&(symbol, id)| (self.interner.get(symbol), id))
+        self.names.globals.iter().map(|&(symbol, id, _)| (self.interner.get(symbol), id))
     }
 
     /// The variables of the module that the device fills: the `in` variables of a stage.
@@ -147,8 +158,21 @@ impl Walkable {
     }
 
     /// The values of a function that stand for what GLSL leaves undefined.
-    pub fn undefined(&self, function: ir::FuncId) -> &[ir::Value] {
-        &self.names.functions[function.index()].undefined
+    pub fn undefined(&self, function: ir::FuncId) -> impl Iterator<Item = Unset<'_>> {
+        let undefined = |unset: &lower::Unset| Unset {
+            value: unset.value,
+            kind: unset.kind,
+            name: self.interner.get(unset.name),
+            span: self.span(unset.loc),
+        };
+        self.names.functions[function.index()].undefined.iter().map(undefined)
+    }
+
+    /// The author's variables of the module that have no value when the program starts.
+    pub fn undefined_globals(&self) -> impl Iterator<Item = (ir::GlobalId, &str, Span)> {
+        let is_unset = |id: ir::GlobalId| matches!(self.program[id].kind, ir::GlobalKind::Private(None));
+        let unset = self.names.globals.iter().filter(move |(_, id, _)| is_unset(*id));
+        unset.map(|&(symbol, id, loc)| (id, self.interner.get(symbol), self.span(loc)))
     }
 
     /// Returns what lowering keeps a device from at an operation, or what the result of a call depends on.
@@ -163,7 +187,7 @@ impl Walkable {
 
     /// The author's name of a variable of the module.
     pub fn global_name(&self, global: ir::GlobalId) -> Option<&str> {
-        let named = self.names.globals.iter().find(|(_, id)| *id == global);
-        named.map(|&(symbol, _)| self.interner.get(symbol))
+        let named = self.names.globals.iter().find(|(_, id, _)| *id == global);
+        named.map(|&(symbol, ..)| self.interner.get(symbol))
     }
 }

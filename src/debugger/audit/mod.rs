@@ -8,7 +8,9 @@
 mod blame;
 mod distance;
 mod finding;
+mod flow;
 mod jitter;
+mod parts;
 mod run;
 mod undefined;
 mod watch;
@@ -17,5 +19,7 @@ pub use finding::{Class, Finding, Kind};
 pub use jitter::jittered;
 pub use run::{Audit, AuditedPixel, audit, audit_pixel, cells, grid, spread};
 
+#[cfg(test)]
+mod planted;
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,8 @@ use super::{
     blame,
     distance::{apart, error_of},
     finding::{CONSTANT, Finding, Kind},
+    flow::Shown,
+    parts,
     watch::Watch,
 };
 use crate::{
@@ -14,7 +16,7 @@ use eddy_diag::SourceId;
 use eddy_engine::{PassInputs, Sources};
 use eddy_glsl::{
     walk::{Observer, Shadowed},
-    walkable::{Detail, Walkable},
+    walkable::{Detail, UnsetKind, Walkable},
 };
 use eddy_project::PassSettings;
 use std::{
@@ -90,7 +92,7 @@ pub fn audit(
     limit: u64,
 ) -> Result<Audit, TraceError> {
     let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
-    let mut audit = audit_pixels(&pass, inputs.size, pixels)?;
+    let mut audit = audit_pixels(&pass, &stored(sources, index), inputs.size, pixels)?;
     let Some(first) = audit.pixels.first().map(|audited| audited.pixel) else { return Ok(audit) };
     for (span, is_undefined, what) in pass.programs().flat_map(Walkable::faults) {
         let kind = if is_undefined { Kind::Undefined(what) } else { Kind::Nonfinite(what) };
@@ -113,10 +115,53 @@ pub fn audit_pixel(
     limit: u64,
 ) -> Result<Audit, TraceError> {
     let pass = PassFragments::new(sources, index, inputs, Detail::Values, limit)?;
-    audit_pixels(&pass, inputs.size, &[pixel])
+    audit_pixels(&pass, &stored(sources, index), inputs.size, &[pixel])
 }
 
-fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)]) -> Result<Audit, TraceError> {
+/// Returns the number of components that each target of a pass stores.
+fn stored(sources: &Sources<'_>, index: usize) -> Vec<usize> {
+    sources.pass(index).formats().iter().map(|format| format.components()).collect()
+}
+
+/// A declaration that pixels show something undefined of.
+struct ShownByPixels<'p> {
+    walkable: &'p Walkable,
+    shown: Shown,
+    pixels: usize,
+    first: (u32, u32),
+}
+
+impl ShownByPixels<'_> {
+    fn finding(&self) -> Finding {
+        let what = match self.shown.origin.kind {
+            UnsetKind::Variable => {
+                "the result depends on this variable where it was never written (undefined, 4.3.1): give it a value"
+            }
+            UnsetKind::Parameter => {
+                "the result depends on this `out` parameter where it was never written (undefined, 6.1.1): give it a \
+                 value"
+            }
+            UnsetKind::Result => {
+                "the result depends on this function where it ends without a `return` (undefined, 6.1): add one"
+            }
+        };
+        Finding {
+            kind: Kind::Undefined(what),
+            span: Some(self.shown.origin.span),
+            pixels: self.pixels,
+            pixel: self.first,
+            numbers: parts::names(self.walkable, &self.shown),
+            error: None,
+        }
+    }
+}
+
+fn audit_pixels(
+    pass: &PassFragments<'_>,
+    stored: &[usize],
+    size: (u32, u32),
+    pixels: &[(u32, u32)],
+) -> Result<Audit, TraceError> {
     if let Some(&pixel) = pixels.iter().find(|p| p.0 >= size.0 || p.1 >= size.1) {
         return Err(TraceError::Outside { pixel, size });
     }
@@ -124,7 +169,7 @@ fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.extend(walk_pixel(pass, pixel)?);
+            done.extend(walk_pixel(pass, stored, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -133,13 +178,23 @@ fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)
         let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
     });
-    let mut found: BTreeMap<(u32, u32), (AuditedPixel, Vec<Finding>)> =
-        done?.into_iter().flatten().map(|(pixel, findings)| (pixel.pixel, (pixel, findings))).collect();
+    let mut found: BTreeMap<(u32, u32), WalkedPixel<'_>> =
+        done?.into_iter().flatten().map(|walked| (walked.audited.pixel, walked)).collect();
+    let mut by_pixels: Vec<ShownByPixels<'_>> = Vec::new();
     let mut audit = Audit::default();
     let mut all: Vec<Finding> = Vec::new();
     for pixel in pixels {
         // One that is asked for twice counts once.
-        let Some((audited, findings)) = found.remove(pixel) else { continue };
+        let Some(WalkedPixel { audited, findings, shown }) = found.remove(pixel) else { continue };
+        for (walkable, shown) in shown {
+            match by_pixels.iter_mut().find(|known| known.shown.origin.is_like(&shown.origin)) {
+                Some(known) => {
+                    known.shown.cells.extend(shown.cells);
+                    known.pixels += 1;
+                }
+                None => by_pixels.push(ShownByPixels { walkable, shown, pixels: 1, first: *pixel }),
+            }
+        }
         audit.pixels.push(audited);
         for finding in findings {
             match all.iter_mut().find(|known| known.is_like(&finding)) {
@@ -148,21 +203,33 @@ fn audit_pixels(pass: &PassFragments<'_>, size: (u32, u32), pixels: &[(u32, u32)
             }
         }
     }
+    all.extend(by_pixels.iter().map(ShownByPixels::finding));
     all.sort_by(|a, b| a.kind.class().cmp(&b.kind.class()).then(b.pixels.cmp(&a.pixels)));
     audit.findings = all;
     Ok(audit)
 }
 
-fn walk_pixel(pass: &PassFragments<'_>, pixel: (u32, u32)) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
+/// What came of a pixel.
+struct WalkedPixel<'p> {
+    audited: AuditedPixel,
+    findings: Vec<Finding>,
+    shown: Vec<(&'p Walkable, Shown)>,
+}
+
+fn walk_pixel<'p>(
+    pass: &'p PassFragments<'_>,
+    stored: &[usize],
+    pixel: (u32, u32),
+) -> Result<Option<WalkedPixel<'p>>, TraceError> {
     let at = match pass.at(pixel)? {
         PixelContent::Fragment(at) => at,
         PixelContent::Undrawn(Origin::Clear) => {
             let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
-            return Ok(Some((audited, Vec::new())));
+            return Ok(Some(WalkedPixel { audited, findings: Vec::new(), shown: Vec::new() }));
         }
         PixelContent::Undrawn(_) => return Ok(None),
     };
-    let mut watch = Watch::new(at.walkable, &at.world);
+    let mut watch = Watch::new(at.walkable, &at.world, stored);
     let drawn = walk(&at, &mut watch)?;
     let audited = AuditedPixel {
         pixel,
@@ -171,7 +238,9 @@ fn walk_pixel(pass: &PassFragments<'_>, pixel: (u32, u32)) -> Result<Option<(Aud
         error: error_of(&drawn),
     };
     let born = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
-    Ok(Some((audited, watch.end(pixel, born))))
+    let (findings, shown) = watch.end(pixel, born);
+    let shown = shown.into_iter().map(|shown| (at.walkable, shown)).collect();
+    Ok(Some(WalkedPixel { audited, findings, shown }))
 }
 
 /// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.

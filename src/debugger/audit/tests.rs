@@ -13,7 +13,7 @@ fn inputs() -> PassInputs {
     PassInputs { uniforms, custom_uniforms: Vec::new(), channels, size: (8, 4), face: 0, meshes: Vec::new() }
 }
 
-fn audited(code: &str) -> Audit {
+pub(super) fn audited(code: &str) -> Audit {
     let project = Project::of_image("Untitled".into(), code.into());
     let pixels: Vec<(u32, u32)> = (0..4).flat_map(|y| (0..8).map(move |x| (x, y))).collect();
     audit(&Sources::new(&project), 0, &inputs(), &pixels, STEPS).unwrap()
@@ -84,63 +84,69 @@ fn a_large_angle_is_named() {
 
 #[test]
 fn what_is_read_before_it_is_written_is_found() {
-    for (body, text) in [
-        ("float a;\nif (p.x > 4.) a = 1.;\no = vec4(a * 2.);", "a * 2."),
-        ("float a;\no = vec4(a + 1.);", "a + 1."),
-        ("vec2 v;\nv.x = 1.;\no = vec4(v.y - 1.);", "v.y - 1."),
-    ] {
-        let code = image(body);
-        let audit = audited(&code);
-        let expected = ("undefined", text);
-        assert!(named(&code, &audit).contains(&expected), "{body}: {:?}", named(&code, &audit));
-    }
-    // What decides is used, though nothing is computed of it.
     for (body, name) in [
+        ("float a;\nif (p.x > 4.) a = 1.;\no = vec4(a * 2.);", "a"),
+        ("float a;\no = vec4(a + 1.);", "a"),
+        ("vec2 v;\nv.x = 1.;\no = vec4(v.y - 1.);", "v"),
         ("bool b;\no = vec4(1.);\nif (b) o = vec4(p, 0., 1.);", "b"),
         ("bool b;\nif (p.x > 4.) b = true;\no = b ? vec4(p, 0., 1.) : vec4(1.);", "b"),
         ("bool b;\no = vec4(p.x > 9. || b);", "b"),
         ("int k;\no = vec4(1.);\nswitch (k) { case 1: o = vec4(p, 0., 1.); }", "k"),
         ("bool b;\no = vec4(1.);\nwhile (b) { o += 1.; b = false; }", "b"),
+        ("if (p.x > 4.) o = vec4(1.);", "o"),
     ] {
         let code = image(body);
-        let audit = audited(&code);
-        let is_named = |(kind, text): &(&str, &str)| *kind == "undefined" && text.contains(name);
-        assert!(named(&code, &audit).iter().any(is_named), "{body}: {:?}", named(&code, &audit));
+        assert_eq!(named(&code, &audited(&code)), [("undefined", name)], "{body}");
     }
-    let nothing = image("if (p.x > 4.) o = vec4(1.);");
-    assert_eq!(named(&nothing, &audited(&nothing)), [("undefined", "")], "some pixels get nothing");
-    let partly = image("vec4 v;\nv.xyz = vec3(p, 1.);\nv *= 2.;\no = vec4(v.xyz, 1.);");
-    assert_eq!(named(&partly, &audited(&partly)), [], "the fourth component is carried along and thrown away");
-    let colour = image("o.xyz = vec3(p, 1.);");
-    assert_eq!(named(&colour, &audited(&colour)), [], "nobody sees the picture's alpha");
+    for body in [
+        // The fourth component is carried along and thrown away.
+        "vec4 v;\nv.xyz = vec3(p, 1.);\nv *= 2.;\no = vec4(v.xyz, 1.);",
+        // The picture has no alpha.
+        "o.xyz = vec3(p, 1.);",
+        "float s = 0.;\nfor (int i = 0; i < 3; i++) { float t; t = float(i); s += t; }\no = vec4(s);",
+    ] {
+        let code = image(body);
+        assert_eq!(named(&code, &audited(&code)), [], "{body}");
+    }
     let global =
         "float g;\nfloat set;\nvoid f() { set = 1.; }\nvoid mainImage(out vec4 o, vec2 p) { f(); o = vec4(g + set); }";
-    let audit = audited(global);
-    assert_eq!(named(global, &audit), [("undefined", "g + set")]);
-    let looped = image("float s = 0.;\nfor (int i = 0; i < 3; i++) { float t; t = float(i); s += t; }\no = vec4(s);");
-    assert_eq!(named(&looped, &audited(&looped)), []);
+    assert_eq!(named(global, &audited(global)), [("undefined", "g")]);
+}
+
+#[test]
+fn what_follows_from_an_undefined_value_is_reported_where_that_comes_from() {
+    let code = image("vec3 n;\nfloat r;\no = vec4(normalize(n), 1. / r);");
+    let audit = audited(&code);
+    assert_eq!(named(&code, &audit), [("undefined", "n")]);
+    assert_eq!((&*audit.findings[0].numbers, audit.findings[0].pixels), ("n", 32));
+}
+
+#[test]
+fn a_buffer_shows_every_component_that_it_stores() {
+    let mut project = Project::of_image("Untitled".into(), image("o.xyz = vec3(p, 1.);"));
+    project.passes[0].id = eddy_project::PassId::Buffer("A".into());
+    let audit = audit(&Sources::new(&project), 0, &inputs(), &[(1, 1)], STEPS).unwrap();
+    assert_eq!(audit.findings.iter().map(|finding| &*finding.numbers).collect::<Vec<_>>(), ["o.w"]);
 }
 
 #[test]
 fn what_is_undefined_is_followed_out_of_functions_and_into_them() {
     let half = "struct S { float a; float b; };\nS f() { S s; s.a = 1.; return s; }\n";
-    for (functions, body, text) in [
+    for (functions, body, part) in [
         // A local that is returned before it is written.
-        ("float f() { float a; return a; }\n", "o = vec4(f() + 1.);", "f() + 1."),
-        ("float f() { float a; return a; }\n", "o = vec4(p, f() * 2., 1.);", "f() * 2."),
-        ("float f() { float a; return a; }\nfloat g() { return f(); }\n", "o = vec4(g() + 1.);", "g() + 1."),
+        ("float f() { float a; return a; }\n", "o = vec4(f() + 1.);", "a"),
+        ("float f() { float a; return a; }\nfloat g() { return f(); }\n", "o = vec4(g() + 1.);", "a"),
         // Some of the ways through a function have no return.
-        ("float f(float x) { if (x > 4.) return 1.; }\n", "o = vec4(f(p.x) + 1.);", "f(p.x) + 1."),
+        ("float f(float x) { if (x > 4.) return 1.; }\n", "o = vec4(f(p.x) + 1.);", "f()"),
         // A structure that is filled in part.
-        (half, "o = vec4(f().b + 1.);", "f().b + 1."),
-        ("float f(vec2 v) { return v.y - 1.; }\n", "vec2 v;\nv.x = 1.;\no = vec4(f(v));", "v.y - 1."),
-        // A colour that comes from a function has a line.
-        ("vec4 f() { vec4 c; return c; }\n", "o = f();", "f()"),
-        ("vec3 f() { vec3 c; return c; }\n", "o = vec4(f(), 1.);", "vec4(f(), 1.)"),
+        (half, "o = vec4(f().b + 1.);", "s.b"),
+        ("float f(vec2 v) { return v.y - 1.; }\n", "vec2 v;\nv.x = 1.;\no = vec4(f(v));", "v.y"),
+        ("vec3 f() { vec3 c; return c; }\n", "o = vec4(f(), 1.);", "c"),
     ] {
         let code = format!("{functions}{}", image(body));
         let audit = audited(&code);
-        assert_eq!(named(&code, &audit), [("undefined", text)], "{code}");
+        assert_eq!(audit.findings.iter().map(|f| &*f.numbers).collect::<Vec<_>>(), [part], "{code}");
+        assert!(audit.findings[0].span.is_some_and(|span| part.starts_with(&code[span.range()])), "{code}");
     }
     for (functions, body) in [
         (half, "o = vec4(f().a + 1.);"),

@@ -3,17 +3,18 @@
 use super::{
     distance::apart,
     finding::{Finding, Kind},
+    flow::{Flow, Shown},
     undefined,
 };
 use eddy_diag::Span;
 use eddy_engine::DrawInputs;
 use eddy_glsl::{
     ast::Loc,
-    ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
+    ir::{Binary, FuncId, Math, Op, Output, Stmt, Value},
     walk::{Cell, Observer, Shadowed, View, World},
     walkable::Walkable,
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Half the distance of single precision's numbers, relative to them.
 const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
@@ -48,36 +49,13 @@ pub struct Watch<'w> {
     inputs: &'w DrawInputs<'w>,
     root_causes: HashMap<(FuncId, Value), RootCause>,
     found: Vec<(Kind, Option<Span>, String)>,
-    /// Cells of memory that nothing was written to, and those that an undefined value was written to: with the place of
-    /// the expression that it is the value of.
-    unset: HashMap<usize, Option<Span>>,
-    /// Cells of variables of the module that something was written to.
-    written: HashSet<usize>,
-    /// The undefined components of values, for each call under way.
-    calls: Vec<HashMap<Value, Vec<bool>>>,
-    variables: HashMap<FuncId, Vec<Value>>,
-    parameters: HashMap<FuncId, Vec<(Value, u32)>>,
-    /// The undefined components of the arguments of the call that is about to begin.
-    arguments: Vec<Option<Vec<bool>>>,
-    /// The undefined components of what the last function returned.
-    returned: Option<Vec<bool>>,
+    flow: Flow<'w>,
 }
 
 impl<'w> Watch<'w> {
-    pub fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>) -> Self {
-        Self {
-            walkable,
-            inputs,
-            root_causes: HashMap::new(),
-            found: Vec::new(),
-            unset: HashMap::new(),
-            written: HashSet::new(),
-            calls: Vec::new(),
-            variables: HashMap::new(),
-            parameters: HashMap::new(),
-            arguments: Vec::new(),
-            returned: None,
-        }
+    /// `stored` has the number of components that each target stores.
+    pub fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>, stored: &'w [usize]) -> Self {
+        Self { walkable, inputs, root_causes: HashMap::new(), found: Vec::new(), flow: Flow::new(walkable, stored) }
     }
 
     /// The operations in which errors are born, the largest first.
@@ -87,14 +65,15 @@ impl<'w> Watch<'w> {
         root_causes
     }
 
-    pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> Vec<Finding> {
+    /// Returns what was found, and what is shown of what was never written.
+    pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
         if let Some(Blame { cause, error, left }) = born {
             let (kind, span, numbers) = (Kind::Rounding(cause.what), cause.span, cause.numbers);
             all.push(Finding { kind, span, pixels: 1, pixel, numbers, error: Some((error, left)) });
         }
-        all
+        (all, self.flow.shown())
     }
 
     fn span(&self, loc: Loc) -> Option<Span> {
@@ -106,163 +85,47 @@ impl<'w> Watch<'w> {
             self.found.push((kind, span, numbers));
         }
     }
-
-    fn undefined_components(&self, view: &View<'_, '_, Shadowed>, value: Value) -> Option<Vec<bool>> {
-        if self.walkable.undefined(view.function_id()).contains(&value) {
-            return Some(vec![true; view.value(value).len()]);
-        }
-        self.calls.last()?.get(&value).cloned()
-    }
-
-    /// The variable of the module that a place lies in, if nothing is written there before the program writes.
-    fn is_unset_global(&self, view: &View<'_, '_, Shadowed>, place: Value) -> bool {
-        match *view.op(place) {
-            Op::Part { base, .. } | Op::Element { base, .. } => self.is_unset_global(view, base),
-            Op::Global(global) => {
-                let is_empty = matches!(view.module()[global].kind, GlobalKind::Private(None));
-                is_empty && self.walkable.global_name(global).is_some()
-            }
-            _ => false,
-        }
-    }
-
-    /// A value is used where something undefined decides.
-    fn used(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
-        let span = self.span(view.function().loc(value));
-        let what = "this uses a variable that was never written (undefined, 4.3.1)";
-        self.find(Kind::Undefined(what), span, String::new());
-    }
-
-    /// The place of the expression that an undefined value comes from, as far as it was only carried along since.
-    fn origin(&self, view: &View<'_, '_, Shadowed>, value: Value) -> Option<Span> {
-        match view.op(value) {
-            Op::Load { place } => {
-                let (start, count) = (view.address(*place), view.memory(*place).len());
-                (start..start + count).find_map(|cell| self.unset.get(&cell).copied().flatten())
-            }
-            Op::Part { base, .. } => self.origin(view, *base),
-            Op::Swizzle { vector, .. } => self.origin(view, *vector),
-            Op::Splat { value, .. } => self.origin(view, *value),
-            Op::Compose { parts, .. } => parts.iter().find_map(|&part| self.origin(view, part)),
-            _ => None,
-        }
-    }
-
-    /// Notes which components of a value nothing was written to, and whether that counts as a use of them.
-    fn follow(&mut self, view: &View<'_, '_, Shadowed>, value: Value, op: &Op) {
-        let mut is_used = false;
-        let undefined: Option<Vec<bool>> = match op {
-            Op::Load { place } => {
-                let (start, count) = (view.address(*place), view.memory(*place).len());
-                let is_global = self.is_unset_global(view, *place);
-                let is_unset =
-                    |cell: usize| self.unset.contains_key(&cell) || (is_global && !self.written.contains(&cell));
-                let components: Vec<bool> = (start..start + count).map(is_unset).collect();
-                components.contains(&true).then_some(components)
-            }
-            Op::Part { base, index } => {
-                let size = view.value(value).len();
-                let parts = self.undefined_components(view, *base);
-                parts.map(|parts| parts[*index as usize * size..][..size].to_vec())
-            }
-            Op::Swizzle { vector, swizzle } => {
-                let parts = self.undefined_components(view, *vector);
-                parts.map(|parts| swizzle.iter().map(|i| parts[i]).collect())
-            }
-            Op::Splat { size, value } => {
-                let part = self.undefined_components(view, *value);
-                part.map(|part| vec![part[0]; usize::from(*size)])
-            }
-            Op::Compose { parts, .. } => {
-                let mut all = Vec::new();
-                for &part in &**parts {
-                    let size = view.value(part).len();
-                    all.extend(self.undefined_components(view, part).unwrap_or_else(|| vec![false; size]));
-                }
-                Some(all)
-            }
-            Op::Call { args, .. } => {
-                // Components of an argument that are undefined are followed into the function; a whole argument is used.
-                is_used = args.iter().filter(|&&arg| !view.is_place(arg)).any(|&arg| {
-                    self.undefined_components(view, arg).is_some_and(|parts| parts.iter().all(|&part| part))
-                });
-                let returned = self.returned.take();
-                returned.filter(|components| components.len() == view.value(value).len())
-            }
-            _ => {
-                let size = view.value(value).len();
-                let mut components = vec![false; size];
-                for operand in operands(op) {
-                    if view.is_place(operand) {
-                        continue;
-                    }
-                    let Some(parts) = self.undefined_components(view, operand) else { continue };
-                    // A component that is nothing may be carried along and thrown away.
-                    is_used |= parts.iter().all(|&part| part) || parts.len() != size;
-                    let each = |i: usize| parts[if parts.len() == 1 { 0 } else { i.min(parts.len() - 1) }];
-                    components.iter_mut().enumerate().for_each(|(i, c)| *c |= each(i));
-                }
-                (!is_used).then_some(components)
-            }
-        };
-        if is_used {
-            self.used(view, value);
-        }
-        if let Some(call) = self.calls.last_mut() {
-            match undefined.filter(|components| components.contains(&true)) {
-                Some(components) => call.insert(value, components),
-                None => call.remove(&value),
-            };
-        }
-    }
 }
 
 impl Observer<Shadowed> for Watch<'_> {
     fn calling(&mut self, view: &View<'_, '_, Shadowed>, arguments: &[Value]) {
-        let components = |&argument: &Value| match view.is_place(argument) {
-            true => None,
-            false => {
-                let components = self.undefined_components(view, argument)?;
-                components.contains(&false).then_some(components)
-            }
-        };
-        self.arguments = arguments.iter().map(components).collect();
+        self.flow.calling(view, arguments);
     }
 
     fn enter(&mut self, view: &View<'_, '_, Shadowed>) {
-        let arguments = std::mem::take(&mut self.arguments);
-        let parameters = self.parameters.entry(view.function_id()).or_insert_with(|| {
-            let parameter = |(value, op): (Value, &Op)| match *op {
-                Op::Param(index) => Some((value, index)),
-                _ => None,
-            };
-            view.function().values().filter_map(parameter).collect()
-        });
-        let undefined = |&(value, index): &(Value, u32)| {
-            arguments.get(index as usize).cloned().flatten().map(|components| (value, components))
-        };
-        self.calls.push(parameters.iter().filter_map(undefined).collect());
-        self.returned = None;
-        let variables = self.variables.entry(view.function_id()).or_insert_with(|| {
-            let is_variable = |(value, op): (Value, &Op)| matches!(op, Op::Var(_)).then_some(value);
-            view.function().values().filter_map(is_variable).collect()
-        });
-        // The cells were another call's.
-        for &variable in &*variables {
-            let start = view.address(variable);
-            for cell in start..start + view.memory(variable).len() {
-                self.unset.remove(&cell);
-            }
-        }
+        self.flow.enter(view);
     }
 
     fn returned(&mut self, view: &View<'_, '_, Shadowed>, value: Option<Value>) {
-        let components = value.and_then(|value| self.undefined_components(view, value));
-        self.returned = components.filter(|components| components.contains(&true));
+        self.flow.returned(view, value);
     }
 
     fn leave(&mut self, _: &View<'_, '_, Shadowed>) {
-        self.calls.pop();
+        self.flow.leave();
+    }
+
+    fn branch(&mut self, view: &View<'_, '_, Shadowed>, stmt: &Stmt) {
+        self.flow.branch(view, stmt);
+    }
+
+    fn branch_end(&mut self, _: &View<'_, '_, Shadowed>) {
+        self.flow.branch_end();
+    }
+
+    fn loop_start(&mut self, _: &View<'_, '_, Shadowed>, stmt: &Stmt) {
+        self.flow.loop_start(stmt);
+    }
+
+    fn turn(&mut self, _: &View<'_, '_, Shadowed>) {
+        self.flow.turn();
+    }
+
+    fn continuing(&mut self, _: &View<'_, '_, Shadowed>) {
+        self.flow.turn();
+    }
+
+    fn loop_end(&mut self, _: &View<'_, '_, Shadowed>) {
+        self.flow.branch_end();
     }
 
     fn diverged(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
@@ -279,52 +142,32 @@ impl Observer<Shadowed> for Watch<'_> {
     }
 
     fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
-        if self.undefined_components(view, value).is_some() {
-            self.used(view, value);
-        }
+        self.flow.decide(view, value);
     }
 
-    fn output(&mut self, view: &View<'_, '_, Shadowed>, _: Output, value: Value) {
-        // What is shown of a colour has no alpha, and buffers that need few components write few.
-        let parts = self.undefined_components(view, value).unwrap_or_default();
-        if !parts.is_empty() && parts.iter().take(3).all(|&part| part) {
-            let span = self.origin(view, value);
-            let what = match span {
-                Some(_) => "the colour of the pixel is of a variable that was never written (undefined, 4.3.1)",
-                None => "the colour of the pixel was never written (undefined, 4.3.1)",
-            };
-            self.find(Kind::Undefined(what), span, String::new());
-        }
+    fn output(&mut self, view: &View<'_, '_, Shadowed>, output: Output, value: Value) {
+        self.flow.output(view, output, value);
     }
 
     fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
-        let (start, count) = (view.address(place), view.memory(place).len());
-        let undefined = self.undefined_components(view, value);
-        let is_declared = self.walkable.undefined(view.function_id()).contains(&value);
-        let is_authors = self.walkable.function_name(view.function_id()).is_some();
-        let carried = self.origin(view, value);
-        let own = (is_authors && !is_declared).then(|| self.span(view.function().loc(value))).flatten();
-        for i in 0..count {
-            match undefined.as_ref().is_some_and(|parts| parts[i.min(parts.len() - 1)]) {
-                true => self.unset.insert(start + i, own.or(carried)),
-                false => self.unset.remove(&(start + i)),
-            };
-        }
-        if self.is_unset_global(view, place) {
-            self.written.extend(start..start + count);
-        }
+        self.flow.store(view, place, value);
     }
 
     fn value(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let op = view.op(value);
         let loc = view.function().loc(value);
         if view.is_place(value) {
+            self.flow.place(view, value);
             return;
         }
-        self.follow(view, value, op);
+        self.flow.value(view, value);
         if let Some(what) = self.walkable.unsequenced(loc) {
             let span = self.span(loc);
             self.find(Kind::Undefined(what), span, String::new());
+        }
+        // What follows from an undefined value is told of where that comes from.
+        if self.flow.is_undefined(view, op) || self.flow.is_undefined_value(view, value) {
+            return;
         }
         let size = |channel, level| World::size(self.inputs, channel, level);
         let precondition = self.walkable.precondition(view.function_id(), value);

@@ -218,3 +218,10 @@ pub struct Ident {
     pub symbol: Symbol,
     pub token: TokenId,
 }
+
+impl Ident {
+    /// Returns the place of the name.
+    pub fn loc(self) -> Loc {
+        Loc::new(self.token, self.token)
+    }
+}

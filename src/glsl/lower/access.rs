@@ -4,7 +4,7 @@ use super::{
     arguments::last_effect,
     context::const_id,
     function::{Builder, Slot},
-    names::Precondition,
+    names::{Precondition, UnsetKind},
 };
 use crate::{
     hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
@@ -208,7 +208,9 @@ impl Builder<'_, '_> {
             },
             ExprKind::Global(id) => match hir[id].value {
                 Some(value) if hir[id].storage == GlobalStorage::Private => self.folded(value),
-                None if hir[id].storage == GlobalStorage::Private => self.undefined(ty),
+                None if hir[id].storage == GlobalStorage::Private => {
+                    self.undefined(ty, UnsetKind::Variable, hir[id].name)
+                }
                 _ => self.zero(ty),
             },
             ExprKind::CustomUniform(index) => self.custom_uniform(index, ty),

@@ -3,7 +3,7 @@
 use super::{
     context::const_id,
     function::{Builder, Slot},
-    names::StatementEvent,
+    names::{StatementEvent, UnsetKind},
     reachable::known_bool,
 };
 use crate::{
@@ -74,7 +74,7 @@ impl Builder<'_, '_> {
         }
         let value = match init {
             Some(init) => self.value(init),
-            None => self.undefined(hir[local].ty),
+            None => self.undefined_local(UnsetKind::Variable, local),
         };
         self.declare(local, value);
     }

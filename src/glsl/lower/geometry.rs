@@ -19,8 +19,16 @@ impl Builder<'_, '_> {
             return self.op(Binary::Multiply, a, b);
         }
         let product = |this: &mut Self, index| {
-            if [a, b].iter().any(|&side| this.part(side, index) == PartOf::Known(0.0)) {
-                return this.float(0.0);
+            let is_zero = |this: &Self, side| this.part(side, index) == PartOf::Known(0.0);
+            if is_zero(this, a) || is_zero(this, b) {
+                let zero = this.float(0.0);
+                if !this.cx.marks.undefined {
+                    return zero;
+                }
+                // Its value is zero all the same, but what is undefined stays so in a product with zero.
+                let other = if is_zero(this, a) { b } else { a };
+                let other = this.add(Op::Part { base: other, index });
+                return this.op(Binary::Multiply, zero, other);
             }
             let a = this.add(Op::Part { base: a, index });
             let b = this.add(Op::Part { base: b, index });

@@ -42,10 +42,10 @@ mod walk;
 
 use rustc_hash::FxHashMap;
 
-pub use self::names::{Precondition, StatementEvent};
+pub use self::names::{Precondition, StatementEvent, UnsetKind};
 pub(crate) use self::{
     constant_arrays::arrays_to_constants,
-    names::{FunctionNames, Marks, Names},
+    names::{FunctionNames, Marks, Names, Unset},
     reachable::reached,
 };
 use self::{

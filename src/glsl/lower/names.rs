@@ -2,14 +2,20 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::{ast::Symbol, builtins::Builtin, hir::LocalId, ir};
+use crate::{
+    ast::{Loc, Symbol},
+    builtins::Builtin,
+    hir::LocalId,
+    ir,
+};
 
 /// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
-    pub globals: Vec<(Symbol, ir::GlobalId)>,
+    /// Variables of the module, each with the place of its name.
+    pub globals: Vec<(Symbol, ir::GlobalId, Loc)>,
     /// By function and value: only where they are asked for.
     pub preconditions: FxHashMap<(ir::FuncId, ir::Value), Precondition>,
     /// The members of each structure, by [`StructId::index`](crate::types::StructId::index).
@@ -24,11 +30,34 @@ pub(crate) struct FunctionNames {
     /// Parameters and local variables, in the order of their declarations: each name has a value, or a place.
     pub locals: Vec<(Symbol, ir::Value)>,
     /// Zeros in place of values that GLSL leaves undefined, where these are marked.
-    pub undefined: Vec<ir::Value>,
+    pub undefined: Vec<Unset>,
     /// The variables of `locals`, in the same order.
     pub ids: Vec<LocalId>,
     /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
     pub marks: Vec<(ir::Value, StatementEvent)>,
+}
+
+/// A value that GLSL leaves undefined, by the declaration that should have given it one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unset {
+    /// The zero in its place; or a variable of the function whose declaration a jump of a `switch` may pass over, which
+    /// has no value when the function starts.
+    pub value: ir::Value,
+    pub kind: UnsetKind,
+    pub name: Symbol,
+    /// The place of the name.
+    pub loc: Loc,
+}
+
+/// The kind of declaration that leaves a value undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnsetKind {
+    /// A variable of a function or of the module (section 4.3.1 of the GLSL ES 3.00 specification).
+    Variable,
+    /// An `out` parameter (section 6.1.1).
+    Parameter,
+    /// The result of a function that ends without a `return` (section 6.1).
+    Result,
 }
 
 /// Operands that GLSL leaves a result undefined for. It is noted of the operation that lowering keeps the device from

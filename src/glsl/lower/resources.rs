@@ -4,7 +4,7 @@
 
 use super::context::{Lowering, const_id};
 use crate::{
-    ast::Symbol,
+    ast::{Loc, Symbol},
     hir::{self, BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
     ir::{self, GlobalKind},
 };
@@ -106,8 +106,8 @@ impl Lowering<'_> {
     }
 
     /// Returns the author's variables of the module that are reached.
-    pub(super) fn named_globals(&self) -> Vec<(Symbol, ir::GlobalId)> {
+    pub(super) fn named_globals(&self) -> Vec<(Symbol, ir::GlobalId, Loc)> {
         let made = self.hir.globals.iter().zip(&self.resources.globals);
-        made.filter_map(|(global, made)| Some((global.name.symbol, (*made)?))).collect()
+        made.filter_map(|(global, made)| Some((global.name.symbol, (*made)?, global.name.loc()))).collect()
     }
 }

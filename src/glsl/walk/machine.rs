@@ -261,24 +261,38 @@ impl<'a, R: Real> Machine<'a, R> {
                 }
                 Stmt::If { condition, accept, reject } => {
                     if is_seen {
+                        observer.branch(&View::new(&self.state, frame, lane), stmt);
                         observer.decide(&View::new(&self.state, frame, lane), *condition);
                     }
                     let accepted = self.lanes_where(frame, *condition, active);
                     let left = self.block(frame, accept, active & accepted, jumps, lane, observer)?;
                     let right = self.block(frame, reject, active & !accepted, jumps, lane, observer)?;
                     active = left | right;
+                    if is_seen {
+                        observer.branch_end(&View::new(&self.state, frame, lane));
+                    }
                 }
                 Stmt::Loop { body, continuing, break_if } => {
+                    if is_seen {
+                        observer.loop_start(&View::new(&self.state, frame, lane), stmt);
+                    }
                     active = self.turns(frame, (body, continuing, *break_if), active, lane, observer)?;
+                    if is_seen {
+                        observer.loop_end(&View::new(&self.state, frame, lane));
+                    }
                 }
                 Stmt::Switch { selector, cases } => {
                     if is_seen {
+                        observer.branch(&View::new(&self.state, frame, lane), stmt);
                         observer.decide(&View::new(&self.state, frame, lane), *selector);
                     }
                     let mut inner = Jumps::default();
                     let end = self.cases(frame, *selector, cases, active, &mut inner, lane, observer)?;
                     jumps.continued |= inner.continued;
                     active = end | inner.broke;
+                    if is_seen {
+                        observer.branch_end(&View::new(&self.state, frame, lane));
+                    }
                 }
                 Stmt::Break => {
                     jumps.broke |= active;
@@ -355,6 +369,9 @@ impl<'a, R: Real> Machine<'a, R> {
             let end = self.block(frame, body, active, &mut jumps, lane, observer)?;
             left |= jumps.broke;
             let mut jumps_behind = Jumps::default();
+            if (end | jumps.continued) & (1 << lane) != 0 {
+                observer.continuing(&View::new(&self.state, frame, lane));
+            }
             active = self.block(frame, continuing, end | jumps.continued, &mut jumps_behind, lane, observer)?;
             left |= jumps_behind.broke;
             if let Some(condition) = break_if {

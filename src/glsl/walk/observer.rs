@@ -5,7 +5,8 @@ use super::{
     number::{Cell, Real},
     state::{Frame, LANES, State},
 };
-use crate::ir::{FuncId, Function, GlobalId, Module, Op, Output, Value};
+use crate::ir::{FuncId, Function, GlobalId, Module, Op, Output, Stmt, Value};
+use std::ops::Range;
 
 /// One activation of a function, as the pixel that is watched sees it.
 pub struct View<'v, 'a, R> {
@@ -38,6 +39,34 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
     /// The cells of a value that is no address.
     pub fn value(&self, value: Value) -> &[Cell<R>] {
         self.state.value(self.frame, value, self.lane)
+    }
+
+    /// The number of cells that a frame of the function has for its values, in one lane.
+    pub fn frame_cells(&self) -> usize {
+        let layout = self.state.layout(self.frame);
+        layout.constants.len() + layout.registers
+    }
+
+    /// The cells among [`Self::frame_cells`] that a value that is no address has for itself.
+    pub fn cells_of(&self, value: Value) -> Range<usize> {
+        self.state.layout(self.frame).slots[value.index()].cells(0)
+    }
+
+    /// The number of cells before a part of a value or place ([`Op::Part`]); of an element the number of its own.
+    pub fn offset(&self, part: Value) -> usize {
+        self.state.layout(self.frame).offsets[part.index()] as usize
+    }
+
+    /// The cells of memory that the variables of this activation have.
+    pub fn own_memory(&self) -> Range<usize> {
+        let end = self.state.memory[self.lane].len();
+        end - self.state.layout(self.frame).memory..end
+    }
+
+    /// The cells of memory of a variable of the module.
+    pub fn global_memory(&self, global: GlobalId) -> Range<usize> {
+        let start = self.state.globals[global.index()];
+        start..start + layout::cells(self.module(), self.module()[global].ty)
     }
 
     /// The first cell of a place, by which places that overlap are told.
@@ -101,8 +130,23 @@ pub trait Observer<R> {
     /// A function has ended.
     fn leave(&mut self, _: &View<'_, '_, R>) {}
 
+    /// A statement that branches has been reached, an `If` or a `Switch`: before [`Self::decide`].
+    fn branch(&mut self, _: &View<'_, '_, R>, _: &Stmt) {}
+
+    /// The statement of the last [`Self::branch`] that is open has ended, by whatever way.
+    fn branch_end(&mut self, _: &View<'_, '_, R>) {}
+
+    /// A loop has been reached.
+    fn loop_start(&mut self, _: &View<'_, '_, R>, _: &Stmt) {}
+
     /// A loop begins another turn.
     fn turn(&mut self, _: &View<'_, '_, R>) {}
+
+    /// A turn of a loop comes to the part that a `continue` leads to.
+    fn continuing(&mut self, _: &View<'_, '_, R>) {}
+
+    /// The last loop that is open has ended, by whatever way.
+    fn loop_end(&mut self, _: &View<'_, '_, R>) {}
 
     /// The cells of a value that has been computed, in one of the lanes, before anything uses them: they may be made
     /// others.
@@ -114,7 +158,7 @@ pub trait Observer<R> {
     /// A value has been computed of what all four pixels hold, while not all of them came there.
     fn diverged(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
-    /// A value decides which way is gone.
+    /// A value decides which way is gone: the condition of a branch, or of the test after a turn.
     fn decide(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
     /// A value is what the shader draws.

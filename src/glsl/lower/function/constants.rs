@@ -2,9 +2,13 @@
 
 use super::Builder;
 use crate::{
-    hir::{ConstId, Scalar, Type, TypeId},
+    ast::Ident,
+    hir::{ConstId, LocalId, Scalar, Type, TypeId},
     ir::{self, Op, Value},
-    lower::context::const_id,
+    lower::{
+        context::const_id,
+        names::{Unset, UnsetKind},
+    },
 };
 
 /// One component of a value, as far as it can be told.
@@ -61,13 +65,30 @@ impl Builder<'_, '_> {
 
     /// Returns the zero that WebGL gives to what GLSL leaves undefined: a variable that nothing was written to, the
     /// result of a function that ends without one.
-    pub fn undefined(&mut self, ty: TypeId) -> Value {
+    /// `name` is that of the declaration which should have given it a value.
+    pub fn undefined(&mut self, ty: TypeId, kind: UnsetKind, name: Ident) -> Value {
         if !self.cx.marks.undefined {
             return self.zero(ty);
         }
         let value = self.free(Op::Zero(ty));
-        self.undefined.push(value);
+        self.undefined.push(Unset { value, kind, name: name.symbol, loc: name.loc() });
         value
+    }
+
+    /// Returns the same for a local variable, or for a parameter.
+    pub fn undefined_local(&mut self, kind: UnsetKind, local: LocalId) -> Value {
+        let declared = &self.cx.hir[local];
+        match declared.name {
+            Some(name) => self.undefined(declared.ty, kind, name),
+            // A parameter without a name: what it is copied to is undefined all the same.
+            None => {
+                let function = self.func.map(|func| self.cx.hir[func].name);
+                match function {
+                    Some(name) => self.undefined(declared.ty, kind, name),
+                    None => self.zero(declared.ty),
+                }
+            }
+        }
     }
 
     /// Returns a folded composite.

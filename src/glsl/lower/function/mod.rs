@@ -9,7 +9,7 @@ pub(super) use constants::Part as PartOf;
 use super::{
     arguments::{Instance, Specialization},
     context::{Lowering, const_id},
-    names::{FunctionNames, Precondition, StatementEvent},
+    names::{FunctionNames, Precondition, StatementEvent, Unset, UnsetKind},
 };
 use crate::{
     ast::{List, Loc},
@@ -60,7 +60,7 @@ pub(super) struct Builder<'m, 'a> {
     /// The specializations of this copy, one for each parameter that can have one.
     pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
-    pub undefined: Vec<Value>,
+    pub undefined: Vec<Unset>,
     pub(super) marks: Vec<(Value, StatementEvent)>,
 }
 
@@ -84,7 +84,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
-        let value = builder.undefined(function.result);
+        let value = builder.undefined(function.result, UnsetKind::Result, function.name);
         builder.push(Stmt::Return(Some(value)));
     }
     let names = builder.names(instance.func);
@@ -148,7 +148,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             let argument = argument(self, Param { ty: param.ty, by_reference: by_pointer });
             if by_pointer {
                 if param.kind == LocalKind::Out {
-                    let zero = self.undefined(param.ty);
+                    let zero = self.undefined_local(UnsetKind::Parameter, local);
                     self.store(argument, zero);
                 }
                 self.set_slot(local, Slot::Memory(argument));

@@ -4,7 +4,7 @@ use super::{Builder, Slot};
 use crate::{
     hir::{FuncId, LocalId, Type, TypeId, VarFlags},
     ir::{Op, Value},
-    lower::names::FunctionNames,
+    lower::names::{FunctionNames, Unset, UnsetKind},
 };
 
 impl Builder<'_, '_> {
@@ -54,6 +54,10 @@ impl Builder<'_, '_> {
         if self.is_forced(local) {
             let zero = self.zero(ty);
             self.begin_with(pointer, zero);
+            if let (true, Some(name)) = (self.cx.marks.undefined, self.cx.hir[local].name) {
+                let unset = Unset { value: pointer, kind: UnsetKind::Variable, name: name.symbol, loc: name.loc() };
+                self.undefined.push(unset);
+            }
         }
         self.set_slot(local, Slot::Memory(pointer));
         pointer

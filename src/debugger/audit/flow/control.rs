@@ -1,0 +1,97 @@
+//! What the way that control has gone depends on: the undefined values that decided the branches which are open.
+
+use super::sets::{Set, Sets};
+use eddy_glsl::ir::{Stmt, Value};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Function,
+    If,
+    Switch,
+    Loop { stmt: *const Stmt, break_if: Option<Value> },
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    kind: Kind,
+    /// What decided it, or a jump out of what lies in it.
+    own: Set,
+    /// For a loop: what decided a `continue` of the present turn.
+    turn: Set,
+    /// With all that it lies in.
+    total: Set,
+}
+
+/// The open functions, branches and loops.
+#[derive(Default)]
+pub struct Control {
+    open: Vec<Open>,
+    /// What decided whether the pixel is drawn at all.
+    discard: Set,
+}
+
+impl Control {
+    pub fn total(&self) -> Set {
+        self.open.last().map_or(self.discard, |open| open.total)
+    }
+
+    pub fn push(&mut self, kind: Kind) {
+        let total = self.total();
+        self.open.push(Open { kind, own: Set::EMPTY, turn: Set::EMPTY, total });
+    }
+
+    pub fn pop(&mut self) {
+        self.open.pop();
+    }
+
+    /// Ends a function with all that is open in it.
+    pub fn pop_function(&mut self) {
+        while self.open.pop().is_some_and(|open| open.kind != Kind::Function) {}
+    }
+
+    pub fn top(&self) -> Option<Kind> {
+        self.open.last().map(|open| open.kind)
+    }
+
+    /// The innermost thing of a kind lasts under the influence of a set.
+    pub fn add(&mut self, set: Set, is_kind: impl Fn(Kind) -> bool, sets: &mut Sets) {
+        if let Some(at) = self.open.iter().rposition(|open| is_kind(open.kind)) {
+            self.open[at].own = sets.union(self.open[at].own, set);
+            self.refresh(at, sets);
+        }
+    }
+
+    pub fn add_turn(&mut self, set: Set, sets: &mut Sets) {
+        if let Some(at) = self.open.iter().rposition(|open| matches!(open.kind, Kind::Loop { .. })) {
+            self.open[at].turn = sets.union(self.open[at].turn, set);
+            self.refresh(at, sets);
+        }
+    }
+
+    pub fn add_discard(&mut self, set: Set, sets: &mut Sets) {
+        self.discard = sets.union(self.discard, set);
+        self.refresh(0, sets);
+    }
+
+    /// The turn of the innermost loop comes to where its `continue` leads, or to the next turn.
+    pub fn end_turn(&mut self, sets: &mut Sets) {
+        if let Some(at) = self.open.len().checked_sub(1)
+            && !self.open[at].turn.is_empty()
+        {
+            self.open[at].turn = Set::EMPTY;
+            self.refresh(at, sets);
+        }
+    }
+
+    fn refresh(&mut self, from: usize, sets: &mut Sets) {
+        let mut before = match from.checked_sub(1) {
+            Some(outer) => self.open[outer].total,
+            None => self.discard,
+        };
+        for open in &mut self.open[from..] {
+            let own = sets.union(open.own, open.turn);
+            before = sets.union(before, own);
+            open.total = before;
+        }
+    }
+}

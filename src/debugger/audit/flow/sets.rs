@@ -1,0 +1,116 @@
+//! Sets of undefined scalars, each made once, so that a cell of memory holds a number for its set.
+
+use std::collections::HashMap;
+
+/// A set, by its number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Set(u32);
+
+impl Set {
+    /// Nothing undefined.
+    pub const EMPTY: Set = Set(0);
+
+    pub fn is_empty(self) -> bool {
+        self == Set::EMPTY
+    }
+}
+
+/// One scalar of what a declaration leaves undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Scalar {
+    /// The declaration, by its number among those that were met.
+    pub origin: u32,
+    /// The scalar among those of its type, in memory order.
+    pub cell: u32,
+}
+
+/// Scalars that a set has one by one; of one that would have more it keeps one for each declaration, so that what a set
+/// costs is bounded by the text.
+const MOST_SCALARS: usize = 256;
+/// Sets that are made for a pixel; unions beyond that keep their first part.
+const MOST_SETS: usize = 1 << 16;
+
+/// All sets of a walk.
+pub struct Sets {
+    sets: Vec<Box<[Scalar]>>,
+    numbers: HashMap<Box<[Scalar]>, Set>,
+    unions: HashMap<(Set, Set), Set>,
+}
+
+impl Sets {
+    pub fn new() -> Self {
+        let empty: Box<[Scalar]> = Box::default();
+        Self { numbers: [(empty.clone(), Set::EMPTY)].into(), sets: vec![empty], unions: HashMap::new() }
+    }
+
+    pub fn of(&self, set: Set) -> &[Scalar] {
+        &self.sets[set.0 as usize]
+    }
+
+    pub fn single(&mut self, scalar: Scalar) -> Set {
+        self.number([scalar].into())
+    }
+
+    /// Returns the union of two sets.
+    pub fn union(&mut self, a: Set, b: Set) -> Set {
+        if a == b || b.is_empty() {
+            return a;
+        }
+        if a.is_empty() {
+            return b;
+        }
+        let key = if a.0 < b.0 { (a, b) } else { (b, a) };
+        if let Some(&known) = self.unions.get(&key) {
+            return known;
+        }
+        if self.sets.len() >= MOST_SETS || self.unions.len() >= MOST_SETS {
+            return a;
+        }
+        let mut all = [self.of(a), self.of(b)].concat();
+        all.sort_unstable();
+        all.dedup();
+        if all.len() > MOST_SCALARS {
+            all.dedup_by_key(|scalar| scalar.origin);
+        }
+        let made = self.number(all.into());
+        self.unions.insert(key, made);
+        made
+    }
+
+    fn number(&mut self, set: Box<[Scalar]>) -> Set {
+        let next = Set(self.sets.len() as u32);
+        let number = *self.numbers.entry(set.clone()).or_insert(next);
+        if number == next {
+            self.sets.push(set);
+        }
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_unions_are_one_set() {
+        let mut sets = Sets::new();
+        let [a, b, c] = [0, 1, 2].map(|cell| sets.single(Scalar { origin: 0, cell }));
+        let (ab, ba) = (sets.union(a, b), sets.union(b, a));
+        let (left, bc) = (sets.union(ab, c), sets.union(b, c));
+        assert_eq!((ab, left), (ba, sets.union(a, bc)));
+        assert_eq!(sets.of(left).len(), 3);
+        assert_eq!(sets.union(left, Set::EMPTY), left);
+    }
+
+    #[test]
+    fn a_long_set_keeps_every_declaration() {
+        let mut sets = Sets::new();
+        let mut all = sets.single(Scalar { origin: 1, cell: 0 });
+        for cell in 0..2000 {
+            let one = sets.single(Scalar { origin: 0, cell });
+            all = sets.union(all, one);
+            assert!(sets.of(all).len() <= MOST_SCALARS);
+            assert!([0, 1].iter().all(|origin| sets.of(all).iter().any(|scalar| scalar.origin == *origin)));
+        }
+    }
+}
