@@ -209,7 +209,7 @@ fn audit_pixels(
     Ok(audit)
 }
 
-/// What came of a pixel.
+/// The result of auditing a pixel.
 struct WalkedPixel<'p> {
     audited: AuditedPixel,
     findings: Vec<Finding>,

@@ -1,4 +1,4 @@
-//! What the way that control has gone depends on: the undefined values that decided the branches which are open.
+//! Control flow that depends on undefined values: the undefined values that decided the branches which are open.
 
 use super::sets::{Set, Sets};
 use eddy_glsl::ir::{Stmt, Value};
@@ -14,7 +14,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug)]
 struct Open {
     kind: Kind,
-    /// What decided it, or a jump out of what lies in it.
+    /// The values that decided it, or a jump out of it.
     own: Set,
     /// For a loop: what decided a `continue` of the present turn.
     turn: Set,
@@ -26,7 +26,7 @@ struct Open {
 #[derive(Default)]
 pub struct Control {
     open: Vec<Open>,
-    /// What decided whether the pixel is drawn at all.
+    /// The values that decided whether the pixel is drawn at all.
     discard: Set,
 }
 

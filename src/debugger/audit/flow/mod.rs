@@ -77,7 +77,7 @@ pub struct Flow<'w> {
     arguments: Vec<Argument>,
     returned: Vec<Set>,
     control: Control,
-    /// What a value that is drawn depends on.
+    /// The undefined values that the drawn ones depend on.
     drawn: Set,
     has_drawn: bool,
     /// Scalars that each target stores.

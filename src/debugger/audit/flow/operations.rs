@@ -1,4 +1,4 @@
-//! What each scalar of a result depends on.
+//! Dependence of each scalar of a result on those of its operands.
 
 use super::Flow;
 use super::sets::{Set, Sets};

@@ -1,4 +1,4 @@
-//! What a branch may write, and where it may jump to, by the text alone: a branch on something undefined decides that.
+//! Variables that a branch may write, and jumps that it may take, by the text alone: an undefined condition decides them.
 
 use eddy_glsl::{
     ir::{Block, Function, Module, Op, Stmt, Value},
@@ -16,7 +16,7 @@ pub struct Written {
     pub count: usize,
 }
 
-/// What a piece of a program may do.
+/// The effects that a piece of a program may have.
 #[derive(Clone, Debug, Default)]
 pub struct Effects {
     pub writes: HashSet<Written>,
@@ -26,7 +26,7 @@ pub struct Effects {
     pub discards: bool,
 }
 
-/// What a function may write of its caller's.
+/// The memory outside of a function that it may write.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// By the parameter, or else by the global: the cells from which on, and how many.
