@@ -49,10 +49,17 @@ pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound o
 /// A model file together with the buffers that it names.
 pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
+/// Values in the JSON text of a project that an image file holds: its texts and what is said of each.
+pub const PICTURE_VALUES: u64 = 1 << 18;
+/// The scripts of mouse and keys that an image file holds.
+pub const SCRIPT: Limit = Limit { bytes: 2 << 20, of: "the script in an image" };
+
 /// A checkpoint of a run.
 pub const CHECKPOINT: Limit = Limit { bytes: 16 << 30, of: "a checkpoint" };
 /// The texels in a checkpoint.
 pub const CHECKPOINT_BYTES: u64 = 16 << 30;
+/// The texels in a checkpoint of targets that the run going on from it does not have. They are unpacked and dropped.
+pub const CHECKPOINT_SKIPPED_BYTES: u64 = 1 << 30;
 
 /// Texels across or along a picture: what the largest devices take.
 pub const PICTURE_SIDE: u32 = 32_768;
@@ -111,6 +118,10 @@ pub const GLTF_OBJECTS: u64 = 1 << 20;
 /// Values in the JSON text of a glTF file.
 pub const GLTF_VALUES: u64 = 8 << 20;
 
+/// Elements of glTF accessors that no bytes of the file are there for (section 3.6.2.3: they are zeros), besides as many as the
+/// file's bytes would hold. Positions, indices and instances; those of a mesh that several nodes place count for each.
+pub const MODEL_ZEROS: u64 = 65_536;
+
 /// Memory of the process in which a driver that compiles on the processor tries a large shader.
 pub const DRIVER_BYTES: u64 = 3 << 29;
 
@@ -153,6 +164,8 @@ pub const OSC_DEPTH: usize = 8;
 pub const OSC_ARGUMENTS: usize = 64;
 /// Different address patterns of OSC that are followed in a frame.
 pub const OSC_PATTERNS: usize = 32;
+/// Steps of comparing the address patterns of a frame with the addresses of a project: a part of a pattern with a letter.
+pub const OSC_STEPS: u64 = 1 << 25;
 /// Movements of controls that wait for the next frame.
 pub const CONTROL_EVENTS: usize = 4_096;
 /// MIDI devices that are open at once.

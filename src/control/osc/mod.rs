@@ -10,5 +10,5 @@ mod socket;
 mod tests;
 
 pub use decode::{OscError, decode};
-pub use pattern::{dispatched, is_pattern};
+pub use pattern::{Listener, dispatched, is_pattern};
 pub use socket::{OscInput, OscState};

@@ -6,7 +6,7 @@
 
 use crate::ControlEvent;
 use eddy_project::{ControlAddress, limits};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// An address pattern that is well formed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,36 +32,58 @@ pub fn is_pattern(address: &str) -> bool {
     address.contains(['*', '?', '[', ']', '{', '}'])
 }
 
+/// An OSC address that moves something, with the number of arguments that do.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Listener {
+    pub path: String,
+    pub arguments: usize,
+}
+
 /// Returns the events with each pattern replaced by the addresses that it matches, of all that somebody listens to. A pattern is
-/// no address of a control itself. No more than [`limits::OSC_PATTERNS`] different ones are followed; later ones are dropped.
-pub fn dispatched(events: Vec<ControlEvent>, addresses: impl FnOnce() -> Vec<String>) -> Vec<ControlEvent> {
+/// no address of a control itself. No more than [`limits::OSC_PATTERNS`] different ones are followed, and no more than
+/// [`limits::OSC_STEPS`] steps are spent on matching; later ones are dropped.
+///
+/// It keeps the newest of the events that patterns make for one argument of an address, so that there are never more of them than
+/// `listeners` have arguments, whatever is sent.
+pub fn dispatched(events: Vec<ControlEvent>, listeners: impl FnOnce() -> Vec<Listener>) -> Vec<ControlEvent> {
     let pattern_of = |event: &ControlEvent| match &event.source {
-        ControlAddress::Osc { path, .. } if is_pattern(path) => Some(path.clone()),
+        ControlAddress::Osc { path, argument } if is_pattern(path) => Some((path.clone(), *argument)),
         _ => None,
     };
     if !events.iter().any(|event| pattern_of(event).is_some()) {
         return events;
     }
-    let addresses = addresses();
-    let mut known: HashMap<String, Vec<&String>> = HashMap::new();
-    let mut all = Vec::new();
-    for event in events {
-        let Some(text) = pattern_of(&event) else {
-            all.push(event);
-            continue;
-        };
-        let ControlAddress::Osc { argument, .. } = event.source else { continue };
-        if known.len() == limits::OSC_PATTERNS && !known.contains_key(&text) {
+    let listeners = listeners();
+    let mut steps = limits::OSC_STEPS;
+    let mut known: HashMap<String, Vec<u32>> = HashMap::new();
+    for (text, _) in events.iter().filter_map(pattern_of) {
+        if known.len() == limits::OSC_PATTERNS || known.contains_key(&text) {
             continue;
         }
-        let matched = known.entry(text).or_insert_with_key(|text| {
-            let pattern = Pattern::parse(text);
-            addresses.iter().filter(|address| pattern.as_ref().is_some_and(|it| it.matches(address))).collect()
-        });
-        let source = |path: &&String| ControlAddress::Osc { path: (*path).clone(), argument };
-        all.extend(matched.iter().map(|path| ControlEvent { source: source(path), value: event.value }));
+        let pattern = Pattern::parse(&text);
+        let matches = |(_, listener): &(u32, &Listener)| {
+            pattern.as_ref().is_some_and(|it| it.matches_within(&listener.path, &mut steps) == Some(true))
+        };
+        let matched = (0..).zip(&listeners).filter(matches).map(|(n, _)| n).collect();
+        known.insert(text, matched);
     }
-    all
+    let mut seen = HashSet::new();
+    let mut newest_first = Vec::new();
+    for event in events.into_iter().rev() {
+        let Some((text, argument)) = pattern_of(&event) else {
+            newest_first.push(event);
+            continue;
+        };
+        for &n in known.get(&text).into_iter().flatten().rev() {
+            let listener = &listeners[n as usize];
+            if argument < listener.arguments && seen.insert((n, argument)) {
+                let source = ControlAddress::Osc { path: listener.path.clone(), argument };
+                newest_first.push(ControlEvent { source, value: event.value });
+            }
+        }
+    }
+    newest_first.reverse();
+    newest_first
 }
 
 impl Pattern {
@@ -75,11 +97,23 @@ impl Pattern {
         Some(Self { parts: parts.collect::<Option<_>>()? })
     }
 
+    #[cfg(test)]
     pub(super) fn matches(&self, address: &str) -> bool {
-        let Some(rest) = address.strip_prefix('/') else { return false };
+        self.matches_within(address, &mut u64::MAX.clone()) == Some(true)
+    }
+
+    /// Compares an address with the pattern, and takes what that costs off `steps`. `None`: there are not enough of them.
+    fn matches_within(&self, address: &str, steps: &mut u64) -> Option<bool> {
+        let Some(rest) = address.strip_prefix('/') else { return Some(false) };
         let mut parts = rest.split('/');
-        self.parts.iter().all(|tokens| parts.next().is_some_and(|part| part_matches(tokens, part.as_bytes())))
-            && parts.next().is_none()
+        for tokens in &self.parts {
+            let Some(part) = parts.next() else { return Some(false) };
+            *steps = steps.checked_sub((tokens.len() as u64 + 1) * (part.len() as u64 + 1))?;
+            if !part_matches(tokens, part.as_bytes()) {
+                return Some(false);
+            }
+        }
+        Some(parts.next().is_none())
     }
 }
 
@@ -229,7 +263,7 @@ mod tests {
             source: ControlAddress::Osc { path: path.into(), argument },
             value,
         };
-        let known = || ["/1/a", "/1/b", "/2/a"].map(str::to_owned).to_vec();
+        let known = || ["/1/a", "/1/b", "/2/a"].map(|path| Listener { path: path.into(), arguments: 64 }).to_vec();
         let sent = vec![event("/9", 0, 0.1), event("/1/*", 1, 0.2), event("/x*", 0, 0.3), event("/[12]/a", 0, 0.4)];
         let wanted = [
             event("/9", 0, 0.1),
@@ -241,11 +275,28 @@ mod tests {
         assert_eq!(dispatched(sent, known), wanted);
         let plain = vec![event("/1/a", 0, 1.0)];
         assert_eq!(dispatched(plain.clone(), || unreachable!("there is no pattern")), plain);
-        // Of more different patterns than the limit the first ones are followed, each as often as it comes.
-        let number = |n: usize| event(&format!("/1/{{a,{n}}}"), 0, n as f64);
-        let many: Vec<ControlEvent> = (0..limits::OSC_PATTERNS + 5).chain([0]).map(number).collect();
+    }
+
+    /// 32 patterns, 4,096 events and 20,000 addresses: neither the events nor the steps are their product.
+    #[test]
+    fn patterns_make_no_more_events_than_are_listened_to() {
+        let event =
+            |path: String, argument, value| ControlEvent { source: ControlAddress::Osc { path, argument }, value };
+        let known = || ["/1/a", "/1/b"].map(|path| Listener { path: path.into(), arguments: 2 }).to_vec();
+        // Of more different patterns than the limit the first ones are followed; arguments that move nothing are not.
+        let number = |n: usize| event(format!("/1/{{a,{n}}}"), n % 3, n as f64);
+        let many: Vec<ControlEvent> = (0..limits::OSC_PATTERNS + 5).map(number).collect();
         let values: Vec<f64> = dispatched(many, known).iter().map(|event| event.value).collect();
-        assert_eq!((values.len(), values.last()), (limits::OSC_PATTERNS + 1, Some(&0.0)));
+        assert_eq!(values, [30.0, 31.0]);
+        let listener = |n: usize| Listener { path: format!("/eddy/{n}_{}", "x".repeat(200)), arguments: 4 };
+        let listeners: Vec<Listener> = (0..20_000).map(listener).collect();
+        let burst: Vec<ControlEvent> =
+            (0..limits::CONTROL_EVENTS).map(|n| event("/eddy/*".into(), n % 60, n as f64)).collect();
+        assert_eq!(dispatched(burst, || listeners.clone()).len(), 4 * 20_000);
+        let long = Pattern::parse(&format!("/eddy/{}", "*x".repeat(120))).unwrap();
+        let mut steps = limits::OSC_STEPS;
+        let compared = listeners.iter().take_while(|it| long.matches_within(&it.path, &mut steps).is_some()).count();
+        assert!((500..5_000).contains(&compared), "{compared}");
     }
 
     /// These take exponential time where one way is tried after the other.

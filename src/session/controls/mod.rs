@@ -13,13 +13,13 @@ use eddy_control::{
     ControlEvent, ControlQueue, Movement, OWN_UNITS, PickupSide, Takeover, Wake, direct,
     midi::{MidiChoice, MidiInputs, MidiState, host::MidiHost},
     moved,
-    osc::{OscInput, OscState, dispatched, is_pattern},
+    osc::{Listener, OscInput, OscState, dispatched, is_pattern},
     pads::{PadHost, PadInputs, PadState},
     place_of,
 };
 use eddy_project::{ControlAddress, ControlTarget, CustomUniform, CustomUniformType, CustomUniformValue, PadPart};
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::{BTreeMap, BTreeSet, HashMap},
     net::SocketAddr,
     sync::Arc,
     time::{Duration, Instant},
@@ -221,15 +221,15 @@ impl Session {
         if events.is_empty() {
             return;
         }
-        let events = dispatched(events, || self.osc_addresses());
+        let events = dispatched(events, || self.osc_listeners());
         self.learn(&events);
         self.turn_by_controls(&events);
     }
 
     /// Returns the OSC addresses that move something, for patterns.
-    fn osc_addresses(&self) -> Vec<String> {
+    fn osc_listeners(&self) -> Vec<Listener> {
         let bound = self.project().controls.values().filter_map(|address| match address {
-            ControlAddress::Osc { path, .. } => Some(path.clone()),
+            ControlAddress::Osc { path, argument } => Some((path.clone(), argument + 1)),
             _ => None,
         });
         let named = self.custom_uniforms().iter().flat_map(|uniform| {
@@ -237,11 +237,15 @@ impl Session {
             let count = uniform.ty.components();
             let letters = if uniform.ty == CustomUniformType::Color3 { "rgba" } else { "xyzw" };
             let letters = letters.chars().take(if count > 1 { count } else { 0 });
-            let parts: Vec<String> = letters.map(|letter| format!("{path}/{letter}")).collect();
-            std::iter::once(path).chain(parts)
+            let parts: Vec<_> = letters.map(|letter| (format!("{path}/{letter}"), 1)).collect();
+            std::iter::once((path, count)).chain(parts)
         });
-        let addresses: BTreeSet<String> = bound.chain(named).collect();
-        addresses.into_iter().collect()
+        let mut all: BTreeMap<String, usize> = BTreeMap::new();
+        for (path, arguments) in bound.chain(named) {
+            let most = all.entry(path).or_default();
+            *most = arguments.max(*most);
+        }
+        all.into_iter().map(|(path, arguments)| Listener { path, arguments }).collect()
     }
 
     fn tell_of_osc(&mut self) {
@@ -321,13 +325,17 @@ impl Session {
             .iter()
             .map(|uniform| CustomUniform { name: self.newest_name(&uniform.name), ..uniform.clone() })
             .collect();
+        // Many events come at once where a pattern matches many addresses.
+        let by_name: HashMap<&str, &CustomUniform> = uniforms.iter().rev().map(|it| (it.name.as_str(), it)).collect();
+        let mut by_address: BTreeMap<&ControlAddress, Vec<&ControlTarget>> = BTreeMap::new();
+        bindings.iter().for_each(|(target, address)| by_address.entry(address).or_default().push(target));
         let mut turned = BTreeSet::new();
         for event in newest(events) {
-            let bound = bindings.iter().filter(|(_, address)| **address == event.source).map(|(target, _)| target);
+            let bound = by_address.get(&event.source).into_iter().flatten().copied();
             let bound = bound.map(|target| (target.uniform.as_str(), target.index(), Some(target)));
             let named = direct(&event.source).map(|moved| (moved.uniform, moved.index, None));
             for (name, index, target) in bound.chain(named) {
-                let Some(uniform) = uniforms.iter().find(|uniform| uniform.name == name) else { continue };
+                let Some(uniform) = by_name.get(name).copied() else { continue };
                 let now = uniform.value(&self.project().custom_uniform_values);
                 let value = moved(uniform, &now, index, event, target.is_none());
                 if target.is_some_and(|target| !self.takes_over(target, uniform, &now, value.as_ref(), event)) {
