@@ -68,7 +68,7 @@ impl<'a> Checkpoints<'a> {
         };
         let refused =
             |error: checkpoint::CheckpointError| RunError::from(anyhow::anyhow!("--resume: {error}; {}", error.hint()));
-        let found = checkpoint::read(&file, &self.moment).map_err(refused)?;
+        let found = checkpoint::read(&file, &self.moment, &offline.engine()?.state_forms()).map_err(refused)?;
         let frame = found.moment.frame;
         if frame > first {
             let what = anyhow::anyhow!(

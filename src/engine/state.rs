@@ -25,6 +25,20 @@ pub struct TargetState {
     pub textures: Vec<Vec<u8>>,
 }
 
+/// Says what a program keeps of one target, by which a state is measured before it is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetForm {
+    pub pass: PassId,
+    /// The place among the pass's targets.
+    pub index: usize,
+    /// The shape of each texture: one level.
+    pub shape: TextureShape,
+    /// The number of its textures.
+    pub textures: usize,
+    /// True if the next frame reads what it holds.
+    pub is_read: bool,
+}
+
 /// A state that a program cannot go on with.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
@@ -62,6 +76,19 @@ impl Engine {
             }
         }
         passes
+    }
+
+    /// Returns the form of every target of the program.
+    pub fn state_forms(&self) -> Vec<TargetForm> {
+        let Some(running) = &self.running else { return Vec::new() };
+        let form = |(index, target): (usize, &Target)| TargetForm {
+            pass: target.id.clone(),
+            index: target.index,
+            shape: target.textures[0].shape.without_mips(),
+            textures: target.textures.len(),
+            is_read: kept(running.program.plan.carried(index), target) > 0,
+        };
+        running.targets.iter().enumerate().map(form).collect()
     }
 
     /// Reads back what the next frame reads. Waits for the device.

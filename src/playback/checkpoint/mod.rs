@@ -6,13 +6,14 @@
 //! line; the file has the number by which it is checked that these are the same.
 
 use crate::script::ScriptedInputs;
-use eddy_engine::{State, TargetState};
+use eddy_engine::{State, TargetForm, TargetState};
 use eddy_media::MediaSet;
 use eddy_project::{FileError, Fingerprint, PassId, Project, confine, limits, write_into};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use flate2::{Compression, bufread::GzDecoder, write::GzEncoder};
 use serde::{Deserialize, Serialize};
 use std::{
+    collections::HashSet,
     fs::File,
     io::{self, BufRead, BufReader, BufWriter, Read, Write},
     path::{Path, PathBuf},
@@ -149,8 +150,12 @@ pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Resul
     write_into(folder, name, put).map_err(|source| CheckpointError::Write { path: folder.join(name), source })
 }
 
-/// Reads a checkpoint of a run that is as `run` in its first frame.
-pub fn read(path: &Path, run: &Moment) -> Result<Checkpoint, CheckpointError> {
+/// Reads a checkpoint of a run that is as `run` in its first frame. `forms`: the targets of the program that goes on from it.
+///
+/// The targets that the file lists are compared with these before anything is unpacked. What the next frame does not read
+/// is unpacked piece by piece and dropped, at most [`limits::CHECKPOINT_SKIPPED_BYTES`] bytes of targets that the program does not
+/// have.
+pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoint, CheckpointError> {
     let (head, mut rest) = head(path)?;
     if let Some(reason) = head.moment.differs_from(run) {
         return Err(CheckpointError::Other { path: path.into(), reason });
@@ -163,15 +168,26 @@ pub fn read(path: &Path, run: &Moment) -> Result<Checkpoint, CheckpointError> {
     if all > limits::CHECKPOINT_BYTES {
         return Err(form(format!("it says that it holds {all} bytes; {} are read", limits::CHECKPOINT_BYTES)));
     }
+    let is_kept = measure(&head.targets, &shapes, forms)
+        .map_err(|reason| CheckpointError::Other { path: path.into(), reason })?;
     let damaged = |reason: String| CheckpointError::Damaged { path: path.into(), reason };
+    let early = || damaged("it ends too early".into());
     let mut unpacked = GzDecoder::new(&mut rest);
     let mut state = State::default();
-    for (head, (pass, shape)) in head.targets.iter().zip(shapes) {
+    for ((head, (pass, shape)), is_kept) in head.targets.iter().zip(shapes).zip(is_kept) {
+        if !is_kept {
+            let bytes = shape.bytes() * head.textures as u64;
+            let skipped = io::copy(&mut unpacked.by_ref().take(bytes), &mut io::sink());
+            if skipped.map_err(|e| damaged(e.to_string()))? != bytes {
+                return Err(early());
+            }
+            continue;
+        }
         let texels = (0..head.textures).map(|_| {
-            let mut bytes = Vec::new();
+            let mut bytes = Vec::with_capacity(shape.bytes() as usize);
             let read = unpacked.by_ref().take(shape.bytes()).read_to_end(&mut bytes);
             read.map_err(|e| damaged(e.to_string()))?;
-            (bytes.len() as u64 == shape.bytes()).then_some(bytes).ok_or_else(|| damaged("it ends too early".into()))
+            (bytes.len() as u64 == shape.bytes()).then_some(bytes).ok_or_else(early)
         });
         let textures = texels.collect::<Result<_, _>>()?;
         state.targets.push(TargetState { pass, index: head.target, shape, textures });
@@ -182,6 +198,39 @@ pub fn read(path: &Path, run: &Moment) -> Result<Checkpoint, CheckpointError> {
         Ok(_) => Err(damaged("it holds more than it says".into())),
         Err(error) => Err(damaged(error.to_string())),
     }
+}
+
+/// Returns for each target of a file whether its texels are kept. Err: the file has targets otherwise than the program.
+fn measure(
+    targets: &[TargetHead],
+    shapes: &[(PassId, TextureShape)],
+    forms: &[TargetForm],
+) -> Result<Vec<bool>, String> {
+    let in_words =
+        |shape: TextureShape, count| format!("{}x{} {}, {count} of it", shape.width, shape.height, shape.format.name());
+    let (mut is_kept, mut skipped) = (vec![false; targets.len()], 0);
+    let mut seen = HashSet::new();
+    for ((target, (pass, shape)), is_kept) in targets.iter().zip(shapes).zip(&mut is_kept) {
+        if !seen.insert((pass.key(), target.target)) {
+            return Err(format!("it has target {} of {} twice", target.target, pass.title()));
+        }
+        let Some(form) = forms.iter().find(|form| form.pass == *pass && form.index == target.target) else {
+            skipped += shape.bytes() * target.textures as u64;
+            if skipped > limits::CHECKPOINT_SKIPPED_BYTES {
+                let (most, name) = (limits::in_bytes(limits::CHECKPOINT_SKIPPED_BYTES), pass.title());
+                return Err(format!(
+                    "it has more than {most} of targets that this run does not have, {name} among them"
+                ));
+            }
+            continue;
+        };
+        if form.shape != *shape || target.textures > form.textures {
+            let (was, is) = (in_words(*shape, target.textures), in_words(form.shape, form.textures));
+            return Err(format!("{} was {was}, and is {is} now", pass.title()));
+        }
+        *is_kept = form.is_read;
+    }
+    Ok(is_kept)
 }
 
 /// Reads where a checkpoint was taken, and none of its texels.
@@ -200,8 +249,11 @@ fn head(path: &Path) -> Result<(Head, BufReader<File>), CheckpointError> {
         return Err(form("it does not begin as one".into()));
     }
     let text = line.strip_suffix(b"\n").ok_or_else(|| form("its first line does not end".into()))?;
-    let version = serde_json::from_slice::<serde_json::Value>(text).ok();
-    let version = version.and_then(|head| head["eddy_checkpoint"].as_u64()).unwrap_or_default();
+    #[derive(Deserialize)]
+    struct Version {
+        eddy_checkpoint: u64,
+    }
+    let version = serde_json::from_slice::<Version>(text).map_or(0, |head| head.eddy_checkpoint);
     match u32::try_from(version) {
         Ok(VERSION) => {}
         Ok(version) if version > VERSION => return Err(CheckpointError::Version { path: path.into(), version }),
@@ -254,103 +306,4 @@ fn frame_of(path: &Path, stem: &str) -> Option<u32> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn moment() -> Moment {
-        Moment {
-            eddy: "1.2.3".into(),
-            project: "waves".into(),
-            fingerprint: "0123".into(),
-            frame: 40,
-            size: (8, 4),
-            device: "a device".into(),
-        }
-    }
-
-    fn state() -> State {
-        let texels = |count: u64, from: u64| (0..count).map(|n| (n * 7 + from) as u8).collect::<Vec<u8>>();
-        let flat = TextureShape::flat(8, 4, TexelFormat::Rgba32f);
-        let cube = TextureShape::cube(2, TexelFormat::Rgba16f);
-        let target = |pass, index, shape: TextureShape, count: u64| TargetState {
-            pass,
-            index,
-            shape,
-            textures: (0..count).map(|n| texels(shape.bytes(), n)).collect(),
-        };
-        State { targets: vec![target(PassId::Buffer("A".into()), 1, flat, 2), target(PassId::Cubemap, 0, cube, 1)] }
-    }
-
-    #[test]
-    fn a_state_comes_back_bit_for_bit() {
-        let dir = tempfile::tempdir().unwrap();
-        let (name, file) = ("waves_000040.eddystate", dir.path().join("waves_000040.eddystate"));
-        write(dir.path(), name, &moment(), &state()).unwrap();
-        assert_eq!(read(&file, &moment()).unwrap(), Checkpoint { moment: moment(), state: state() });
-        assert_eq!(super::moment(&file).unwrap(), moment());
-    }
-
-    #[test]
-    fn another_run_is_refused_with_the_reason() {
-        let dir = tempfile::tempdir().unwrap();
-        let file = dir.path().join("a.eddystate");
-        write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
-        for (run, said) in [
-            (Moment { eddy: "1.2.4".into(), ..moment() }, "written by Eddy 1.2.3, and this is 1.2.4"),
-            (Moment { size: (8, 5), ..moment() }, "of 8x4 pixels, and this one of 8x5"),
-            (Moment { fingerprint: "0124".into(), ..moment() }, "have changed since"),
-        ] {
-            let error = read(&file, &run).unwrap_err().to_string();
-            assert!(error.contains("a.eddystate does not fit") && error.contains(said), "{error}");
-        }
-        // Where it was drawn and how it is called decide nothing.
-        let elsewhere = Moment { device: "another".into(), project: "b".into(), frame: 0, ..moment() };
-        assert!(read(&file, &elsewhere).is_ok());
-    }
-
-    #[test]
-    fn damaged_files_are_refused() {
-        let dir = tempfile::tempdir().unwrap();
-        let file = dir.path().join("a.eddystate");
-        write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
-        let whole = std::fs::read(&file).unwrap();
-        let line = whole.iter().position(|b| *b == b'\n').unwrap();
-        let mut accepted = 0;
-        for at in 0..whole.len() {
-            for damage in [0x01, 0x80] {
-                let mut bytes = whole.clone();
-                bytes[at] ^= damage;
-                std::fs::write(&file, &bytes).unwrap();
-                let read = read(&file, &moment());
-                // Words that decide nothing, and fields of the gzip header (time, system), may differ.
-                let is_free = at < line || (line + 1..line + 11).contains(&at);
-                assert!(is_free || read.is_err(), "byte {at} of {}", whole.len());
-                accepted += usize::from(read.is_ok_and(|read| read.state != state()));
-            }
-            std::fs::write(&file, &whole[..at]).unwrap();
-            assert!(read(&file, &moment()).is_err(), "cut at {at}");
-        }
-        // A name of a pass or a format that is another one is told of by the engine.
-        assert!(accepted < 20, "{accepted}");
-        let large = String::from_utf8_lossy(&whole[..line])
-            .replace("\"width\":8,\"height\":4", "\"width\":32768,\"height\":32768");
-        std::fs::write(&file, [large.as_bytes(), &whole[line..]].concat()).unwrap();
-        let error = read(&file, &moment()).unwrap_err().to_string();
-        assert!(error.contains("it says that it holds") && error.contains("bytes"), "{error}");
-        std::fs::write(&file, b"{\"eddy_checkpoint\":2}\n").unwrap();
-        assert!(read(&file, &moment()).unwrap_err().to_string().contains("a newer Eddy wrote"));
-    }
-
-    #[test]
-    fn the_latest_checkpoint_before_a_frame_is_found() {
-        let dir = tempfile::tempdir().unwrap();
-        for frame in [0, 100, 200, 1_000_000] {
-            std::fs::write(dir.path().join(file_name("a", frame)), "").unwrap();
-        }
-        std::fs::write(dir.path().join(file_name("a_b", 150)), "").unwrap();
-        std::fs::write(dir.path().join("a_x.eddystate"), "").unwrap();
-        let found = |frame| latest(dir.path(), "a", frame).unwrap().map(|(frame, _)| frame);
-        assert_eq!([0, 99, 100, 199, 5_000_000].map(found), [0, 0, 100, 100, 1_000_000].map(Some));
-        assert_eq!(latest(dir.path(), "c", 9).unwrap(), None);
-    }
-}
+mod tests;
