@@ -13,7 +13,8 @@ use crate::{
     script::{Script, ScriptedInputs},
 };
 use eddy_project::{
-    FileError, Media, MeshSource, Origin, PassId, Project, confine, limits, read_snapshot, write_snapshot,
+    FileError, Media, MeshSource, Origin, PassId, Project, check_json_values, confine, limits, read_snapshot,
+    write_snapshot,
 };
 use flate2::{Compression, Crc, read::ZlibDecoder, write::ZlibEncoder};
 use serde::{Deserialize, Serialize};
@@ -72,6 +73,11 @@ struct Form {
     script: Option<Script>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Version {
+    eddy_picture: u32,
 }
 
 /// A picture whose project cannot be opened.
@@ -197,15 +203,26 @@ impl Scene {
         if text.len() as u64 > limit {
             return Err(damaged(format!("it is larger than {}", limits::ALL_TEXTS)));
         }
-        let version = serde_json::from_str::<serde_json::Value>(&text).map_err(|error| damaged(error.to_string()))?;
-        match version["eddy_picture"].as_u64().and_then(|version| u32::try_from(version).ok()) {
-            Some(VERSION) => {}
-            Some(version) if version > VERSION => return Err(SceneError::Version { path: path.into(), version }),
+        check_json_values(&text, limits::PICTURE_VALUES).map_err(damaged)?;
+        let version = serde_json::from_str::<Version>(&text).map_err(|error| damaged(error.to_string()))?;
+        match version.eddy_picture {
+            VERSION => {}
+            version if version > VERSION => return Err(SceneError::Version { path: path.into(), version }),
             _ => return Err(damaged("its version cannot be read".into())),
         }
         let form: Form = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+        drop(text);
+        if i32::try_from(form.frame).is_err() {
+            return Err(damaged(format!("frame {} cannot be: the last one is {}", form.frame, i32::MAX)));
+        }
         let inputs = match (form.script, form.recording) {
-            (Some(script), _) => SceneInputs::Script(script),
+            (Some(script), _) => {
+                let length = (script.mouse.len() + script.keys.len() + script.date.len()) as u64;
+                if length > limits::SCRIPT.bytes {
+                    return Err(damaged(format!("its script is larger than {}", limits::SCRIPT)));
+                }
+                SceneInputs::Script(script)
+            }
             (None, Some(recording)) => {
                 let recording = Recording::read_within(recording.as_bytes(), limits::RUN, limits::RUN_BYTES);
                 SceneInputs::Recording(recording.map_err(|error| damaged(error.to_string()))?)
@@ -215,6 +232,13 @@ impl Scene {
         let side = 1..=limits::PICTURE_SIDE;
         if !side.contains(&form.size.0) || !side.contains(&form.size.1) {
             return Err(damaged(format!("a picture of {}x{} pixels cannot be", form.size.0, form.size.1)));
+        }
+        if u64::from(form.size.0) * u64::from(form.size.1) * 4 > limits::PICTURE_BYTES {
+            let most = limits::in_bytes(limits::PICTURE_BYTES);
+            return Err(damaged(format!(
+                "a picture of {}x{} pixels takes more than {most}, the limit for a picture",
+                form.size.0, form.size.1
+            )));
         }
         let project = read_snapshot(&form.project).map_err(|error| damaged(error.to_string()))?;
         Ok(Scene {
@@ -247,14 +271,10 @@ impl Scene {
                 let mut inputs = ScriptedInputs::of_script(script)?;
                 let values = Arc::new(self.project.custom_uniform_values.clone());
                 let first = if is_whole && (self.frame as usize) < LONGEST { 0 } else { self.frame };
-                let mut frames = Vec::new();
-                for frame in 0..=self.frame {
-                    let inputs = inputs.next_frame();
-                    if frame >= first {
-                        frames.push(Frame { inputs, values: values.clone(), size: self.size });
-                    }
-                }
-                Ok(frames)
+                // A file says the frame: the way to it takes as long as the script, and not as long as the number.
+                inputs.skip_to(i32::try_from(first).unwrap_or(i32::MAX));
+                let frame = |_| Frame { inputs: inputs.next_frame(), values: values.clone(), size: self.size };
+                Ok((first..=self.frame).map(frame).collect())
             }
         }
     }

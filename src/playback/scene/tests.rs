@@ -120,7 +120,32 @@ fn damaged_files_are_refused_or_read_whole() {
         [&png()[..33], &(data.len() as u32).to_be_bytes(), b"iTXt", &data, &[0; 4], &png()[33..]].concat()
     };
     assert!(matches!(read(&newer("{\"eddy_picture\":2}")), Err(SceneError::Version { version: 2, .. })));
+    // A packed list of 65 KB would be a gigabyte of values.
+    let values = format!("{{\"eddy_picture\":1,\"x\":[{}0]}}", "0,".repeat(1 << 20));
+    let error = read(&newer(&values)).unwrap_err().to_string();
+    assert!(error.contains("more than 262144 values"), "{error}");
     for text in ["", "{}", "[]", "{\"eddy_picture\":1}", "{\"eddy_picture\":-1}"] {
         assert!(matches!(read(&newer(text)), Err(SceneError::Damaged { .. })), "{text}");
     }
+}
+
+/// The frame of a file is a number like any other: the way to it takes as many steps as the script has actions.
+#[test]
+fn a_frame_far_on_is_given_at_once_or_refused() {
+    let script = Script { fps: 60.0, mouse: "2:down 3,4".into(), keys: String::new(), date: String::new() };
+    let at = |frame| Scene { frame, inputs: SceneInputs::Script(script.clone()), ..scene() };
+    let back = read(&at(i32::MAX as u32).embed(png()).unwrap()).unwrap();
+    for is_whole in [false, true] {
+        let frames = back.frames(is_whole).unwrap();
+        assert_eq!((frames.len(), frames[0].inputs.frame), (1, i32::MAX));
+        assert_eq!(frames[0].inputs.mouse[..2], [3.0, 4.0]);
+    }
+    let error = read(&at(u32::MAX).embed(png()).unwrap()).unwrap_err().to_string();
+    assert!(error.contains("frame 4294967295 cannot be"), "{error}");
+    let error = read(&Scene { size: (32_768, 32_768), ..at(0) }.embed(png()).unwrap()).unwrap_err().to_string();
+    assert!(error.contains("512 MiB, the limit for a picture"), "{error}");
+    let long = Script { mouse: "1:up;".repeat(1 << 19), ..script.clone() };
+    let long = Scene { inputs: SceneInputs::Script(long), ..at(0) };
+    let error = read(&long.embed(png()).unwrap()).unwrap_err().to_string();
+    assert!(error.contains("its script is larger than 2 MiB"), "{error}");
 }

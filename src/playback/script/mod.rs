@@ -327,6 +327,32 @@ impl ScriptedInputs {
         (self.frame, self.mouse, self.keyboard) = (0, Mouse::default(), Keyboard::default());
     }
 
+    /// Goes on to a frame as if those before it had been given. Takes as many steps as the script has actions, whatever the
+    /// frame.
+    pub fn skip_to(&mut self, frame: i32) {
+        while self.frame < frame {
+            let at = self.frame;
+            // What happened in the frame before has an effect on this one.
+            let next = self.next_action(at.saturating_sub(1));
+            match next {
+                Some(action) if action <= at => drop(self.next_frame()),
+                Some(action) => self.frame = action.min(frame),
+                None => self.frame = frame,
+            }
+        }
+    }
+
+    /// Returns the first frame from `frame` on in which the script does something.
+    fn next_action(&self, frame: i32) -> Option<i32> {
+        if self.replay.is_some() {
+            return None;
+        }
+        fn of<A>(events: &[ScriptedAction<A>], frame: i32) -> Option<i32> {
+            events.get(events.partition_point(|e| e.frame < frame)).map(|e| e.frame)
+        }
+        of(&self.mouse_events, frame).into_iter().chain(of(&self.key_events, frame)).min()
+    }
+
     /// Number of the frame that [`ScriptedInputs::next_frame`] gives next.
     pub fn frame(&self) -> i32 {
         self.frame

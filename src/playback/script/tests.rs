@@ -88,3 +88,20 @@ fn the_date_goes_on_with_the_frames() {
     let dates: Vec<[f32; 4]> = (0..3).map(|_| s.next_frame().date).collect();
     assert_eq!(dates, [[2024.0, 11.0, 31.0, 86399.0], [2024.0, 11.0, 31.0, 86399.5], [2025.0, 0.0, 1.0, 0.0]]);
 }
+
+#[test]
+fn skipping_gives_the_inputs_of_a_run_through_all_frames() {
+    let mouse = parse_mouse("0:down 4,5; 3:move 9,9; 3:up; 7:down 1,1; 8:up; 900:down 2,2").unwrap();
+    let keys = parse_keys("2:down 32; 6:up 32; 11:down 65").unwrap();
+    let new = || ScriptedInputs::new(60.0).with_mouse(mouse.clone()).with_keys(keys.clone());
+    for frame in 0..20 {
+        let (mut walked, mut skipped) = (new(), new());
+        (0..frame).for_each(|_| drop(walked.next_frame()));
+        skipped.skip_to(frame);
+        assert_eq!((walked.frame(), walked.next_frame()), (skipped.frame(), skipped.next_frame()), "{frame}");
+    }
+    // As many steps as this test has patience for only if frames without actions take none.
+    let mut far = new();
+    far.skip_to(i32::MAX);
+    assert_eq!((far.frame(), far.next_frame().mouse[0]), (i32::MAX, 2.0));
+}

@@ -7,7 +7,7 @@
 
 use super::{
     Channel, Included, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, confine,
-    file_names::pass_of_stem, files::Files, manifest,
+    file_names::pass_of_stem, files::Files, json_values::check_json_values, limits, manifest,
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -22,6 +22,8 @@ pub enum SnapshotError {
     Json(#[from] serde_json::Error),
     #[error("a snapshot of version {0}, which another version of Eddy wrote; this one reads version {VERSION}")]
     Version(u32),
+    #[error("not a snapshot of a project: {0}")]
+    TooLarge(String),
     #[error(transparent)]
     Project(#[from] ProjectError),
 }
@@ -131,11 +133,15 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
     struct Version {
         eddy_snapshot: u32,
     }
+    check_json_values(text, limits::PICTURE_VALUES).map_err(SnapshotError::TooLarge)?;
     let Version { eddy_snapshot } = serde_json::from_str(text)?;
     if eddy_snapshot != VERSION {
         return Err(SnapshotError::Version(eddy_snapshot));
     }
     let form: Form = serde_json::from_str(text)?;
+    if form.manifest.len() as u64 > limits::MANIFEST.bytes {
+        return Err(SnapshotError::TooLarge(format!("its eddy.toml is larger than {}", limits::MANIFEST)));
+    }
     // Names as `named` made them.
     let file = |text: &Text| match (&text.pass, &text.stage, &text.path) {
         (_, Some(stage), _) => stage.clone(),
