@@ -76,9 +76,26 @@ pub(super) struct Counts {
     parts: u64,
     joints: u64,
     moved: u64,
+    zeros: u64,
+    /// The most zeros: see [`limits::MODEL_ZEROS`].
+    most_zeros: u64,
 }
 
+/// Bytes of a position, the largest of the elements that are counted.
+const POSITION_BYTES: u64 = 12;
+
 impl Counts {
+    /// Counts what is in a file of so many bytes, those of its buffers among them.
+    pub fn of_file(bytes: u64) -> Self {
+        Self { most_zeros: limits::MODEL_ZEROS + bytes / POSITION_BYTES, ..Self::default() }
+    }
+
+    /// Adds elements that no bytes of the file are there for.
+    pub fn add_zeros(&mut self, elements: u64) -> Result<(), ModelError> {
+        self.zeros = self.zeros.saturating_add(elements);
+        at_most(self.zeros, self.most_zeros, "positions, indices and instances without data")
+    }
+
     pub fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), ModelError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.triangles = self.triangles.saturating_add(triangles);

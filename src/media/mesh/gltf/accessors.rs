@@ -142,6 +142,16 @@ impl<'a> Bytes<'a> {
 }
 
 impl<'a> Source<'a> {
+    /// Returns how many of an accessor's elements no bytes are there for. Its index is in range.
+    pub fn zeros(&self, index: Index) -> u64 {
+        let accessor = &self.root.accessors[index as usize];
+        match (accessor.buffer_view, &accessor.sparse) {
+            (Some(_), _) => 0,
+            (None, Some(sparse)) => accessor.count.saturating_sub(sparse.count),
+            (None, None) => accessor.count,
+        }
+    }
+
     /// Returns the elements of an accessor that must be of this kind. Its index is in range.
     pub fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, ModelError> {
         let accessor = &self.root.accessors[index as usize];

@@ -85,6 +85,11 @@ impl<'a> Buffers<'a> {
         Ok(Buffers(buffers))
     }
 
+    /// Returns the number of bytes of all of them.
+    pub fn bytes(&self) -> u64 {
+        self.0.iter().flatten().map(|bytes| bytes.len() as u64).sum()
+    }
+
     /// The bytes of a buffer view, whose index is in range.
     pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], ModelError> {
         let described = &root.buffer_views[view as usize];

@@ -27,6 +27,12 @@ pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, Mode
     }
 }
 
+/// Returns how many of a node's instances no bytes of the file are there for.
+pub(super) fn zeros(source: Source<'_>, node: Option<Index>) -> u64 {
+    let Some(instancing) = of(source, node) else { return 0 };
+    instancing.attributes.all().map(|(_, index)| source.zeros(index)).min().unwrap_or(0)
+}
+
 /// Hands the transform of each of a node's instances to `take`; of a node without, its own.
 pub(super) fn each(
     source: Source<'_>,

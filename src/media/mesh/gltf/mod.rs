@@ -50,7 +50,7 @@ pub(super) fn load(
     let textures = if is_quantized { texture::transforms(&root) } else { Vec::new() };
     let buffers = Buffers::load(&root, chunks.binary, named, bytes.len() as u64)?;
     let model = Model { source: Source { root: &root, buffers: &buffers, is_quantized }, textures: &textures };
-    let mut counts = Counts::default();
+    let mut counts = Counts::of_file(bytes.len() as u64 + buffers.bytes());
     let left_out = model.count(&stage, &mut counts)?;
     counts.fit(room)?;
     let skins = Skins::load(model.source, &stage)?;
@@ -146,6 +146,10 @@ impl<'a> Model<'a> {
                         counts.add_parts(instances.saturating_sub(1))?;
                         counts.add(vertices.saturating_mul(instances), triangles.saturating_mul(instances))?;
                         counts.add_moved(vertices.saturating_mul(instances).saturating_mul(times))?;
+                        let zeros = |index: Index| if part.is_compressed() { 0 } else { self.source.zeros(index) };
+                        let of_part = zeros(positions).saturating_add(part.primitive.indices.map_or(0, zeros));
+                        counts.add_zeros(instances::zeros(self.source, placed.node))?;
+                        counts.add_zeros(of_part.saturating_mul(instances))?;
                     }
                 }
             }

@@ -70,6 +70,11 @@ impl<'a> Part<'a> {
         self.primitive.targets.iter().zip(self.weights.iter().copied()).filter(|(_, weight)| *weight != 0.0)
     }
 
+    /// Returns whether an extension that Eddy does not read holds its elements, as [`Part::values`] says.
+    pub fn is_compressed(&self) -> bool {
+        self.primitive.extensions.draco.is_some()
+    }
+
     pub fn attributes(&self) -> &'a Attributes {
         &self.primitive.attributes
     }

@@ -49,10 +49,30 @@ fn a_model_is_counted_before_memory_is_taken() {
     let many = "it has more than 8388608 vertices";
     says(&error("m.gltf", model(NODE, &sparse(3_000_000_000))), "m.gltf is too large", many);
     says(&error("m.gltf", model(NODE, &sparse(u64::MAX))), "m.gltf is too large", many);
+    // Below that limit, but what no byte of the file is there for.
+    for count in [100_000, 1 << 20] {
+        let without_data = "positions, indices and instances without data, the limit for a model";
+        says(&error("m.gltf", model(NODE, &sparse(count))), "m.gltf is too large", without_data);
+        let indices = format!(r#"{TRIANGLE},{{"componentType":5121,"count":{count},"type":"SCALAR"}}"#);
+        let indexed = model(NODE, &indices).replace(r#""POSITION":0}"#, r#""POSITION":0},"indices":1"#);
+        says(&error("m.gltf", indexed), "m.gltf is too large", without_data);
+        let places = format!(r#"{TRIANGLE},{{"componentType":5126,"count":{count},"type":"VEC3"}}"#);
+        let node = r#"{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1}}}}"#;
+        says(&error("m.gltf", model(node, &places)), "m.gltf is too large", without_data);
+    }
+    load_text(&model(NODE, &sparse(60_000))).unwrap();
     // A mesh counts for each node that shows it.
-    let children: Vec<String> = (1..=9).map(|n| n.to_string()).collect();
-    let nodes = format!(r#"{{"children":[{}]}}{}"#, children.join(","), r#",{"mesh":0}"#.repeat(9));
-    says(&error("m.gltf", model(&nodes, &sparse(1 << 20))), "m.gltf is too large", many);
+    let placed = |count: usize| {
+        let children: Vec<String> = (1..=count).map(|n| n.to_string()).collect();
+        format!(r#"{{"children":[{}]}}{}"#, children.join(","), r#",{"mesh":0}"#.repeat(count))
+    };
+    let many = "positions, indices and instances without data";
+    says(&error("m.gltf", model(&placed(9), &sparse(1 << 14))), "m.gltf is too large", many);
+    let corners = "AAAA".repeat(1 << 20);
+    let large = model(&placed(200), &TRIANGLE.replace(r#""count":3"#, r#""count":65536"#))
+        .replace("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAA==", &corners)
+        .replace(r#""byteLength":36}"#, r#""byteLength":3000000}"#);
+    says(&error("m.gltf", large), "m.gltf is too large", "it has more than 8388608 vertices");
     let objects = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}{}]}}"#, ",{}".repeat(2 << 20));
     says(&error("m.gltf", objects), "m.gltf is too large", "its JSON has 2097155 objects, but the limit is 1048576");
     // Bounds are passed over unread, however many they are.
