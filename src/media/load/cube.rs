@@ -36,7 +36,10 @@ pub fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
         }
     }
     let shape = TextureShape::cube(first.width, first.format);
-    let cube = small_floats(Texels { shape, bytes: faces.into_iter().flat_map(|face| face.bytes).collect() });
+    let mut bytes = Vec::with_capacity(6 * faces[0].bytes.len());
+    // Each face is dropped once it is copied.
+    faces.into_iter().for_each(|face| bytes.extend_from_slice(&face.bytes));
+    let cube = small_floats(Texels { shape, bytes });
     Ok(if vflip { turned(cube) } else { cube })
 }
 
@@ -45,7 +48,8 @@ pub fn turned(cube: Texels) -> Texels {
     let (row, face) = (cube.row_bytes(), cube.bytes.len() / 6);
     let faces: Vec<&[u8]> = cube.bytes.chunks_exact(face).collect();
     let order = [Face::PlusX, Face::MinusX, Face::MinusY, Face::PlusY, Face::PlusZ, Face::MinusZ];
-    let bytes = order.iter().flat_map(|f| faces[*f as usize].chunks_exact(row).rev().flatten()).copied().collect();
+    let mut bytes = Vec::with_capacity(cube.bytes.len());
+    order.iter().flat_map(|f| faces[*f as usize].chunks_exact(row).rev()).for_each(|row| bytes.extend_from_slice(row));
     Texels { shape: cube.shape, bytes }
 }
 
@@ -91,7 +95,9 @@ fn part(picture: &Texels, (left, top): (u32, u32), side: u32) -> Texels {
 /// Turns a picture by half a turn.
 fn turn(picture: &mut Texels) {
     let texel = picture.texel_bytes();
-    picture.bytes = picture.bytes.chunks_exact(texel).rev().flatten().copied().collect();
+    let mut bytes = Vec::with_capacity(picture.bytes.len());
+    picture.bytes.chunks_exact(texel).rev().for_each(|texel| bytes.extend_from_slice(texel));
+    picture.bytes = bytes;
 }
 
 /// Reads a panorama by direction, bilinearly. A face gets the texels of a quarter of the horizon.
@@ -139,7 +145,8 @@ pub(super) fn small_floats(texels: Texels) -> Texels {
         let value: f32 = bytemuck::pod_read_unaligned(bytes);
         f16::from_f32(value.clamp(-65504.0, 65504.0)).to_le_bytes()
     };
-    let bytes = texels.bytes.chunks_exact(4).flat_map(small).collect();
+    let mut bytes = Vec::with_capacity(texels.bytes.len() / 2);
+    texels.bytes.chunks_exact(4).for_each(|float| bytes.extend(small(float)));
     Texels { shape: TextureShape { format, ..texels.shape }, bytes }
 }
 

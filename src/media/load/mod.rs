@@ -4,6 +4,7 @@ mod apng;
 pub(crate) mod cube;
 mod kinds;
 mod radiance;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod texture_file;
@@ -196,6 +197,10 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
         return too_large(Excess::Bytes { bytes: needed });
     } else if needed > room {
         return too_large(Excess::Project);
+    }
+    if !is_other_animation && orientation == Orientation::NoTransforms && rows::fits(decoder.color_type()) {
+        let texels = rows::read(decoder).map_err(failed)?;
+        return Ok(if vflip { flipped(texels) } else { texels });
     }
     let image =
         if is_other_animation { apng::first_frame(&bytes, allowed) } else { DynamicImage::from_decoder(decoder) };

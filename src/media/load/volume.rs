@@ -44,7 +44,8 @@ pub fn of_slices(slices: Vec<Texels>, room: u64) -> Result<Texels, String> {
         return Err(format!("slice {n} has {width}x{height} texels, and the first {across}x{up}; they must be alike"));
     }
     let shape = checked(first.width, first.height, slices.len() as u32, first.format, room)?;
-    let bytes = slices.into_iter().flat_map(|slice| slice.bytes).collect();
+    let mut bytes = Vec::with_capacity(shape.bytes() as usize);
+    slices.into_iter().for_each(|slice| bytes.extend_from_slice(&slice.bytes));
     Ok(small_floats(Texels { shape, bytes }))
 }
 
