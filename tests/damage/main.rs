@@ -6,6 +6,7 @@
 //! case, `EDDY_DAMAGE_DRAW_EVERY=1` draws all of them and not one of 40; what fails is kept in a folder that the message
 //! names.
 
+mod ceilings;
 mod media_seeds;
 mod memory;
 mod mutate;
@@ -65,6 +66,7 @@ fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
     let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().expect(name));
     let (first, cases) = (number("EDDY_DAMAGE_FIRST").unwrap_or(0), number("EDDY_DAMAGE_CASES").unwrap_or(400));
     let draw_every = number("EDDY_DAMAGE_DRAW_EVERY").unwrap_or(DRAW_EVERY);
+    ceilings::check();
     let gpu = support::gpu();
     let seeds = seeds::all();
     let dir = tempfile::tempdir().unwrap();
