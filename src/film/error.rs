@@ -1,5 +1,6 @@
 //! A picture or a film could not be written.
 
+use eddy_project::rename_temporary;
 use eddy_video::VideoError;
 use std::{io, path::PathBuf};
 
@@ -55,8 +56,40 @@ impl FilmError {
         move |source| FilmError::Io { path, source }
     }
 
+    /// Names the film in the place of the temporary file in which it is written, whose name nobody knows.
+    pub(super) fn of_film(self, film: &std::path::Path) -> FilmError {
+        match self {
+            FilmError::Io { source, .. } => FilmError::Io { path: film.to_owned(), source },
+            FilmError::Ffmpeg { error: VideoError::Encoder { program, said } } => {
+                let name = film.file_name().unwrap_or_default().to_string_lossy();
+                let said = rename_temporary(&said, &name);
+                FilmError::Ffmpeg { error: VideoError::Encoder { program, said } }
+            }
+            other => other,
+        }
+    }
+
     /// An error of writing to a pipe.
     pub(super) fn pipe(error: io::Error) -> FilmError {
         if error.kind() == io::ErrorKind::BrokenPipe { FilmError::Closed } else { FilmError::Pipe(error) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn errors_name_the_film_and_not_its_temporary_file() {
+        let film = Path::new("/films/wave.mp4");
+        let full = || io::Error::from(io::ErrorKind::StorageFull);
+        let temporary = PathBuf::from("/films/.eddy-save-aB3xYz.tmp");
+        let said = "Error writing trailer of file:/films/.eddy-save-aB3xYz.tmp: No space left on device".to_owned();
+        let ffmpeg = VideoError::Encoder { program: "ffmpeg".into(), said };
+        for error in [FilmError::Io { path: temporary, source: full() }, FilmError::Ffmpeg { error: ffmpeg }] {
+            let said = error.of_film(film).to_string();
+            assert!(said.contains("wave.mp4") && !said.contains(".eddy"), "{said}");
+        }
     }
 }

@@ -25,8 +25,10 @@ pub enum FilmSound<'s> {
 
 /// Says where a writer writes to.
 pub enum Destination {
-    /// Pictures go to the files that they are pushed with.
+    /// Pictures go to the files that they are pushed with, which the person at the machine named.
     Pictures,
+    /// The same, into a folder and under names that Eddy gives them: no link leads out of it.
+    PicturesWithin,
     /// All bytes go to a pipe.
     Pipe(Box<dyn Write + Send>),
     /// A film goes to a file.
@@ -45,15 +47,17 @@ impl Writer {
     ) -> Result<Writer, FilmError> {
         let (film, output) = match (encoding, to) {
             (Encoding::Still(still), to) => {
+                let is_within = matches!(to, Destination::PicturesWithin);
                 let pipe = match to {
                     Destination::Pipe(pipe) => Some(pipe),
-                    Destination::Pictures | Destination::Film(_) => None,
+                    Destination::Pictures | Destination::PicturesWithin | Destination::Film(_) => None,
                 };
-                return Ok(Writer::Stills(Stills::start(*still, texels, (shape.width, shape.height), pipe)?));
+                let size = (shape.width, shape.height);
+                return Ok(Writer::Stills(Stills::start(*still, texels, size, pipe, is_within)?));
             }
             (Encoding::Film(film), Destination::Pipe(pipe)) => (film, Output::Pipe(pipe)),
             (Encoding::Film(film), Destination::Film(output)) => (film, output),
-            (Encoding::Film(_), Destination::Pictures) => return Err(FilmError::NoFile),
+            (Encoding::Film(_), Destination::Pictures | Destination::PicturesWithin) => return Err(FilmError::NoFile),
         };
         Film::start_with(film, shape, sound, output, (&Tools::default(), cancel)).map(Writer::Film)
     }

@@ -1,6 +1,7 @@
 //! Files that a person writes and the window follows: each is read when the window opens, and again when the window
 //! gets the keyboard and the file has changed.
 
+use crate::project::{confine, limits};
 use std::{
     fs,
     io::{self, Write},
@@ -139,11 +140,7 @@ impl<T: Content> ConfigFile<T> {
 
 /// Reads a file; `None` where there is none.
 fn read(path: &Path) -> io::Result<Option<String>> {
-    match fs::read_to_string(path) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
-    }
+    confine::read_state(path, limits::STATE_FILE)
 }
 
 fn with_place(path: &Path, mistake: &ConfigError) -> String {

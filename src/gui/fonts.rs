@@ -1,8 +1,9 @@
 //! The fonts of the window: Eddy's own for code, egui's for the rest and for emoji, and the system's for scripts that
 //! these lack.
 
+use crate::project::{confine, limits};
 use egui::{Context, FontData, FontDefinitions, FontFamily};
-use std::{fs, sync::Arc};
+use std::{io, path::Path, sync::Arc};
 
 /// Noto Sans Mono: its zero has a thin stroke, which small letters leave room for. What no font has is the box that its
 /// glyph `.notdef` draws.
@@ -37,7 +38,9 @@ pub fn check(path: &str) -> Result<(), String> {
 
 /// Reads a font and sees that it is one: what is none would end the window.
 fn read(path: &str) -> Result<Vec<u8>, String> {
-    let data = fs::read(path).map_err(|error| format!("code-font: {path}: {error}"))?;
+    let data = confine::read_state_bytes(Path::new(path), limits::FONT)
+        .and_then(|data| data.ok_or_else(|| io::ErrorKind::NotFound.into()))
+        .map_err(|error| format!("code-font: {path}: {error}"))?;
     let face = ttf_parser::Face::parse(&data, 0)
         .map_err(|error| format!("code-font: {path} is not a TrueType or OpenType font: {error}"))?;
     match face.glyph_index('m') {
@@ -50,6 +53,7 @@ fn read(path: &str) -> Result<Vec<u8>, String> {
 mod tests {
     use super::*;
     use egui::FontId;
+    use std::fs;
 
     fn frame(ctx: &Context) {
         let mut output = ctx.run_ui(egui::RawInput::default(), |_| {});

@@ -11,6 +11,7 @@ use super::{
     ProjectError,
     confine::{self, Reason},
     limits,
+    writes::place_within,
 };
 use std::{
     collections::BTreeSet,
@@ -79,6 +80,12 @@ pub fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<(
     take_place(stage(&path, write)?, &path)
 }
 
+/// Writes one file whose path was checked. A link that is in its place by now is replaced, and not followed.
+pub(super) fn write_over(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
+    sweep(folder_of(path));
+    take_place(stage(path, write)?, path)
+}
+
 /// A file that is being written beside the place that it takes when it is complete. Dropped before that, it is gone and
 /// what was there stays.
 pub struct Staged {
@@ -90,6 +97,15 @@ impl Staged {
     /// Makes an empty file beside `path`, in a folder that is made if it is not there. An error does not name the file.
     pub fn new(path: &Path) -> io::Result<Staged> {
         let path = real_path(path.to_owned());
+        sweep(folder_of(&path));
+        Ok(Staged { file: begin(&path)?, path })
+    }
+
+    /// Does the same for a file of a folder whose name the person at the machine did not choose, as
+    /// [`write_into`](super::write_into) does: no link leads out of the folder.
+    pub fn within(path: &Path) -> io::Result<Staged> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let path = place_within(folder_of(path), &name)?;
         sweep(folder_of(&path));
         Ok(Staged { file: begin(&path)?, path })
     }
@@ -202,6 +218,21 @@ pub fn sweep(folder: &Path) {
     }
 }
 
+/// Returns a text in which the names of temporary files are those of the file that they are written for: a program that
+/// writes one says what it was given.
+pub fn rename_temporary(text: &str, name: &str) -> String {
+    let (mut out, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(at) = rest.find(PREFIX) {
+        let end = at + PREFIX.len() + 6 + SUFFIX.len();
+        let is_one = rest.get(at..end).is_some_and(is_temporary);
+        let end = if is_one { end } else { at + PREFIX.len() };
+        out.push_str(&rest[..at]);
+        out.push_str(if is_one { name } else { PREFIX });
+        rest = &rest[end..];
+    }
+    out + rest
+}
+
 fn is_temporary(name: &str) -> bool {
     let random = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX));
     random.is_some_and(|r| r.len() == 6 && r.bytes().all(|b| b.is_ascii_alphanumeric()))
@@ -238,6 +269,13 @@ mod tests {
             assert!(dir.path().join(name).exists(), "{name}");
         }
         assert!(busy.path().exists());
+    }
+
+    #[test]
+    fn temporary_names_in_messages_are_replaced() {
+        let said = "Error writing trailer of file:/a/.eddy-save-aB3xYz.tmp: full; .eddy-save-no, .eddy-save-";
+        let right = "Error writing trailer of file:/a/b.mp4: full; .eddy-save-no, .eddy-save-";
+        assert_eq!(rename_temporary(said, "b.mp4"), right);
     }
 
     #[test]

@@ -53,7 +53,7 @@ mod writes;
 pub mod xscreensaver;
 
 pub use advice::{advice, missing_pass};
-pub use atomic::{Staged, write_with};
+pub use atomic::{Staged, rename_temporary, write_with};
 pub use condition::{Condition, ConditionError, Operator, Term};
 pub use confine::FileError;
 pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};

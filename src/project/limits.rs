@@ -182,6 +182,12 @@ pub const RECORDING_BYTES: u64 = 2 << 30;
 /// The same of a project that was closed while paused, which is read when it is opened.
 pub const RUN: Limit = Limit { bytes: 64 << 20, of: "the frames that lead to where a project was left" };
 pub const RUN_BYTES: u64 = 256 << 20;
+/// A file of settings, of keys, of recent projects or of what the window looked like.
+pub const STATE_FILE: Limit = Limit { bytes: 4 << 20, of: "a file of settings" };
+/// A file with unsaved work that a crash left behind.
+pub const RECOVERY: Limit = Limit { bytes: 128 << 20, of: "a recovery file" };
+/// A font that settings name.
+pub const FONT: Limit = Limit { bytes: 64 << 20, of: "a font" };
 /// The file with the results of the lab.
 pub const LAB_RESULTS: Limit = Limit { bytes: 256 << 20, of: "the lab's results" };
 

@@ -179,8 +179,19 @@ pub fn make_private(folder: &Path) -> io::Result<()> {
 /// Writes one file into a folder that the person at the machine named, whole or not at all. What lies in the folder
 /// already may be a stranger's: see [`check_within`]. An error does not name the file.
 pub fn write_into(folder: &Path, name: &str, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
+    atomic::write_over(&place_within(folder, name)?, write)
+}
+
+/// Returns the path of a file of a folder after links, none of which leads out of the folder. It is not to be resolved again:
+/// another link may have come since.
+pub(super) fn place_within(folder: &Path, name: &str) -> io::Result<PathBuf> {
     check_within(folder, name)?;
-    atomic::write_with(&folder.join(name), write)
+    let path = folder.join(name);
+    if !path.is_symlink() {
+        return Ok(path);
+    }
+    let (real, home) = (path.canonicalize()?, folder.canonicalize()?);
+    if real.starts_with(home) { Ok(real) } else { Err(io::Error::other("the file became a link meanwhile")) }
 }
 
 /// Checks that a file of a folder, where it is there, is a regular one, and that no link leads from the folder to a file
@@ -221,5 +232,40 @@ fn stays_within(folder: &Path, path: &Path) -> Result<(), ProjectError> {
             let why = format!("{} is a broken link; remove it", there.display());
             Err(ProjectError::Unwritable { path: path.to_owned(), why })
         }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use crate::{Staged, write_with};
+    use std::{io::Write, os::unix::fs::symlink};
+
+    #[test]
+    fn no_link_leads_out_of_a_folder() {
+        let dir = tempfile::tempdir().unwrap();
+        let (folder, outside) = (dir.path().join("states"), dir.path().join("precious"));
+        fs::create_dir(&folder).unwrap();
+        for path in [&outside, &folder.join("notes")] {
+            fs::write(path, "precious").unwrap();
+        }
+        let at = |name: &str| folder.join(name);
+        symlink("../precious", at("out")).unwrap();
+        symlink("notes", at("inside")).unwrap();
+        symlink("../gone", at("broken")).unwrap();
+        for name in ["out", "broken"] {
+            let why = write_into(&folder, name, |file| file.write_all(b"new")).unwrap_err().to_string();
+            assert!(why.contains("link"), "{why}");
+            assert!(Staged::within(&at(name)).is_err(), "{name}");
+        }
+        write_into(&folder, "inside", |file| file.write_all(b"new")).unwrap();
+        // As a person may have made it.
+        assert!(at("inside").is_symlink());
+        assert_eq!(fs::read_to_string(at("notes")).unwrap(), "new");
+        assert_eq!(fs::read_to_string(&outside).unwrap(), "precious");
+        assert!(!dir.path().join("gone").exists());
+        // One that the person at the machine named stays a link.
+        write_with(&at("out"), |file| file.write_all(b"named")).unwrap();
+        assert_eq!(fs::read_to_string(&outside).unwrap(), "named");
     }
 }

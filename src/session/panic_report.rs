@@ -1,6 +1,7 @@
 //! A text about a panic that a person can read, and send to whoever works on Eddy. Nothing sends it by itself.
 
 use super::recovery;
+use eddy_diag::escape_text;
 use eddy_project::make_private;
 use std::{
     fs::{self, File, OpenOptions},
@@ -81,7 +82,8 @@ impl PanicReport {
             or_none(device),
             if notices.is_empty() { "  none\n".into() } else { notices },
         );
-        home_as_tilde(&text)
+        // People look at it with `cat`.
+        escape_text(&home_as_tilde(&text)).into_owned()
     }
 
     /// Writes the report into a new file of a folder, which is made where it is not there. Old reports beyond the twentieth

@@ -2,7 +2,7 @@
 //!
 //! Owns the file that keeps them from one start to the next, which people can read and several windows write.
 
-use eddy_project::{Dialect, Origin};
+use eddy_project::{Dialect, Origin, confine, limits};
 use serde::{Deserialize, Serialize};
 use std::{
     fs,
@@ -122,9 +122,9 @@ impl Recent {
 
     fn read(&mut self) -> Result<(), String> {
         let Some(path) = &self.path else { return Ok(()) };
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+        let text = match confine::read_state(path, limits::STATE_FILE) {
+            Ok(Some(text)) => text,
+            Ok(None) => return Ok(()),
             Err(e) => return Err(format!("{}: {e}", path.display())),
         };
         let file: File = toml::from_str(&text).map_err(|e| {

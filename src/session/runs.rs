@@ -8,9 +8,9 @@ use super::kept_files;
 use eddy_playback::recording::{EXTENSION, RecordedFrame, Recording};
 use eddy_playback::run::Frame;
 use eddy_playback::scene::LONGEST;
-use eddy_project::{self as project, Origin, limits};
+use eddy_project::{self as project, Origin, confine, limits};
 use std::{
-    fs::{self, File},
+    fs,
     io::{self, BufReader, BufWriter, Write},
     path::{Path, PathBuf},
     sync::Arc,
@@ -69,7 +69,7 @@ impl Runs {
     /// Returns the frames of a project's run, if one is kept. What cannot be read is none.
     pub fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
         let path = self.file(origin)?;
-        let file = File::open(&path).ok()?;
+        let file = confine::open_state(&path, limits::RUN).ok()?;
         let recording = Recording::read_within(BufReader::new(file), limits::RUN, limits::RUN_BYTES)
             .inspect_err(|e| log::warn!("cannot read {}: {e}", path.display()))
             .ok()?;

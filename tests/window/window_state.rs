@@ -289,3 +289,37 @@ fn the_question_of_recovered_work_stands_where_it_came() {
         window.kill();
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_file_of_settings_does_not_stop_the_window() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let home = home.path();
+    let folder = project(home, "p");
+    // Where the files are is what a run leaves.
+    let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
+    window.compiled();
+    window.keys(&["ctrl+q"]);
+    assert_eq!(window.ends(), Some(0));
+    let mut places = Vec::new();
+    let mut todo = vec![home.join(".config"), home.join(".local")];
+    while let Some(at) = todo.pop() {
+        for path in fs::read_dir(at).into_iter().flatten().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() { todo.push(path) } else { places.push(path) }
+        }
+    }
+    let state = places.iter().find(|path| path.ends_with("projects.toml")).expect("recent projects").clone();
+    let config = home.join(".config/eddy");
+    fs::create_dir_all(&config).unwrap();
+    places.push(config.join("settings.toml"));
+    places.push(config.join("keys.toml"));
+    places.push(state.with_file_name("opening-sound.txt"));
+    for path in places {
+        let _ = fs::remove_file(&path);
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success(), "{}", path.display());
+    }
+    let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
+    window.compiled();
+    window.keys(&["ctrl+q"]);
+    assert_eq!(window.ends(), Some(0));
+}

@@ -7,7 +7,7 @@ use super::{
 use eddy_audio::wav;
 use eddy_engine::Pixels;
 use eddy_playback::scene::Scene;
-use eddy_project::{Staged, limits, write_with};
+use eddy_project::{Staged, limits, write_into, write_with};
 use eddy_texture::TexelFormat;
 use eddy_video::{Stop, Tools};
 use std::{
@@ -37,7 +37,11 @@ pub struct Shape {
 
 /// The place that a film is written to.
 pub enum Output {
+    /// A file that the person at the machine named. Where it is a link, what it leads to is written.
     File(PathBuf),
+    /// A file of a folder that the person at the machine named, under a name that Eddy gives it: no link leads out of the
+    /// folder.
+    Within(PathBuf),
     /// A place where nothing is. What comes there meanwhile is not replaced.
     NewFile(PathBuf),
     /// Standard output, or anything else that takes bytes.
@@ -259,18 +263,22 @@ fn sink(
     output: Output,
     with: (&Tools, &Stop),
 ) -> Result<(Box<dyn Sink>, Option<StagedFile>), FilmError> {
-    let (path, replaces) = match output {
+    type Stage = fn(&Path) -> std::io::Result<Staged>;
+    let (path, replaces, stage) = match output {
         Output::Pipe(pipe) => return Ok((plain(encoding, shape, pipe, FilmError::pipe)?, None)),
-        Output::File(path) => (path, true),
-        Output::NewFile(path) => (path, false),
+        Output::File(path) => (path, true, Staged::new as Stage),
+        Output::Within(path) => (path, true, Staged::within as Stage),
+        Output::NewFile(path) => (path, false, Staged::new as Stage),
     };
-    let mut staged = Staged::new(&path).map_err(FilmError::io(&path))?;
+    let mut staged = stage(&path).map_err(FilmError::io(&path))?;
+    let temporary = staged.path().to_owned();
+    let named = |error: FilmError| error.of_film(&path);
     let sink: Box<dyn Sink> = match encoding {
         FilmEncoding::Coded(coded) => {
             let to = staged.path().to_owned();
-            Box::new(CodedFilm::start(*coded, shape, sound, &to, with)?)
+            Box::new(CodedFilm::start(*coded, shape, sound, &to, with).map_err(named)?)
         }
-        FilmEncoding::Gif => Box::new(Gif::start(shape, staged.path(), with)?),
+        FilmEncoding::Gif => Box::new(Gif::start(shape, &temporary, with).map_err(named)?),
         _ => {
             let file = staged.file().try_clone().map_err(FilmError::io(&path))?;
             plain(encoding, shape, BufWriter::new(file), FilmError::Pipe)?
@@ -320,7 +328,8 @@ fn encode(
     // Errors of files name them.
     let named = |error: FilmError| match (error, &path) {
         (FilmError::Pipe(source), Some(path)) => FilmError::Io { path: path.clone(), source },
-        (error, _) => error,
+        (error, Some(path)) => error.of_film(path),
+        (error, None) => error,
     };
     let mut frames = 0;
     loop {
@@ -343,6 +352,18 @@ fn encode(
     staged.map_or(Ok(()), StagedFile::commit)
 }
 
+fn write_still(
+    file: impl Write + std::io::Seek,
+    still: Still,
+    pixels: &Pixels,
+    texels: TexelFormat,
+    scene: Option<&Scene>,
+) -> std::io::Result<()> {
+    let mut out = BufWriter::new(file);
+    still.write_scene(&mut out, pixels, texels, scene)?;
+    out.flush()
+}
+
 /// Pictures that are written one by one, each to a place of its own.
 pub struct Stills {
     queue: Queue<(FrameDestination, Pixels)>,
@@ -356,23 +377,27 @@ enum FrameDestination {
 
 impl Stills {
     /// Begins with pictures of `texels`, the first of which is about as large as given here. `pipe` takes those that are not
-    /// written to files.
+    /// written to files. `is_within`: the files are those of a folder, whose names the person at the machine did not choose.
     pub fn start(
         still: Still,
         texels: TexelFormat,
         (width, height): (u32, u32),
         pipe: Option<Box<dyn Write + Send>>,
+        is_within: bool,
     ) -> Result<Stills, FilmError> {
         let mut pipe = pipe.unwrap_or_else(|| Box::new(std::io::sink()));
         let work = move |jobs: Receiver<Job<(FrameDestination, Pixels)>>| {
             loop {
                 match jobs.recv() {
                     Ok(Job::Next((FrameDestination::File(path, scene), pixels))) => {
-                        let written = write_with(&path, |file| {
-                            let mut out = BufWriter::new(file);
-                            still.write_scene(&mut out, &pixels, texels, scene.as_deref())?;
-                            out.flush()
-                        });
+                        let scene = scene.as_deref();
+                        let name = path.file_name().unwrap_or_default().to_string_lossy();
+                        let written = match path.parent().filter(|_| is_within) {
+                            Some(folder) => {
+                                write_into(folder, &name, |file| write_still(file, still, &pixels, texels, scene))
+                            }
+                            None => write_with(&path, |file| write_still(file, still, &pixels, texels, scene)),
+                        };
                         written.map_err(FilmError::io(&path))?;
                     }
                     Ok(Job::Next((FrameDestination::Pipe, pixels))) => {

@@ -18,7 +18,6 @@ use exr::{
 use half::f16;
 use std::{
     io::{self, BufWriter, Seek, Write},
-    path::Path,
     sync::mpsc::Receiver,
 };
 
@@ -66,11 +65,14 @@ impl StripWriter {
             let mut strips = Strips { jobs, is_stopped: false };
             let written = match output {
                 Output::File(path) => {
-                    picture.write_file(&path, &mut strips, Staged::commit).map_err(FilmError::io(&path))
+                    picture.write_file(Staged::new(&path), &mut strips, Staged::commit).map_err(FilmError::io(&path))
                 }
-                Output::NewFile(path) => {
-                    picture.write_file(&path, &mut strips, Staged::commit_new).map_err(FilmError::io(&path))
+                Output::Within(path) => {
+                    picture.write_file(Staged::within(&path), &mut strips, Staged::commit).map_err(FilmError::io(&path))
                 }
+                Output::NewFile(path) => picture
+                    .write_file(Staged::new(&path), &mut strips, Staged::commit_new)
+                    .map_err(FilmError::io(&path)),
                 Output::Pipe(mut pipe) => {
                     let written = picture.write_to_pipe(&mut pipe, &mut strips);
                     written.and_then(|()| pipe.flush()).and_then(|()| strips.finish()).map_err(FilmError::pipe)
@@ -137,11 +139,11 @@ impl Picture {
     /// Writes a file beside its place, which it takes by `commit` once it is complete.
     fn write_file(
         &self,
-        path: &Path,
+        staged: io::Result<Staged>,
         strips: &mut Strips,
         commit: impl FnOnce(Staged) -> io::Result<()>,
     ) -> io::Result<()> {
-        let mut staged = Staged::new(path)?;
+        let mut staged = staged?;
         let mut out = BufWriter::new(staged.file());
         self.write(&mut out, strips)?;
         out.flush()?;

@@ -4,7 +4,8 @@ use crate::gui::{
     config_file::write,
     dock::{Node, Panel},
 };
-use std::{collections::BTreeSet, fs, io, path::PathBuf};
+use crate::project::{confine, limits};
+use std::{collections::BTreeSet, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 
 const NAME: &str = "window.toml";
@@ -72,9 +73,9 @@ impl WindowFile {
     /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
     pub fn read(&mut self) -> (WindowState, Vec<String>) {
         let Some(path) = &self.path else { return Default::default() };
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
+        let text = match confine::read_state(path, limits::STATE_FILE) {
+            Ok(Some(text)) => text,
+            Ok(None) => return Default::default(),
             Err(error) => return (WindowState::default(), vec![format!("{}: {error}", path.display())]),
         };
         let (remembered, mistakes) = read(&text);
@@ -203,7 +204,7 @@ mod tests {
         let mut file = WindowFile::new(Some(folder.path().join("eddy")));
         assert_eq!(file.read(), (WindowState::default(), vec![]));
         file.keep(example());
-        let text = fs::read_to_string(folder.path().join("eddy").join(NAME)).unwrap();
+        let text = std::fs::read_to_string(folder.path().join("eddy").join(NAME)).unwrap();
         assert!(text.contains("layout = { row = [{ column = [\"picture\", { tabs = "), "{text}");
         let mut next = WindowFile::new(Some(folder.path().join("eddy")));
         assert_eq!(next.read(), (example(), vec![]));

@@ -1,13 +1,13 @@
 //! Each small picture as the thread of thumbnails makes it.
 
 use super::ThumbnailSource;
+use crate::project::{confine, limits};
 use crate::{
     media::{self, Texels},
     project::{TexelFormat, presets},
 };
 use egui::{Color32, ColorImage};
 use std::{
-    fs::File,
     io::{Cursor, Read as _},
     path::Path,
 };
@@ -64,7 +64,7 @@ fn preset(name: &str) -> Result<ColorImage, String> {
 
 /// The picture of a recent project. Others can write where it lies: no more is read than one of ours has.
 fn recent(file: &Path) -> Result<ColorImage, String> {
-    let file = File::open(file).map_err(|e| e.to_string())?;
+    let file = confine::open_state(file, limits::MEDIA_FILE).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
     file.take(RECENT_BYTES).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
     let mut reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Jpeg);

@@ -204,6 +204,36 @@ pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
     read_regular(&real, path, limit)
 }
 
+/// Reads a text of Eddy's own, such as settings: a regular file, at most `limit` bytes of it. `None` where it is not there.
+/// An error does not name the file.
+pub fn read_state(path: &Path, limit: Limit) -> io::Result<Option<String>> {
+    let text = |bytes| String::from_utf8(bytes).map_err(|e| io::Error::new(io::ErrorKind::InvalidData, e));
+    read_state_bytes(path, limit)?.map(text).transpose()
+}
+
+/// Does the same for a file that is not a text.
+pub fn read_state_bytes(path: &Path, limit: Limit) -> io::Result<Option<Vec<u8>>> {
+    match read_own(path, limit) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(e) if e.is_missing() => Ok(None),
+        Err(FileError { reason: Reason::NotAFile(kind), .. }) => {
+            Err(io::Error::other(format!("it is {kind}, not a regular file; remove it")))
+        }
+        Err(FileError { reason: Reason::TooLarge(limit), .. }) => {
+            Err(io::Error::other(format!("it is larger than {limit}")))
+        }
+        Err(FileError { reason: Reason::Io(why), .. }) => Err(io::Error::other(why)),
+        Err(e) => Err(io::Error::other(e)),
+    }
+}
+
+/// Opens a file of Eddy's own that is read piece by piece, if it is a regular one of at most `limit` bytes.
+pub fn open_state(path: &Path, limit: Limit) -> Result<File, FileError> {
+    let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
+    check_kind(path, &real)?;
+    open_checked(&real, path, limit).map(|(file, _)| file)
+}
+
 /// A limit for a file that shall hold as many bytes: a longer one is another.
 pub(super) fn exactly(bytes: usize) -> Limit {
     Limit { bytes: bytes as u64, of: "a file of the same content" }

@@ -109,6 +109,38 @@ fn pipes_sockets_and_devices_are_never_opened() {
     assert!(said(read_regular(&pipe, &pipe, SMALL)).contains("a pipe"));
 }
 
+#[cfg(unix)]
+#[test]
+fn files_of_settings_are_regular_and_small() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    assert!(std::process::Command::new("mkfifo").arg(at("pipe")).status().unwrap().success());
+    fs::write(at("text"), "zoom = 2.0").unwrap();
+    fs::write(at("bytes"), b"\xff").unwrap();
+    fs::write(at("large"), "more than ten").unwrap();
+    File::create(at("holes")).unwrap().set_len(1 << 40).unwrap();
+    std::os::unix::fs::symlink("pipe", at("link")).unwrap();
+    std::os::unix::fs::symlink("text", at("mine")).unwrap();
+    for (path, says) in [
+        (at("pipe"), "a pipe"),
+        (at("link"), "a pipe"),
+        (dir.path().to_owned(), "a folder"),
+        ("/dev/zero".into(), "a device"),
+        (at("large"), "larger than"),
+        (at("holes"), "larger than"),
+        (at("bytes"), "utf-8"),
+    ] {
+        let why = read_state(&path, SMALL).unwrap_err().to_string();
+        assert!(why.contains(says), "{}: {why}", path.display());
+    }
+    for path in [at("pipe"), "/dev/zero".into(), at("holes")] {
+        assert!(open_state(&path, SMALL).is_err(), "{}", path.display());
+    }
+    assert_eq!(read_state(&at("text"), SMALL).unwrap().as_deref(), Some("zoom = 2.0"));
+    assert_eq!(read_state(&at("mine"), SMALL).unwrap().as_deref(), Some("zoom = 2.0"));
+    assert_eq!(read_state(&at("none"), SMALL).unwrap(), None);
+}
+
 #[test]
 fn windows_devices_are_known_with_any_extension() {
     for name in ["con", "NUL", "aux.vert", "Com1.glsl", "LPT9", "nul .txt"] {

@@ -2,8 +2,10 @@
 //! program then, and it is not opened again before a person asks for it.
 
 use eddy_audio::host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened};
+use eddy_project::{confine, limits, write_into};
 use std::{
     fs,
+    io::Write,
     path::{Path, PathBuf},
     sync::{
         Arc,
@@ -34,15 +36,15 @@ impl OutputMarker {
 
     /// Returns the device that the program was opening when it ended, if it did.
     pub fn found(&self) -> Option<UnfinishedOpen> {
-        let text = fs::read_to_string(self.file.as_ref()?).ok()?;
+        let text = confine::read_state(self.file.as_ref()?, limits::STATE_FILE).ok()??;
         let name = text.trim_end_matches('\n');
         Some((name != DEFAULT).then(|| name.to_owned()))
     }
 
     fn set(&self, device: Option<&str>) {
         let Some(file) = &self.file else { return };
-        let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
-        match folder.and_then(|()| fs::write(file, format!("{}\n", device.unwrap_or(DEFAULT)))) {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        match write_into(folder, FILE, |out| writeln!(out, "{}", device.unwrap_or(DEFAULT))) {
             Ok(()) => self.is_written.store(true, Ordering::Release),
             // The sound is played all the same: only the next start knows less.
             Err(e) => log::warn!("cannot write {}: {e}", file.display()),

@@ -70,7 +70,7 @@ impl Target {
         match self {
             Target::File { path, replaces: true } => Destination::Film(Output::File(path.clone())),
             Target::File { path, replaces: false } => Destination::Film(Output::NewFile(path.clone())),
-            Target::Folder { .. } => Destination::Pictures,
+            Target::Folder { .. } => Destination::PicturesWithin,
         }
     }
 }

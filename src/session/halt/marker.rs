@@ -1,9 +1,10 @@
 //! A file that says which project's new code is on the device. Where one is found at the next start, the code froze the
 //! picture or ended the process.
 
-use eddy_project::{Origin, Project};
+use eddy_project::{Origin, Project, write_into};
 use std::{
     fs,
+    io::Write,
     path::{Path, PathBuf},
 };
 
@@ -27,8 +28,9 @@ impl Marker {
             return;
         }
         self.clear();
-        let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
-        match folder.and_then(|()| fs::write(&file, format!("{}\n", path.display()))) {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        match write_into(folder, &name, |out| writeln!(out, "{}", path.display())) {
             Ok(()) => self.written = Some(file),
             // The picture is drawn all the same: only the next start knows less.
             Err(e) => log::warn!("cannot write {}: {e}", file.display()),

@@ -21,6 +21,8 @@ use std::{
 /// The time that a change waits for others before all are written. Writing takes its own time, and both together stay
 /// well below a second.
 const GATHER: Duration = Duration::from_millis(300);
+/// The time after which a file that could not be written is tried again: the disk may have room by then.
+const RETRY: Duration = Duration::from_secs(5);
 
 enum Job {
     Keep(Box<Project>),
@@ -49,9 +51,19 @@ pub(crate) struct Recovery {
 impl Recovery {
     /// `wake` is called on the thread when there are news.
     pub fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
+        Self::with_retry(folder, wake, RETRY)
+    }
+
+    /// The same with another time after which a write that failed is tried again.
+    pub(super) fn with_retry(
+        folder: PathBuf,
+        wake: Arc<dyn Fn() + Send + Sync>,
+        retry: Duration,
+    ) -> io::Result<Recovery> {
         let (jobs, queue) = mpsc::channel();
         let (sender, news) = mpsc::channel();
-        let keeper = Keeper { folder, sender, wake, own: None, offered: HashMap::new(), is_failure_reported: false };
+        let (own, offered) = (None, HashMap::new());
+        let keeper = Keeper { folder, retry, sender, wake, own, offered, is_failure_reported: false };
         let thread = std::thread::Builder::new().name("recovery".into()).spawn(move || keeper.run(&queue))?;
         Ok(Recovery { jobs: Some(jobs), news, thread: Some(thread) })
     }
@@ -110,6 +122,7 @@ impl Drop for Recovery {
 
 struct Keeper {
     folder: PathBuf,
+    retry: Duration,
     sender: Sender<News>,
     wake: Arc<dyn Fn() + Send + Sync>,
     /// The open project's slot, while it has something unsaved.
@@ -125,15 +138,15 @@ impl Keeper {
         loop {
             let job = match &waiting {
                 None => queue.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some((since, _)) => match GATHER.checked_sub(since.elapsed()) {
+                Some((due, _)) => match due.checked_duration_since(Instant::now()) {
                     Some(left) => queue.recv_timeout(left),
                     None => Err(RecvTimeoutError::Timeout),
                 },
             };
             match job {
                 Ok(Job::Keep(project)) => {
-                    let since = waiting.map_or_else(Instant::now, |(since, _)| since);
-                    waiting = Some((since, project));
+                    let due = Instant::now() + GATHER;
+                    waiting = Some((waiting.map_or(due, |(before, _)| before.min(due)), project));
                 }
                 Ok(Job::Forget) => {
                     waiting = None;
@@ -145,6 +158,9 @@ impl Keeper {
                     if let Some((_, project)) = waiting.take() {
                         let written = self.write(&project);
                         self.is_failure_reported &= written.is_err();
+                        if written.is_err() {
+                            waiting = Some((Instant::now() + self.retry, project));
+                        }
                         self.report_failure("written", written);
                     }
                     if end == RecvTimeoutError::Disconnected {
@@ -180,7 +196,8 @@ impl Keeper {
             None => Slot::take(&self.folder, project)?,
         };
         let data = &self.own.insert(slot).data;
-        project::write_with(data, |file| file.write_all(text.as_bytes()))
+        let name = data.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        project::write_into(&self.folder, &name, |file| file.write_all(text.as_bytes()))
     }
 
     fn scan(&mut self) {

@@ -2,7 +2,7 @@
 
 use super::super::{documents, template};
 use crate::command::{Recovered, RecoveredTab};
-use eddy_project::{self as project, Origin, Project, Tab, read_snapshot};
+use eddy_project::{self as project, Origin, Project, Tab, confine, limits, read_snapshot};
 use jiff::{Timestamp, tz::TimeZone};
 use std::{fs, path::Path};
 
@@ -26,8 +26,8 @@ pub(super) enum Read {
 }
 
 pub(super) fn read(file: &Path) -> Read {
-    let text = match fs::read_to_string(file) {
-        Ok(text) => text,
+    let text = match confine::read_state(file, limits::RECOVERY) {
+        Ok(text) => text.unwrap_or_default(),
         Err(e) => return Read::Unreadable(e.to_string()),
     };
     let mut project = match read_snapshot(&text) {

@@ -83,9 +83,18 @@ enum Lock {
     Taken,
 }
 
+/// Opens a file that is locked, after a look at what it is: opening a pipe would wait for a reader.
+fn open_lock(path: &Path) -> io::Result<File> {
+    if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        let what = format!("{} is not a regular file; remove it", path.display());
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+    }
+    File::options().create(true).truncate(false).write(true).open(path)
+}
+
 /// Takes the lock of a slot if no other process has it.
 fn acquire(data: &Path) -> io::Result<Lock> {
-    let file = File::options().create(true).truncate(false).write(true).open(data.with_extension(LOCK))?;
+    let file = open_lock(&data.with_extension(LOCK))?;
     match file.try_lock() {
         Ok(()) => Ok(Lock::Acquired(Some(file))),
         Err(TryLockError::WouldBlock) => Ok(Lock::Taken),
@@ -101,7 +110,7 @@ fn turn(folder: &Path) -> io::Result<File> {
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
     builder.create(folder)?;
-    let file = File::options().create(true).truncate(false).write(true).open(folder.join(TURN))?;
+    let file = open_lock(&folder.join(TURN))?;
     if let Err(e) = file.lock() {
         log::debug!("no lock in {}: {e}", folder.display());
     }

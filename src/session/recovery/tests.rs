@@ -165,3 +165,43 @@ fn a_folder_that_takes_nothing_is_told_once() {
     assert!(text.contains("a file"), "{text}");
     assert!(recovery.take_news().is_none(), "once");
 }
+
+#[test]
+fn a_failed_write_is_tried_again_without_a_new_edit() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("state");
+    // In the place of a full disk: the folder cannot be made.
+    fs::write(&folder, "").unwrap();
+    let recovery = Recovery::with_retry(folder.clone(), Arc::new(|| ()), Duration::from_millis(10)).unwrap();
+    recovery.keep(&edited(&dir.path().join("p"), TYPED));
+    let News::Trouble(why) = until("the trouble", || recovery.take_news()) else { panic!("no trouble") };
+    assert!(why.contains("could not be written"), "{why}");
+    fs::remove_file(&folder).unwrap();
+    let file = until("the file", || files(&folder).pop());
+    assert!(fs::read_to_string(&file).unwrap().contains(TYPED));
+    assert!(recovery.take_news().is_none(), "the failure is reported once");
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_in_the_folder_are_refused_and_not_waited_for() {
+    for name in [".turn", "p-1.lock"] {
+        let dir = tempfile::tempdir().unwrap();
+        let folder = dir.path().join("state");
+        fs::create_dir(&folder).unwrap();
+        make_pipe(&folder.join(name));
+        let recovery = recovery(&folder);
+        if name == ".turn" {
+            recovery.keep(&edited(&dir.path().join("p"), TYPED));
+        } else {
+            recovery.scan();
+        }
+        let News::Trouble(why) = until("the trouble", || recovery.take_news()) else { panic!("{name}: no trouble") };
+        assert!(why.contains("not a regular file"), "{why}");
+    }
+}
+
+#[cfg(unix)]
+fn make_pipe(path: &Path) {
+    assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+}
