@@ -6,6 +6,7 @@ use super::{
     report::Report,
     source_excerpt::SourceExcerpt,
     targets,
+    terminal::{one_line, shown_path},
 };
 use crate::{
     debugger::{
@@ -245,7 +246,7 @@ pub fn words(audited: &Audited) -> String {
         let at = found.written.place().unwrap_or_else(|| "in Eddy's own code".into());
         let _ = writeln!(out, "  {at}: {}", found.message);
         let [x, y] = found.pixel;
-        let mut line = format!("      {}", found.written.text);
+        let mut line = format!("      {}", one_line(&found.written.text));
         if !found.numbers.is_empty() {
             let _ = write!(line, "    {}", found.numbers);
         }
@@ -258,7 +259,7 @@ pub fn words(audited: &Audited) -> String {
         let _ = writeln!(out, "{line}");
     }
     if let Some(path) = written {
-        let _ = writeln!(out, "  {}", path.display());
+        let _ = writeln!(out, "  {}", shown_path(path));
     }
     out
 }

@@ -5,7 +5,7 @@ use super::{
     args::{CheckArgs, Consumer},
     machine::{Machine, RunError, millis_since},
     report::{Printer, Report},
-    terminal,
+    terminal::{self, one_line},
 };
 use crate::{
     diag::{self, Diagnostic},
@@ -27,7 +27,7 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
         let mut report = Report::new(spec);
         let mut dumped = String::new();
         machine.attempt(&mut report, |_, report| check(report, spec, args, &mut dumped));
-        terminal::out().write_all(dumped.as_bytes())?;
+        terminal::stdout().write_all(dumped.as_bytes())?;
         let errors = report.errors();
         let warnings = report.diagnostics.iter().filter(|m| m.severity == "warning").count();
         let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -37,7 +37,7 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
             (n, 0) => counted(n, "error"),
             (n, m) => format!("{}, {}", counted(n, "error"), counted(m, "warning")),
         };
-        printer.print(&report, &format!("{spec}: {words}"))?;
+        printer.print(&report, &format!("{}: {words}", one_line(spec)))?;
     }
     Ok(printer.exit_code())
 }

@@ -8,6 +8,7 @@ use super::{
     machine::{Machine, RunError, open},
     report::{Printer, Report},
     targets,
+    terminal::{one_line, shown_path},
 };
 use crate::{
     debugger::trace::Number,
@@ -213,6 +214,7 @@ fn words(project: &str, reference: &str, compared: &Compared) -> String {
         Number::Double(x) => format!("{x:.digits$}"),
         other => other.to_string(),
     };
+    let (project, reference) = (one_line(project), one_line(reference));
     let mut out = format!("{project} against {reference}: {pass} in frame {frame}, {width}x{height}\n");
     if *texels_apart == 0 {
         out.push_str("  identical in every bit\n");
@@ -230,7 +232,7 @@ fn words(project: &str, reference: &str, compared: &Compared) -> String {
         );
     }
     if let Some(path) = written {
-        let _ = writeln!(out, "  {}", path.display());
+        let _ = writeln!(out, "  {}", shown_path(path));
     }
     out
 }

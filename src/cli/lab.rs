@@ -4,7 +4,8 @@ use super::{
     args::{LabArgs, LabCommand},
     failure::trouble,
     machine::shard_and_device,
-    precision, stability, terminal,
+    precision, stability,
+    terminal::{self, shown_path},
 };
 use crate::lab::{
     Extent, LabError, PresentFingerprints, RESULTS_FILE, Results, Study,
@@ -80,13 +81,13 @@ fn report(out: &Path, studies: &[&'static Study], results: &Results) -> Result<S
         .iter()
         .filter_map(|e| Some(format!("\n{} {}: {}", e.point.study, e.point.method, e.trouble.as_ref()?)))
         .collect();
-    Ok(format!("{}: {} files{}", out.join("index.html").display(), files.len(), failed.concat()))
+    Ok(format!("{}: {} files{}", shown_path(&out.join("index.html")), files.len(), failed.concat()))
 }
 
 fn finish(done: Result<String, LabError>) -> io::Result<u8> {
     match done {
         Ok(words) => {
-            writeln!(terminal::out(), "{words}")?;
+            writeln!(terminal::stdout(), "{words}")?;
             Ok(0)
         }
         Err(error) => Ok(trouble(error)),
@@ -94,7 +95,7 @@ fn finish(done: Result<String, LabError>) -> io::Result<u8> {
 }
 
 fn list(studies: &[&Study]) -> io::Result<u8> {
-    let mut out = terminal::out();
+    let mut out = terminal::stdout();
     for study in studies {
         writeln!(out, "{}: {}", study.name, study.title)?;
         for method in study.methods {
@@ -139,7 +140,7 @@ impl Progress {
                     return;
                 }
             };
-            terminal::say_over(&words, self.is_terminal);
+            terminal::replace_line(&words);
         }
     }
 }
@@ -147,7 +148,7 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         if self.is_terminal {
-            let _ = writeln!(io::stderr());
+            let _ = writeln!(terminal::stderr());
         }
     }
 }

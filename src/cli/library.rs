@@ -4,6 +4,7 @@ use super::{
     args::{ExportArgs, ExportFormat, ImportArgs},
     machine::{Machine, RunError},
     report::{Printer, Report},
+    terminal::{self, one_line, shown_path},
 };
 use crate::{
     project::{self, Origin, Overwrite, Project, ProjectError},
@@ -15,7 +16,7 @@ use std::{
 };
 
 pub fn list() -> io::Result<u8> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::stdout();
     for name in project::presets::names() {
         writeln!(out, "{name}")?;
     }
@@ -25,7 +26,7 @@ pub fn list() -> io::Result<u8> {
 
 pub fn import(args: &ImportArgs) -> io::Result<u8> {
     let file = args.file.to_string_lossy();
-    let to = args.out.display();
+    let to = shown_path(&args.out);
     one(&file, |report| {
         if !args.out.is_dir() && is_file_name(&args.out) {
             return Err(anyhow::anyhow!("--out {to}: give a folder to import into").into());
@@ -35,7 +36,7 @@ pub fn import(args: &ImportArgs) -> io::Result<u8> {
             return Err(anyhow::anyhow!("{file} is not a Shadertoy .json file").into());
         }
         save(&project, &args.out, args.force)?;
-        Ok(format!("{file}: imported into {to}"))
+        Ok(format!("{}: imported into {to}", one_line(&file)))
     })
 }
 
@@ -51,7 +52,7 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
 }
 
 fn export_json(args: &ExportArgs) -> io::Result<u8> {
-    let to = args.out.display();
+    let to = shown_path(&args.out);
     one(&args.project, |report| {
         if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("json")) || args.out.is_dir() {
             let endings = if args.to.is_some() { ".json" } else { ".json, .html or .fs" };
@@ -64,13 +65,14 @@ fn export_json(args: &ExportArgs) -> io::Result<u8> {
             return Err(mend(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
         save(&project, &args.out, args.force)?;
-        let lost: String = project::json_losses(&project).iter().map(|lost| format!("\n  {lost}")).collect();
-        Ok(format!("{}: exported to {to}{lost}", args.project))
+        let lost: String =
+            project::json_losses(&project).iter().map(|lost| format!("\n  {}", one_line(lost))).collect();
+        Ok(format!("{}: exported to {to}{lost}", one_line(&args.project)))
     })
 }
 
 fn export_html(args: &ExportArgs) -> io::Result<u8> {
-    let to = args.out.display();
+    let to = shown_path(&args.out);
     one(&args.project, |report| {
         let is_html = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm");
         if !args.out.extension().is_some_and(is_html) || args.out.is_dir() {
@@ -90,12 +92,12 @@ fn export_html(args: &ExportArgs) -> io::Result<u8> {
         let size = kilobytes(page.html.len());
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
         project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
-        Ok(format!("{}: exported to {to} ({size} kB{media})", args.project))
+        Ok(format!("{}: exported to {to} ({size} kB{media})", one_line(&args.project)))
     })
 }
 
 fn export_isf(args: &ExportArgs) -> io::Result<u8> {
-    let to = args.out.display();
+    let to = shown_path(&args.out);
     one(&args.project, |report| {
         if !args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("fs")) || args.out.is_dir() {
             return Err(anyhow::anyhow!("--out {to}: give a file name that ends in .fs").into());
@@ -108,7 +110,7 @@ fn export_isf(args: &ExportArgs) -> io::Result<u8> {
         report.diagnose(&file.diagnostics, &project.sources(), Some(&project));
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
         project::write_named(&args.out, file.text.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
-        Ok(format!("{}: exported to {to}", args.project))
+        Ok(format!("{}: exported to {to}", one_line(&args.project)))
     })
 }
 

@@ -5,6 +5,7 @@ use super::{
     library::mend,
     machine::{Machine, RunError},
     report::{Printer, Report},
+    terminal::{self, shown_path},
     written::write_all,
 };
 use clap::CommandFactory;
@@ -14,7 +15,7 @@ use std::io::{self, Write};
 pub fn completions(args: &CompletionsArgs) -> io::Result<u8> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "eddy", &mut script);
-    let mut out = io::stdout().lock();
+    let mut out = terminal::stdout();
     out.write_all(&script)?;
     out.flush()?;
     Ok(0)
@@ -29,7 +30,7 @@ pub fn man(args: &ManArgs) -> io::Result<u8> {
         write_all(&args.out, files, args.force).map_err(RunError::from).map_err(mend)?;
         Ok(pages.len())
     });
-    let words = written.map(|n| format!("{n} pages written to {}", args.out.display()));
+    let words = written.map(|n| format!("{n} pages written to {}", shown_path(&args.out)));
     let mut printer = Printer::new(false);
     printer.print(&report, &words.unwrap_or_default())?;
     Ok(printer.exit_code())

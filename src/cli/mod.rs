@@ -42,14 +42,18 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::{lsp, playback::trial};
+use crate::{diag::escape_line, lsp, playback::trial};
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
 use failure::TROUBLE;
 pub use failure::{error_chain, trouble};
 pub use panic_hook::install as install_log_and_reports;
-use std::{io, process::ExitCode};
+use std::{
+    env,
+    io::{self, Write},
+    process::ExitCode,
+};
 
 /// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
 /// program nests deeply; pages that are not used cost nothing.
@@ -62,14 +66,9 @@ pub enum Next {
     Window(Window),
 }
 
-/// Returns the definition of the command line.
-pub fn definition() -> clap::Command {
-    <Cli as clap::CommandFactory>::command()
-}
-
 /// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
-    let Cli { window, command } = Cli::try_parse().unwrap_or_else(|error| failure::usage(&error)).with_guests();
+    let Cli { window, command } = parse().with_guests();
     let Some(command) = command else { return Next::Window(window.with_project_of_file()) };
     if matches!(
         command,
@@ -93,6 +92,20 @@ pub fn main() -> Next {
     };
     leave::end_process(code);
     Next::Exit(ExitCode::from(code))
+}
+
+/// Reads the command line. clap repeats arguments in its errors, and a shell makes arguments of names of files: the error
+/// is made of arguments whose control characters are escaped.
+fn parse() -> Cli {
+    Cli::try_parse().unwrap_or_else(|error| {
+        let escaped = env::args_os().map(|argument| escape_line(&argument.to_string_lossy()).into_owned());
+        if let Err(error) = Cli::try_parse_from(escaped) {
+            error.exit();
+        }
+        // Only the control characters were wrong.
+        let _ = write!(terminal::stderr(), "{}", error.render());
+        std::process::exit(error.exit_code())
+    })
 }
 
 fn run(command: &Command) -> u8 {

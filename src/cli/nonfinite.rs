@@ -5,6 +5,7 @@ use super::{
     machine::{Machine, RunError, open_measured},
     report::Report,
     source_excerpt::SourceExcerpt,
+    terminal::one_line,
 };
 use crate::{
     debugger::{
@@ -114,6 +115,7 @@ fn born(
 }
 
 pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
+    let spec = one_line(spec);
     let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
         return format!("{spec}: all texels of all passes are finite in {frames} frames");
     };

@@ -3,12 +3,13 @@
 //! The logger and the panic hook are the process's own: [`install`] is called once, by `main`.
 
 use crate::{
-    diag,
+    diag::{escape_line, escape_message},
     gpu::loss::is_loss,
     session::{self, PanicReport, home_as_tilde},
 };
 use std::{
     backtrace::Backtrace,
+    borrow::Cow,
     collections::VecDeque,
     env,
     ffi::OsStr,
@@ -69,7 +70,11 @@ impl log::Log for Logger {
             }
         }
         if self.terminal.matches(record) {
-            self.terminal.log(record);
+            let text = record.args().to_string();
+            let mut shown = log::Record::builder();
+            shown.metadata(record.metadata().clone()).module_path(record.module_path());
+            shown.file(record.file()).line(record.line());
+            self.terminal.log(&shown.args(format_args!("{}", escape_message(&text))).build());
         }
     }
 
@@ -82,12 +87,7 @@ impl log::Log for Logger {
 pub fn install() {
     // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
     let environment = env_logger::Env::default().default_filter_or("error,naga=off,symphonia=off,eddy=warn");
-    let terminal = env_logger::Builder::from_env(environment)
-        .format(|out, record| {
-            let line = format!("[{} {}] {}", record.level(), record.target(), record.args());
-            writeln!(out, "{}", diag::indented(&diag::escaped(&line)))
-        })
-        .build();
+    let terminal = env_logger::Builder::from_env(environment).build();
     let recent = Arc::new(Mutex::new(Recent::default()));
     let most = terminal.filter().max(log::LevelFilter::Info);
     if log::set_boxed_logger(Box::new(Logger { terminal, recent: recent.clone() })).is_ok() {
@@ -100,7 +100,16 @@ pub fn install() {
         if panic.payload_as_str().is_some_and(is_loss) {
             return;
         }
-        before(panic);
+        match panic.payload_as_str() {
+            // A stranger's text, which the hook of the standard library would print as it is.
+            Some(said) if matches!(escape_line(said), Cow::Owned(_)) => {
+                let name = thread::current().name().unwrap_or("<unnamed>").to_owned();
+                let place = panic.location().map(ToString::to_string).unwrap_or_default();
+                let said = escape_message(said);
+                let _ = writeln!(super::terminal::stderr(), "thread '{name}' panicked at {place}:\n{said}");
+            }
+            _ => before(panic),
+        }
         if written.fetch_add(1, Ordering::Relaxed) >= MOST_REPORTS {
             return;
         }
@@ -119,7 +128,7 @@ fn tell(report: &PanicReport, folder: &Path) {
         Err(error) => format!("A report of this bug could not be written to {}: {error}", folder.display()),
     };
     // Nobody is left to tell where standard error is closed.
-    let _ = writeln!(super::terminal::err(), "{said}");
+    let _ = writeln!(super::terminal::stderr(), "{said}");
 }
 
 fn report(panic: &PanicHookInfo<'_>, recent: &Mutex<Recent>) -> PanicReport {

@@ -5,6 +5,7 @@ use super::{
     machine::{Machine, RunError, millis_since, open_measured},
     report::{Printer, Report},
     targets::Targets,
+    terminal::one_line,
     tiles,
 };
 use crate::playback::{median, offline::Offline, script::ScriptedInputs, shard::Shard};
@@ -142,7 +143,9 @@ impl Plan {
         };
         let depends = match self.state.is_empty() {
             true => "each can be drawn by itself".to_owned(),
-            false => format!("each depends on those before, through {}", crate::project::listed(&self.state)),
+            false => {
+                format!("each depends on those before, through {}", one_line(&crate::project::listed(&self.state)))
+            }
         };
         let mut lines = vec![format!("{}: {} frames; {depends}", report.title(), self.writes)];
         lines.push(format!("{frame_ms:.2} ms a frame, the median of {MEASURED}"));

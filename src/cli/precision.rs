@@ -6,6 +6,7 @@ use super::{
     audit::{self, Audited},
     machine::{Machine, RunError},
     report::{Printer, Report},
+    terminal::one_line,
 };
 use crate::{
     engine::Engine,
@@ -59,7 +60,7 @@ pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
             .flatten();
         let mut words = compared.as_ref().map_or(String::new(), |compared| words(spec, compared));
         if let Some(double) = &double {
-            words.push_str(&if words.is_empty() { format!("{spec}\n") } else { String::new() });
+            words.push_str(&if words.is_empty() { format!("{}\n", one_line(spec)) } else { String::new() });
             words.push_str(&audit::words(double));
         }
         let line = JsonLine { report: &report, compared: compared.as_ref(), double: double.as_ref() };
@@ -106,6 +107,7 @@ fn compare(
 
 fn words(spec: &str, compared: &Compared) -> String {
     let Compared { width, height, device, cuts_off, comparison } = compared;
+    let spec = one_line(spec);
     let mut out =
         format!("{spec}: 16-bit floats against 32, {width}x{height}, {} frames, {device}\n", comparison.frames);
     out.push_str(if *cuts_off {

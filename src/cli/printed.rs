@@ -1,7 +1,9 @@
 //! The values that `//@print` comments of a pass ask for, at a pixel, are walked and printed here.
 
+use super::terminal::one_line;
 use crate::{
     debugger::trace::{Examiner, Number, TraceError, Traced},
+    diag::escape_message,
     engine::{PassInputs, Pixels},
     project::{PassId, Project, Tab, inspect_comments},
 };
@@ -63,9 +65,9 @@ pub fn printed(
 pub fn words(all: &[Printed]) -> String {
     let mut out = String::new();
     for Printed { tab, line, expression, values, error, cut } in all {
-        let _ = writeln!(out, "{tab}:{line}: {expression}");
+        let _ = writeln!(out, "{}:{line}: {}", one_line(tab), one_line(expression));
         if let Some(error) = error {
-            let _ = writeln!(out, "    {error}");
+            let _ = writeln!(out, "    {}", escape_message(error));
         }
         for (turn, value) in values.iter().enumerate() {
             let Some(numbers) = value else { continue };

@@ -5,6 +5,7 @@ use super::{
     machine::{Machine, RunError, open_probed, pass_over},
     report::{Printer, Report},
     targets,
+    terminal::{one_line, shown_path},
 };
 use crate::{
     debugger::trace::Number,
@@ -133,6 +134,7 @@ fn summary(args: &ProbeArgs, pixels: &Pixels) -> Probed {
 fn words(project: &str, probed: &Probed) -> String {
     let list = |values: &[Number; 4]| format!("({})", values.map(|n| n.to_string()).join(", "));
     let Probed { at, frame, width, height, visited, nonfinite, .. } = probed;
+    let (project, at) = (one_line(project), one_line(at));
     let mut out = format!("{project}: {at} in frame {frame}: {visited} of {} pixels\n", width * height);
     if *visited > 0 {
         let _ = writeln!(out, "  min   {}", list(&probed.min));
@@ -147,7 +149,7 @@ fn words(project: &str, probed: &Probed) -> String {
         let _ = writeln!(out, "  at {x},{y}  {value}");
     }
     if let Some(path) = &probed.written {
-        let _ = writeln!(out, "  written to {}", path.display());
+        let _ = writeln!(out, "  written to {}", shown_path(path));
     }
     out
 }

@@ -9,6 +9,7 @@ use super::{
     recorded_sound::recorded_sound,
     report::{Printer, Report},
     targets::Targets,
+    terminal::{raw_stdout, shown_path},
     tiles,
 };
 use crate::{
@@ -83,7 +84,7 @@ fn words(report: &Report, written: &[PathBuf], kept: u32) -> String {
         let were = if kept == 1 { "picture was" } else { "pictures were" };
         words.push_str(&format!(", {kept} {were} there already (--overwrite draws them again)"));
     }
-    let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
+    let paths: Vec<String> = written.iter().map(|p| shown_path(p)).collect();
     if paths.is_empty() { words } else { format!("{words}: {}", paths.join(" ")) }
 }
 
@@ -337,13 +338,14 @@ impl Job<'_> {
         let shape = Shape { width: pixels.width, height: pixels.height, rate: targets.rate, frames: Some(count) };
         let mut sound = None;
         let to = match &targets.encoding {
-            _ if targets.is_pipe() => Destination::Pipe(Box::new(io::stdout())),
+            _ if targets.is_pipe() => Destination::Pipe(Box::new(raw_stdout())),
+            Encoding::Still(_) if targets.is_folder() => Destination::PicturesWithin,
             Encoding::Still(_) => Destination::Pictures,
             Encoding::Film(film) => {
                 sound = self.sound(machine, report, (project, media), film, frames, inputs)?;
                 let path = targets.path(self.index, &report.sweep, frames[0]).unwrap_or_default();
                 targets.check(&path)?;
-                Destination::Film(Output::File(path))
+                Destination::Film(targets.output(path))
             }
         };
         let cancel = Cancel::default();
@@ -418,10 +420,10 @@ impl Job<'_> {
     ) -> Result<Option<PathBuf>, RunError> {
         let path = self.targets.path(self.index, &report.sweep, frame);
         let output = match &path {
-            None => Output::Pipe(Box::new(io::stdout())),
+            None => Output::Pipe(Box::new(raw_stdout())),
             Some(path) => {
                 self.targets.check(path)?;
-                Output::File(path.clone())
+                self.targets.output(path.clone())
             }
         };
         tiles::write(offline, self.args, parts, still, output, scene)?;

@@ -1,6 +1,6 @@
 //! A report says how one project fared, in words or as one JSON object a line.
 
-use super::terminal;
+use super::terminal::{self, one_line};
 use crate::{
     diag::{self, Diagnostic, Severity, SourceMap},
     project::Project,
@@ -94,10 +94,10 @@ impl Report {
         Report { sweep: sweep.to_vec(), ..Report::new(project) }
     }
 
-    /// The project, and what `--sweep` set, in one line.
+    /// Returns the project, and what `--sweep` set, as one line that people read.
     pub fn title(&self) -> String {
         let title = self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"));
-        diag::one_line(&title).into_owned()
+        one_line(&title).into_owned()
     }
 
     /// Adds diagnostics; an error among them is what became of the project.
@@ -124,7 +124,7 @@ impl Report {
         let Message { source, line, column, message, .. } =
             self.diagnostics.iter().find(|m| m.severity == Severity::Error.name())?;
         let place = match (source, line, column) {
-            (Some(source), Some(line), Some(column)) => format!("{source}:{line}:{column}: "),
+            (Some(source), Some(line), Some(column)) => format!("{}:{line}:{column}: ", one_line(source)),
             _ => String::new(),
         };
         let more = match self.errors() - 1 {
@@ -168,17 +168,15 @@ impl Printer {
     pub fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
         self.worst = self.worst.max(report.status);
         if self.json {
-            return terminal::json_line(line);
+            return terminal::print_json(line);
         }
+        let mut out = terminal::stdout();
         if !report.carets.is_empty() {
-            writeln!(terminal::err(), "{}:\n{}", report.title(), report.carets)?;
+            writeln!(terminal::stderr(), "{}:\n{}", report.title(), report.carets)?;
         }
-        // A project's name may hold line breaks, and is part of many lines.
-        let words = words.replace(&report.project, &diag::one_line(&report.project));
         if self.is_piped && !words.is_empty() {
-            return writeln!(terminal::err(), "{words}");
+            return writeln!(terminal::stderr(), "{words}");
         }
-        let mut out = terminal::out();
         if !words.is_empty() {
             writeln!(out, "{words}")?;
         }

@@ -6,7 +6,8 @@ use super::{
     machine::{Machine, RunError, millis_since, open_sound},
     progress::CallProgress,
     report::{Printer, Report},
-    targets::{check_folder, check_within, stems, tells_case_apart},
+    targets::{check_folder, stems, tells_case_apart},
+    terminal::shown_path,
     written::make_folder,
 };
 use crate::{
@@ -88,12 +89,12 @@ impl Sounds {
             (None, _) => Output::Nowhere,
             (Some(out), Some(_)) if args.project.len() != 1 => {
                 let sounds = args.project.len();
-                let shown = out.display();
+                let shown = shown_path(out);
                 return Err(format!("--out {shown} is one file, but {sounds} sounds would be written: give a folder"));
             }
             (Some(out), Some(_)) => Output::File(out.clone()),
             (Some(out), None) if out.extension().is_some() && !out.is_dir() => {
-                let shown = out.display();
+                let shown = shown_path(out);
                 return Err(format!("--out {shown}: a sound is written as .wav or .flac, or into a folder"));
             }
             (Some(out), None) => Output::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?),
@@ -112,20 +113,22 @@ impl Sounds {
 
     /// Writes a sound whole or not at all. Gives the file.
     fn write(&self, project: usize, frames: &[[i16; 2]]) -> anyhow::Result<Option<PathBuf>> {
-        let path = match &self.place {
+        let (path, within) = match &self.place {
             Output::Nowhere => return Ok(None),
-            Output::File(file) => file.clone(),
+            Output::File(file) => (file.clone(), None),
             Output::Folder(folder, stems) => {
-                let path = folder.join(format!("{}.wav", stems[project]));
-                check_within(folder, &path)?;
-                path
+                let name = format!("{}.wav", stems[project]);
+                (folder.join(&name), Some((folder, name)))
             }
         };
         let bytes = match self.format {
             Format::Wav => wav(frames),
             Format::Flac => flac(frames).map_err(|why| anyhow::anyhow!("this is a bug in Eddy: FLAC: {why}"))?,
         };
-        let written = project::write_with(&path, |file| file.write_all(&bytes));
+        let written = match within {
+            Some((folder, name)) => project::write_into(folder, &name, |file| file.write_all(&bytes)),
+            None => project::write_with(&path, |file| file.write_all(&bytes)),
+        };
         written.with_context(|| format!("cannot write {}", path.display()))?;
         Ok(Some(path))
     }
@@ -183,7 +186,7 @@ pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::R
         });
         progress.end(&report, blocks as usize);
         let words = made.as_ref().map_or(String::new(), |made| {
-            let file = made.file.as_ref().map_or(String::new(), |file| format!(": {}", file.display()));
+            let file = made.file.as_ref().map_or(String::new(), |file| format!(": {}", shown_path(file)));
             let millis = made.block_ms.unwrap_or_default();
             format!("{}: {:.1} s of sound, {millis:.0} ms per block of 6 s{file}", report.title(), made.seconds)
         });

@@ -1,5 +1,6 @@
 //! A place of a project's texts, and what the author wrote there.
 
+use super::terminal::one_line;
 use crate::{diag::Span, project::Project};
 use serde::Serialize;
 
@@ -29,6 +30,6 @@ impl SourceExcerpt {
 
     /// `image.glsl:12:9`; `None` for what Eddy adds to the author's code.
     pub fn place(&self) -> Option<String> {
-        Some(format!("{}:{}:{}", self.source.as_ref()?, self.line?, self.column?))
+        Some(format!("{}:{}:{}", one_line(self.source.as_ref()?), self.line?, self.column?))
     }
 }

@@ -1,6 +1,11 @@
 //! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
 
-use super::{args::StabilityArgs, failure::trouble, machine::shard_and_device, terminal};
+use super::{
+    args::StabilityArgs,
+    failure::trouble,
+    machine::shard_and_device,
+    terminal::{self, shown_path},
+};
 use crate::lab::{
     Extent, LabError, Results, Shard,
     stability::{
@@ -41,18 +46,18 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
         Err(error) => return Ok(trouble(error)),
     };
     if io::stderr().is_terminal() {
-        writeln!(io::stderr())?;
+        writeln!(terminal::stderr())?;
     }
     let of_these: Vec<_> = results.cases.iter().filter(|c| names.contains(&c.project)).cloned().collect();
     if of_these.is_empty() && options.shard == Shard::WHOLE {
         return Ok(trouble("no case has this text in its name or kind"));
     }
-    let mut out = terminal::out();
+    let mut out = terminal::stdout();
     write!(out, "{}", stability::table(&of_these))?;
     write!(out, "\n{}", run::coverage(&subjects, &options, &results))?;
     if let Some(folder) = &args.out {
         match files(folder, &results, &subjects) {
-            Ok(_) => writeln!(out, "\n{}", folder.join("stability.html").display())?,
+            Ok(_) => writeln!(out, "\n{}", shown_path(&folder.join("stability.html")))?,
             Err(error) => return Ok(trouble(error)),
         }
     }
@@ -68,5 +73,5 @@ pub fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Resu
 /// Says on standard error what is drawn: on a terminal in one line that is written over, else a line a case.
 fn tell(step: Step<'_>) {
     let words = format!("{}/{} {}: {}", step.done + 1, step.all, step.project, step.case.name);
-    terminal::say_over(&words, io::stderr().is_terminal());
+    terminal::replace_line(&words);
 }

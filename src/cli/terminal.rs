@@ -1,112 +1,112 @@
-//! The one way to a terminal: standard output and standard error for people, and lines of JSON for scripts.
+//! The one way of the command line to standard output and standard error.
 //!
-//! Names and texts of a project may be a stranger's, so whatever is written is escaped here ([`crate::diag::escaped`]).
-//! Pictures, films, shell completions and the language server's messages are bytes for programs and do not pass here.
+//! A stranger's text may be in the output: names of folders and files, keys, messages of shaders. Its control characters
+//! are escaped here, whatever part of Eddy wrote it; line breaks and tabs stay. A text that must have one
+//! line is made so by its writer ([`escape_line`](crate::diag::escape_line)). Only bytes of films and pictures go to
+//! standard output as they are, by [`raw_stdout`].
 
-use crate::diag;
+use crate::diag::{escape_json, escape_line, escape_text};
 use serde::Serialize;
-use std::io::{self, StderrLock, StdoutLock, Write};
+use std::{
+    borrow::Cow,
+    io::{self, IsTerminal, StderrLock, StdoutLock, Write},
+    path::Path,
+};
 
-/// The beginning of lines that a scheduler obeys (Open Job Description).
-const OPENJD: &str = "openjd_";
-
-/// A writer that escapes what it passes on. No line of it begins as one for a scheduler does.
-pub struct Escaped<W: Write> {
-    inner: W,
-    /// Bytes of a character that is not complete yet.
-    partial: Vec<u8>,
-    is_line_start: bool,
+/// Writes text whose control characters are escaped. Bytes that are not UTF-8 are written as U+FFFD, as a terminal of 8 bits
+/// obeys some of them.
+#[derive(Debug)]
+pub struct EscapingWriter<W> {
+    out: W,
+    /// The start of a character whose other bytes have not come yet.
+    pending: Vec<u8>,
 }
 
-/// Standard output, for people.
-pub fn out() -> Escaped<StdoutLock<'static>> {
-    Escaped::new(io::stdout().lock())
-}
-
-/// Standard error, for people.
-pub fn err() -> Escaped<StderrLock<'static>> {
-    Escaped::new(io::stderr().lock())
-}
-
-/// Writes a value to standard output as one line of JSON.
-pub fn json_line(value: &impl Serialize) -> io::Result<()> {
-    let line = serde_json::to_string(value)?;
-    let mut out = io::stdout().lock();
-    out.write_all(diag::escaped_json(&line).as_bytes())?;
-    out.write_all(b"\n")?;
-    out.flush()
-}
-
-/// Writes what is done now to standard error: over the line before on a terminal, else in a line of its own.
-pub fn say_over(words: &str, is_terminal: bool) {
-    let words = diag::one_line(words);
-    let mut err = io::stderr().lock();
-    // EL of ECMA-48: the line is cleared. An error means that standard error is closed.
-    let _ = if is_terminal { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
-    let _ = err.flush();
-}
-
-impl<W: Write> Escaped<W> {
-    pub fn new(inner: W) -> Self {
-        Self { inner, partial: Vec::new(), is_line_start: true }
-    }
-
-    fn pass_on(&mut self, text: &str) -> io::Result<()> {
-        for line in text.split_inclusive('\n') {
-            let mut rest = line;
-            if self.is_line_start
-                && let Some(after) = line.strip_prefix(OPENJD)
-            {
-                write!(self.inner, "\\u{{6f}}{}", &OPENJD[1..])?;
-                rest = after;
-            }
-            self.inner.write_all(diag::escaped(rest).as_bytes())?;
-            self.is_line_start = line.ends_with('\n');
-        }
-        Ok(())
+impl<W> EscapingWriter<W> {
+    pub fn new(out: W) -> Self {
+        Self { out, pending: Vec::new() }
     }
 }
 
-impl<W: Write> Write for Escaped<W> {
+impl<W: Write> Write for EscapingWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.partial.extend_from_slice(bytes);
-        let bytes = std::mem::take(&mut self.partial);
-        let mut rest = &bytes[..];
-        while !rest.is_empty() {
-            match std::str::from_utf8(rest) {
-                Ok(text) => {
-                    self.pass_on(text)?;
-                    break;
-                }
-                Err(error) => {
-                    let (valid, after) = rest.split_at(error.valid_up_to());
-                    self.pass_on(&String::from_utf8_lossy(valid))?;
-                    let Some(invalid) = error.error_len() else {
-                        self.partial = after.to_vec();
-                        break;
-                    };
-                    self.pass_on("\u{fffd}")?;
-                    rest = &after[invalid..];
-                }
-            }
-        }
-        // All of it is taken: what is kept is written with the next bytes.
+        self.pending.extend_from_slice(bytes);
+        let cut = match std::str::from_utf8(&self.pending) {
+            Err(e) if e.error_len().is_none() => e.valid_up_to(),
+            _ => incomplete_tail(&self.pending),
+        };
+        let text = String::from_utf8_lossy(&self.pending[..cut]);
+        self.out.write_all(escape_text(&text).as_bytes())?;
+        drop(self.pending.drain(..cut));
         Ok(bytes.len())
     }
 
-    /// Writes a whole text at once, however its characters are divided among writes before it.
-    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.write(bytes).map(drop)
-    }
-
-    /// A formatted text is one write, so that lines of other programs do not come between.
-    fn write_fmt(&mut self, text: std::fmt::Arguments<'_>) -> io::Result<()> {
-        self.write_all(text.to_string().as_bytes())
-    }
-
     fn flush(&mut self) -> io::Result<()> {
-        self.inner.flush()
+        self.out.flush()
     }
+}
+
+/// Returns where the last character starts if it is not complete; the length otherwise.
+fn incomplete_tail(bytes: &[u8]) -> usize {
+    let mut at = 0;
+    for chunk in bytes.utf8_chunks() {
+        let end = at + chunk.valid().len() + chunk.invalid().len();
+        let is_incomplete = std::str::from_utf8(chunk.invalid()).is_err_and(|e| e.error_len().is_none());
+        if end == bytes.len() && is_incomplete {
+            return end - chunk.invalid().len();
+        }
+        at = end;
+    }
+    at
+}
+
+pub fn stdout() -> EscapingWriter<StdoutLock<'static>> {
+    EscapingWriter::new(io::stdout().lock())
+}
+
+pub fn stderr() -> EscapingWriter<StderrLock<'static>> {
+    EscapingWriter::new(io::stderr().lock())
+}
+
+/// Returns standard output for bytes that are not text.
+pub fn raw_stdout() -> io::Stdout {
+    io::stdout()
+}
+
+/// Writes one object of JSON as a line on standard output.
+pub fn print_json(value: &impl Serialize) -> io::Result<()> {
+    let line = serde_json::to_string(value)?;
+    let mut out = io::stdout().lock();
+    writeln!(out, "{}", escape_json(&line))?;
+    out.flush()
+}
+
+/// Writes a line on standard error that takes the place of the one before; a line of its own where that is not a terminal.
+pub fn replace_line(words: &str) {
+    let mut err = io::stderr().lock();
+    let words = escape_line(words);
+    // Nobody is left to read it where standard error is closed.
+    let _ = if err.is_terminal() { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
+    let _ = err.flush();
+}
+
+/// Writes codes that move the cursor, which are Eddy's own, around text that was escaped before.
+pub fn stderr_with_codes(text: &str) -> io::Result<()> {
+    io::stderr().lock().write_all(text.as_bytes())
+}
+
+pub fn flush_stderr() -> io::Result<()> {
+    io::stderr().flush()
+}
+
+/// Returns a path for a line that people read.
+pub fn shown_path(path: &Path) -> String {
+    one_line(&path.to_string_lossy()).into_owned()
+}
+
+/// Returns a name for a line that people read.
+pub fn one_line(name: &str) -> Cow<'_, str> {
+    escape_line(name)
 }
 
 #[cfg(test)]
@@ -114,25 +114,26 @@ mod tests {
     use super::*;
 
     fn written(parts: &[&[u8]]) -> String {
-        let mut out = Escaped::new(Vec::new());
-        parts.iter().for_each(|part| out.write_all(part).unwrap());
-        String::from_utf8(out.inner).unwrap()
+        let mut out = Vec::new();
+        let mut writer = EscapingWriter::new(&mut out);
+        parts.iter().for_each(|part| writer.write_all(part).unwrap());
+        String::from_utf8(out).unwrap()
     }
 
     #[test]
-    fn characters_are_escaped_however_writes_divide_them() {
-        let text = "a\u{1b}[2J é\u{9b}\n\u{202e}".as_bytes();
-        let whole = written(&[text]);
-        assert_eq!(whole, "a\\u{1b}[2J é\\u{9b}\n\\u{202e}");
+    fn controls_are_escaped_wherever_a_write_is_cut() {
+        let text = "a\u{1b}[2J\u{9b}31m\u{202e}é\u{10ffff}\n\tb";
+        let right = "a\\u{1b}[2J\\u{9b}31m\\u{202e}é\u{10ffff}\n\tb";
         for at in 0..text.len() {
-            assert_eq!(written(&[&text[..at], &text[at..]]), whole, "{at}");
+            let (first, second) = text.as_bytes().split_at(at);
+            assert_eq!(written(&[first, second]), right, "{at}");
         }
-        assert_eq!(written(&[b"a\xff\xfeb"]), "a\u{fffd}\u{fffd}b");
     }
 
     #[test]
-    fn no_line_is_taken_for_a_schedulers() {
-        assert_eq!(written(&[b"x\nopenjd_env: A=1\n openjd_env"]), "x\n\\u{6f}penjd_env: A=1\n openjd_env");
-        assert_eq!(written(&[b"x\n", b"openjd_fail: y"]), "x\n\\u{6f}penjd_fail: y");
+    fn bytes_that_are_not_utf_8_are_replaced() {
+        assert_eq!(written(&[b"a\x9b31m", b"b\xff\n"]), "a\u{fffd}31mb\u{fffd}\n");
+        assert_eq!(written(&[b"\xc2", b"a"]), "\u{fffd}a");
+        assert_eq!(written(&[b"a\xffb\xe2\x80", b"\xae"]), "a\u{fffd}b\\u{202e}");
     }
 }

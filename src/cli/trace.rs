@@ -8,6 +8,7 @@ use super::{
     printed::{self, Printed},
     report::{Printer, Report},
     source_excerpt::SourceExcerpt,
+    terminal::one_line,
 };
 use crate::{
     debugger::trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
@@ -252,7 +253,7 @@ fn words(spec: &str, traced: &Traced) -> String {
     let vector = |values: &[Number]| if values.len() == 1 { list(values) } else { format!("({})", list(values)) };
     for step in &traced.steps {
         let at = match (&step.source, step.line) {
-            (Some(source), Some(line)) => format!("{source}:{line}"),
+            (Some(source), Some(line)) => format!("{}:{line}", one_line(source)),
             _ => String::new(),
         };
         let what = match (step.kind, &step.name, step.turn) {
@@ -269,10 +270,10 @@ fn words(spec: &str, traced: &Traced) -> String {
     out.push_str(&printed::words(&traced.printed));
     let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
     let face = traced.face.map_or_else(String::new, |face| format!(" {face}"));
-    let _ = writeln!(out, "{spec}: {pass}{face} at {x},{y} in frame {frame}, {statements} statements");
+    let _ = writeln!(out, "{}: {pass}{face} at {x},{y} in frame {frame}, {statements} statements", one_line(spec));
     if let Some(MeshReport { draw, name, triangle, front }) = &traced.mesh {
         let side = if *front { "front" } else { "back" };
-        let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, {side} side");
+        let _ = writeln!(out, "  draw {draw}, {}: triangle {triangle}, {side} side", one_line(name));
     }
     if traced.clear {
         out.push_str("  no triangle is drawn here: the texel keeps the zeros from the start of the pass\n");

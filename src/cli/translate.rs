@@ -5,6 +5,7 @@ use super::{
     library::mend,
     machine::{Machine, RunError},
     report::{Printer, Report},
+    terminal::{one_line, shown_path},
     written::write_all,
 };
 use crate::{
@@ -50,7 +51,7 @@ pub fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
     let files = written.unwrap_or_default();
     let words = match files.len() {
         0 => String::new(),
-        n => format!("{}: {n} files of {language} written to {}", args.project, folder.display()),
+        n => format!("{}: {n} files of {language} written to {}", one_line(&args.project), shown_path(&folder)),
     };
     let mut printer = Printer::new(args.json);
     let out = folder.display().to_string();

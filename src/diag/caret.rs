@@ -1,8 +1,9 @@
 //! The caret form of a diagnostic: the message, the line it is about, a mark under the place.
 //!
-//! The shape is rustc's, which people know. Plain text only; a terminal front end may colour the first word.
+//! The shape is rustc's, which people know. Plain text only; a terminal front end may colour the first word. Control
+//! characters of the text are escaped, and the mark stays under its place.
 
-use super::{Diagnostic, SourceMap, Span, escaped, indented, one_line};
+use super::{Diagnostic, SourceMap, Span, escape_line, escape_message, is_terminal_control};
 use std::fmt::Write;
 
 /// Every diagnostic in caret form, a blank line between two.
@@ -13,7 +14,7 @@ pub fn render_all(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
 /// One diagnostic in caret form, ending in a line break.
 pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), indented(&escaped(&diagnostic.message)));
+    let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), escape_message(&diagnostic.message));
     let places: Vec<(Span, &str, char)> = diagnostic
         .span
         .iter()
@@ -31,7 +32,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
         excerpt(&mut out, sources, span, message, mark, gutter, &mut last_source);
     }
     for hint in &diagnostic.hints {
-        let _ = writeln!(out, "{:gutter$} = help: {}", "", indented(&escaped(hint)));
+        let _ = writeln!(out, "{:gutter$} = help: {}", "", escape_message(hint));
     }
     out
 }
@@ -54,25 +55,37 @@ fn excerpt(
 ) {
     let (Some(source), Some(at)) = (sources.get(span.source), sources.line_column(span)) else { return };
     let arrow = if last_source.replace(span.source).is_none() { "-->" } else { ":::" };
-    let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", one_line(&source.name), at.line, at.column);
+    let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", escape_line(&source.name), at.line, at.column);
     let (line, start) = line_around(&source.text, span.start as usize);
-    // A tab is drawn as four spaces so that the mark stands under its character in any terminal.
-    let shown_as = |text: &str| escaped(text).replace('\t', "    ");
-    let width = |text: &str| shown_as(text).chars().count();
-    let shown = shown_as(line);
+    let width = |text: &str| shown(text).chars().count();
     let before = width(&line[..start]);
     let length = source.text.get(span.range()).map_or(1, |s| {
         let s = s.split('\n').next().unwrap_or("").trim_end_matches('\r');
         width(&s[..s.floor_char_boundary(MOST_BYTES)])
     });
     let marks = mark.to_string().repeat(length.max(1));
-    let from = if shown.chars().count() > WIDTH { before.saturating_sub(WIDTH / 2) } else { 0 };
-    let part: String = shown.chars().skip(from).take(WIDTH).collect();
+    let line = shown(line);
+    let from = if line.chars().count() > WIDTH { before.saturating_sub(WIDTH / 2) } else { 0 };
+    let part: String = line.chars().skip(from).take(WIDTH).collect();
     let marks: String = marks.chars().take(WIDTH.saturating_sub(before - from).max(1)).collect();
     let _ = writeln!(out, "{:gutter$} |", "");
     let _ = writeln!(out, "{:>gutter$} | {part}", at.line);
-    let line = format!("{:gutter$} | {:pad$}{marks} {}", "", "", one_line(message), pad = before - from);
+    let message = escape_message(message);
+    let line = format!("{:gutter$} | {:pad$}{marks} {message}", "", "", pad = before - from);
     let _ = writeln!(out, "{}", line.trim_end());
+}
+
+/// Returns a part of a line as it is drawn. A tab is four spaces, so that the mark is under its character in any terminal.
+fn shown(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\t' => out.push_str("    "),
+            c if is_terminal_control(c) => out.extend(c.escape_unicode()),
+            c => out.push(c),
+        }
+    }
+    out
 }
 
 /// The line that a place lies in, or of one that is long the part around it, and where in that the place lies.
@@ -116,20 +129,28 @@ mod tests {
     }
 
     #[test]
-    fn control_characters_are_shown_escaped_and_the_mark_stays_under_its_place() {
+    fn the_mark_is_under_its_place_after_controls() {
         let mut sources = SourceMap::default();
-        let id = sources.add("a\u{1b}\nb", "/*\u{1b}]0;x\u{7}*/ bad\n");
-        let place = "/*\u{1b}]0;x\u{7}*/ ".len();
-        let d = Diagnostic::error(Span::new(id, place..place + 3), "\u{9b}2J\nerror: forged");
+        let text = "\u{1b}[2J\t\u{202e}bad\u{7}d\r\n";
+        let id = sources.add("a\u{1b}c\nerror: b.glsl", text);
+        let start = text.find("bad").unwrap();
+        let d = Diagnostic::error(Span::new(id, start..start + 5), "no `\u{9b}31m`\nopenjd_env: A=1")
+            .label(Span::new(id, start..start + 3), "\u{1b}c")
+            .hint("\u{2028}x");
         assert_eq!(
             render(&d, &sources),
             [
-                "error: \\u{9b}2J",
-                "    error: forged",
-                " --> a\\u{1b}\\u{a}b:1:12",
+                "error: no `\\u{9b}31m`",
+                "    openjd_env: A=1",
+                " --> a\\u{1b}c\\u{a}error: b.glsl:1:7",
                 "  |",
-                "1 | /*\\u{1b}]0;x\\u{7}*/ bad",
-                "  |                     ^^^\n",
+                "1 | \\u{1b}[2J    \\u{202e}bad\\u{7}d",
+                "  |                      ^^^^^^^^^",
+                " ::: a\\u{1b}c\\u{a}error: b.glsl:1:7",
+                "  |",
+                "1 | \\u{1b}[2J    \\u{202e}bad\\u{7}d",
+                "  |                      --- \\u{1b}c",
+                "  = help: \\u{2028}x\n",
             ]
             .join("\n")
         );

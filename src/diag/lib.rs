@@ -1,17 +1,18 @@
 //! Diagnostics tell an author what is wrong with a text.
 //!
 //! Owns positions ([`Span`], [`SourceId`]), the texts they point into ([`SourceMap`]), the message itself
-//! ([`Diagnostic`]) and its caret form for a terminal ([`render`]). Knows nothing of GLSL: a span may point into a
+//! ([`Diagnostic`]), its caret form for a terminal ([`render`]), and how a stranger's text is shown there
+//! ([`escape_text`]). Knows nothing of GLSL: a span may point into a
 //! shader, an `eddy.toml` or a JSON file alike. Trouble that is the machine's or ours is an error type of its layer,
 //! never a `Diagnostic`.
 
 mod caret;
-mod escape;
 mod follow;
+mod terminal_text;
 
 pub use caret::{render, render_all};
-pub use escape::{escaped, escaped_json, indented, one_line};
 pub use follow::{follow, follow_line};
+pub use terminal_text::{escape_json, escape_line, escape_message, escape_text, is_terminal_control};
 
 use std::{
     collections::{HashMap, HashSet},

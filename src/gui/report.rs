@@ -3,6 +3,7 @@
 //! One object a line with an `event` member. Nothing is written unless asked for (`--json`).
 
 use super::geometry::Area;
+use crate::diag::escape_json;
 use serde_json::{Value, json};
 use std::{
     collections::BTreeMap,
@@ -35,7 +36,7 @@ impl Report {
         if self.enabled {
             // A reader that went away is no reason to end a person's session.
             let mut out = std::io::stdout().lock();
-            let _ = writeln!(out, "{}", crate::diag::escaped_json(&event.to_string())).and_then(|()| out.flush());
+            let _ = writeln!(out, "{}", escape_json(&event.to_string())).and_then(|()| out.flush());
         }
     }
 

@@ -164,3 +164,29 @@ fn a_plan_counts_what_the_tasks_draw_and_writes_nothing() {
     );
     assert!(b.names("o").is_empty());
 }
+
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_through_links_of_a_folder() {
+    let Some(b) = bench() else { return };
+    let state = "--frames 4 --checkpoint-every 2 --checkpoints to --out o.png";
+    let calls = [
+        (state, "p_000002.eddystate"),
+        ("--out to/", "p.png"),
+        ("--frames 0-3 --overwrite --out to/", "p_0002.png"),
+        ("--frames 0-3 --format apng --out to/", "p.apng"),
+        ("--format exr --out to/", "p.exr"),
+    ];
+    for (arguments, name) in calls {
+        for target in ["../victim", "../gone"] {
+            b.write("victim", "precious");
+            fs::create_dir(b.path("to")).unwrap();
+            std::os::unix::fs::symlink(target, b.path("to").join(name)).unwrap();
+            let run = render(&b, arguments.split(' '));
+            assert_eq!(fs::read_to_string(b.path("victim")).unwrap(), "precious", "{arguments}");
+            assert!(!b.path("gone").exists(), "{arguments}");
+            assert!(run.code != Some(0) && run.err.contains("link"), "{arguments}: {run:?}");
+            fs::remove_dir_all(b.path("to")).unwrap();
+        }
+    }
+}

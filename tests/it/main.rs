@@ -106,6 +106,7 @@ mod sound;
 mod sound_devices;
 #[cfg(all(feature = "audio", target_os = "linux"))]
 mod sound_server;
+#[cfg(unix)]
 mod terminal_output;
 mod thumbnails;
 mod tiles;

@@ -1,164 +1,256 @@
-//! What the command line writes for people holds no control characters, whatever the names and texts of a project hold.
+//! Control characters of a stranger's text never reach the terminal, whichever command says it and wherever it is: in names
+//! of folders and files, keys, values, code and messages. JSON stays JSON.
 
-use crate::support::program::{Bench, Run, run};
-use eddy::cli;
-use std::fs;
+use crate::support::{gpu, program::Bench};
+use eddy::diag::is_terminal_control;
+use std::{fs, process::Stdio};
 
-/// Controls of C0 and C1, an escape sequence that retitles a terminal, marks that turn text round, and a line that a
-/// scheduler would obey.
-const HOSTILE: &str = "\u{1b}]0;own\u{7}\u{9b}2J\u{7f}\u{202e}\u{2066}\u{200f}\u{2028}";
-const FORGED: &str = "x\nopenjd_env: A=1\nerror: forged";
+/// Sequences that a terminal or a reader of lines obeys.
+const CONTROLS: [(&str, &str); 22] = [
+    ("erase", "\u{1b}[2J"),
+    ("title", "\u{1b}]0;OWNED\u{7}"),
+    ("reset", "\u{1b}c"),
+    ("bell", "\u{7}"),
+    ("backspace", "\u{8}"),
+    ("carriage return", "\rFORGED"),
+    ("line break", "\nFORGED: A=1\n"),
+    ("vertical tab", "\u{b}"),
+    ("form feed", "\u{c}"),
+    ("shift out", "\u{e}"),
+    ("delete", "\u{7f}"),
+    ("next line", "\u{85}FORGED"),
+    ("device control string", "\u{90}q"),
+    ("control sequence of 8 bits", "\u{9b}31m"),
+    ("operating system command of 8 bits", "\u{9d}0;OWNED\u{9c}"),
+    ("line separator", "\u{2028}FORGED"),
+    ("paragraph separator", "\u{2029}FORGED"),
+    ("override", "\u{202e}"),
+    ("isolate", "\u{2066}\u{2069}"),
+    ("left-to-right mark", "\u{200e}"),
+    ("right-to-left mark", "\u{200f}"),
+    ("Arabic letter mark", "\u{61c}"),
+];
 
-fn is_unsafe(c: char) -> bool {
-    c.is_control() && c != '\n' && c != '\t'
-        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }\n";
+
+/// Returns the files of a project with the text in one place, and the name of its folder.
+type Place = fn(&str) -> (String, Vec<(String, String)>);
+
+fn code(text: String) -> (String, Vec<(String, String)>) {
+    ("p".into(), vec![("image.glsl".into(), text)])
 }
 
-#[track_caller]
-fn assert_safe(run: &Run, what: &str) {
-    for (stream, text) in [("standard output", &run.out), ("standard error", &run.err)] {
-        let found: Vec<char> = text.chars().filter(|c| is_unsafe(*c)).collect();
-        assert!(found.is_empty(), "{what}: {stream} has {found:?}:\n{}", text.escape_debug());
-        let forged = text.lines().find(|line| line.starts_with("openjd_env") || line.starts_with("error: forged"));
-        assert_eq!(forged, None, "{what}: {stream}:\n{text}");
+/// A project of this `eddy.toml`.
+fn manifest(text: String) -> (String, Vec<(String, String)>) {
+    ("p".into(), vec![("eddy.toml".into(), text), ("image.glsl".into(), IMAGE.into())])
+}
+
+/// Returns a text of TOML.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.chars().map(|c| format!("\\U{:08x}", u32::from(c))).collect::<String>())
+}
+
+const PLACES: [(&str, Place); 24] = [
+    ("folder", |c| (format!("p{c}q"), vec![("image.glsl".into(), IMAGE.into())])),
+    ("folder with an error", |c| (format!("p{c}q"), vec![("image.glsl".into(), "void mainImage() { o = ; }".into())])),
+    ("empty folder", |c| (format!("p{c}q"), Vec::new())),
+    ("unused file", |c| {
+        ("p".into(), vec![("image.glsl".into(), IMAGE.into()), (format!("buffer_{c}.glsl"), "x".into())])
+    }),
+    ("only file", |c| ("p".into(), vec![(format!("im{c}age.glsl"), "int x = nope;".into())])),
+    ("code", |c| code(format!("void mainImage(out vec4 o, in vec2 p) {{ /* {c} */ o = nope; }}"))),
+    ("code before a mistake", |c| code(format!("{c} void mainImage(out vec4 o, in vec2 p) {{ o = nope; }}"))),
+    ("#error", |c| code(format!("#error a{c}b\n{IMAGE}"))),
+    ("#include", |c| code(format!("#include \"a{c}b.glsl\"\n{IMAGE}"))),
+    ("#extension", |c| code(format!("#extension a{c}b : require\n{IMAGE}"))),
+    ("#iUniform", |c| code(format!("#iUniform float a{c}b = 1.0 in {{ 0.0, 1.0 }}\n{IMAGE}"))),
+    ("#iChannel", |c| code(format!("#iChannel0 \"file://a{c}b.png\"\n{IMAGE}"))),
+    ("#pragma and directive", |c| code(format!("#pragma a{c}b\n#bad{c}\n{IMAGE}"))),
+    ("//@ comment", |c| code(format!("//@probe {c}\n//@assert a{c}\n{IMAGE}"))),
+    ("dialect", |c| manifest(format!("dialect = {}\n[passes.image]\n", quoted(c)))),
+    ("key", |c| manifest(format!("{} = 1\n[passes.image]\n", quoted(c)))),
+    ("pass", |c| manifest(format!("[passes.image]\n[passes.{}]\n", quoted(c)))),
+    ("key of a pass", |c| manifest(format!("[passes.image]\n{} = 1\n", quoted(c)))),
+    ("file of a pass", |c| manifest(format!("[passes.image]\nfile = {}\n", quoted(&format!("a{c}.glsl"))))),
+    ("format", |c| manifest(format!("[passes.image]\nformat = {}\n", quoted(c)))),
+    ("input", |c| manifest(format!("[passes.image]\nchannel0 = {{ kind = {} }}\n", quoted(c)))),
+    ("file of an input", |c| {
+        manifest(format!("[passes.image]\nchannel0 = {{ kind = \"texture\", file = {} }}\n", quoted(c)))
+    }),
+    ("uniform", |c| manifest(format!("[passes.image]\n[uniforms]\n{} = {}\n", quoted(c), quoted(c)))),
+    ("damaged manifest", |c| manifest(format!("[passes.image]\nx = {c}\n"))),
+];
+
+/// Returns what is wrong with an output.
+fn leak(bytes: &[u8]) -> Option<String> {
+    let Ok(text) = std::str::from_utf8(bytes) else { return Some("it is not UTF-8".into()) };
+    let is_leak = |c: &char| !matches!(c, '\n' | '\t') && is_terminal_control(*c);
+    if let Some(c) = text.chars().find(is_leak) {
+        return Some(format!("it has {}", c.escape_unicode()));
     }
-    assert!(!run.err.contains("panicked"), "{what}: {}", run.err);
+    text.lines().any(|line| line.starts_with("FORGED")).then(|| "a line is forged".into())
 }
 
-/// Projects with hostile characters in one place each, by what they are. File systems do not allow `/` and NUL alone.
-fn projects(b: &Bench) -> Vec<(String, String)> {
-    let image = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
-    let mut found = Vec::new();
-    let mut add = |what: &str, folder: &str, files: &[(&str, String)]| {
-        for (name, text) in files {
-            b.write(&format!("{folder}/{name}"), text);
+/// Runs Eddy, and returns what is wrong with its output.
+fn leak_of(bench: &Bench, arguments: &[&str]) -> Option<String> {
+    let mut command = bench.command();
+    command.args(arguments).stdin(Stdio::null()).env("XDG_CONFIG_HOME", bench.path("config"));
+    let output = command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
+    let json = arguments.contains(&"--json").then(|| String::from_utf8_lossy(&output.stdout).into_owned());
+    let is_json = |line: &str| serde_json::from_str::<serde_json::Value>(line).is_ok();
+    let broken = json.filter(|json| !json.lines().all(is_json)).map(|_| "a line is not JSON".into());
+    let found = leak(&output.stdout).or_else(|| leak(&output.stderr)).or(broken)?;
+    Some(format!("{arguments:?}: {found}\n{:?}", String::from_utf8_lossy(&[output.stdout, output.stderr].concat())))
+}
+
+/// Writes a project below a folder. Returns its path.
+fn write(bench: &Bench, below: &str, (folder, files): (String, Vec<(String, String)>)) -> String {
+    let path = format!("{below}/{folder}");
+    fs::create_dir_all(bench.path(&path)).unwrap();
+    files.iter().for_each(|(name, text)| fs::write(bench.path(&path).join(name), text).unwrap());
+    path
+}
+
+#[test]
+fn no_control_of_a_project_reaches_the_terminal_wherever_it_is() {
+    let bench = Bench::new();
+    let mut projects = Vec::new();
+    for (n, (_, control)) in CONTROLS.iter().enumerate() {
+        for (m, (_, place)) in PLACES.iter().enumerate() {
+            projects.push(write(&bench, &format!("{n}-{m}"), place(control)));
         }
-        found.push((what.to_owned(), folder.to_owned()));
-    };
-    let toml = |body: &str| format!("eddy = 1\n{body}\n[passes.image]\n");
-    // A string of TOML may not hold controls but as escapes.
-    let escape = r#"\u001b]0;own\u0007\u009b2J\u007f\u202e\u2066\u2028\nopenjd_env: A=1"#;
-    for (what, text) in [
-        ("excerpt", format!("{image}// {HOSTILE}\nfloat x = {HOSTILE} ;\n/*{HOSTILE}*/ float y = true;\n")),
-        ("#error", format!("#error {HOSTILE} text\n{image}")),
-        ("include", format!("#include \"{HOSTILE}.glsl\"\n{image}")),
-        ("pragma", format!("#pragma {HOSTILE}\n#extension {HOSTILE} : enable\n#version {HOSTILE}\n{image}")),
-        ("channel line", format!("#iChannel0 \"file://{HOSTILE}.png\"\n#iChannel1 \"{HOSTILE}\"\n{image}")),
-        ("uniform line", format!("#iUniform float a{HOSTILE} = 1.0\n#iUniform {HOSTILE} b = 2\n{image}")),
-        ("probe", format!("//@probe {HOSTILE}\n//@assert max({HOSTILE}) < 1\n{image}")),
-        ("macro", format!("#define M(a) a{HOSTILE}\nfloat f() {{ return M(1.0); }}\n{image}")),
-    ] {
-        add(what, &format!("text-{}", what.replace(' ', "-")), &[("image.glsl", text)]);
     }
-    for (what, body) in [
-        ("key", format!("\"{escape}\" = 1")),
-        ("dialect", format!("dialect = \"{escape}\"")),
-        ("name", format!("name = \"{escape}\"\nunknown = 1")),
-        ("value", format!("[uniforms]\n\"{escape}\" = \"{escape}\"")),
-        ("control", format!("[controls]\n\"{escape}\" = \"{escape}\"")),
-        ("group", format!("[groups.\"{escape}\"]\npasses = [\"{escape}\"]")),
-        ("pass", format!("[passes.\"{escape}\"]\nfile = \"{escape}\"\nwhen = \"{escape}\"")),
-        ("channel", format!("[passes.buffer_a]\nfile = \"image.glsl\"\nchannels.0 = {{ file = \"{escape}.png\" }}")),
-        ("input", format!("[passes.buffer_a]\nfile = \"image.glsl\"\nchannels.0 = {{ \"{escape}\" = \"{escape}\" }}")),
-        ("raw", format!("# {HOSTILE}\nname = {HOSTILE}")),
-    ] {
-        add(what, &format!("toml-{what}"), &[("eddy.toml", toml(&body)), ("image.glsl", image.into())]);
+    let mut leaks = Vec::new();
+    for option in [None, Some("--json")] {
+        for part in projects.chunks(PLACES.len()) {
+            let part = part.iter().map(String::as_str);
+            let arguments: Vec<&str> = ["check"].into_iter().chain(option).chain(part).collect();
+            leaks.extend(leak_of(&bench, &arguments));
+        }
     }
-    add("folder", &format!("f{HOSTILE}"), &[("image.glsl", format!("{image}bad"))]);
-    add("folder of two lines", FORGED, &[("image.glsl", format!("{image}bad"))]);
-    add("file", "files", &[("image.glsl", image.into()), (&format!("buffer_{HOSTILE}.glsl"), image.into())]);
-    add("file of two lines", "lines", &[("image.glsl", image.into()), (&format!("{FORGED}.glsl"), image.into())]);
-    let json = serde_json::json!({ "ver": "0.1", "info": { "id": HOSTILE, "name": FORGED }, "renderpass": [
-        { "inputs": [{ "id": HOSTILE, "src": HOSTILE, "ctype": HOSTILE, "channel": 0 }], "outputs": [],
-          "code": format!("{HOSTILE} {image}"), "name": HOSTILE, "type": "image" },
-        { "inputs": [], "outputs": [], "code": "", "name": FORGED, "type": HOSTILE } ] });
-    b.write("shader.json", json.to_string());
-    b.write("bad.json", format!("{{\"{HOSTILE}\": {HOSTILE}}}"));
-    b.write("isf.fs", format!("/*{{ \"INPUTS\": [{{\"NAME\": \"{escape}\", \"TYPE\": \"{escape}\"}}] }}*/\n{HOSTILE}"));
-    let files = ["shader.json", "bad.json", "isf.fs"].map(|name| (name.to_owned(), name.to_owned()));
-    found.extend(files);
-    found
+    assert!(leaks.is_empty(), "{} calls leak:\n{}", leaks.len(), leaks.join("\n"));
 }
 
-/// How each command is called on a project; `None` for one that reads no project. A new command is added here.
-fn call(command: &str, project: &str, b: &Bench) -> Option<Vec<String>> {
-    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-    let with = |before: &str, after: &str| Some([words(before), vec![project.to_owned()], words(after)].concat());
+/// Returns the names that a command lists in its help, which clap makes of the definitions.
+fn commands(bench: &Bench, of: &[&str]) -> Vec<String> {
+    let output = bench.command().args(of).arg("--help").output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    let rows = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| line.starts_with("  "));
+    let names = rows.filter(|line| !line.starts_with("   ")).filter_map(|line| line.split_whitespace().next());
+    names.map(str::to_owned).collect()
+}
+
+/// Returns the calls of a command with a project that can be drawn and one that cannot.
+fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Vec<&'a str>> {
+    let small = ["--size", "8x8"];
+    let with = |words: &[&'a str]| words.iter().chain(&small).copied().collect::<Vec<_>>();
     match command {
-        "render" => with("render", "--size 8x8 --out o --overwrite --progress openjd"),
-        "check" => with("check", ""),
-        "bench" => with("bench", "--size 8x8 --frames 2"),
-        "probe" => with("probe", "o --size 8x8"),
-        "trace" => with("trace", "--size 8x8 --pixel 1,1"),
-        "compare" => with("compare", "--with files --size 8x8"),
-        "lab" => Some(vec!["lab".into(), "precision".into(), project.into(), "--size".into(), "8x8".into()]),
-        "import" => with("import", "--out imported --force"),
-        "export" => with("export", "--out out.json --force"),
-        "translate" => with("translate", "--to wgsl --out translated --force"),
-        "list" | "doctor" | "completions" | "man" | "lsp" | "help" | "try-compile" => {
-            let _ = b;
-            None
+        "render" => {
+            // A bar has codes of its own.
+            let call = |style| with(&["render", good, bad, "--out", out, "--progress", style]);
+            let mut all: Vec<_> = ["none", "plain", "openjd"].map(call).into();
+            all.push(with(&["render", good, bad, "--json"]));
+            all.push(with(&["render", good, "--plan"]));
+            all.push(with(&["render", good, "--out", "none/x.png"]));
+            all.push(with(&["render", good, good, "--out", out]));
+            all
         }
-        other => panic!("`eddy {other}` is not called by this test: add how it is called on a project"),
+        "probe" => [good, bad].map(|p| with(&["probe", p, "--at", "image:2:7"])).into(),
+        "trace" => [good, bad].map(|p| with(&["trace", p, "--pixel", "1,1"])).into(),
+        "compare" => vec![with(&["compare", good, good]), with(&["compare", good, bad])],
+        "check" => vec![vec!["check", good, bad], vec!["check", good, "--dump-ir"], vec!["check", "--json", good, bad]],
+        "bench" => vec![with(&["bench", good, bad, "--frames", "1"])],
+        "lab" => vec![vec!["lab", "--list"], vec!["lab", good, "--out", out]],
+        "lab merge" => vec![vec!["lab", "merge", good, "--out", out]],
+        "lab precision" => vec![with(&["lab", "precision", good, bad, "--frames", "1"])],
+        "lab stability" => vec![vec!["lab", "stability", bad]],
+        "list" => vec![vec!["list"]],
+        "import" => vec![vec!["import", good, "--out", out], vec!["import", bad, "--out", good]],
+        "export" => [good, bad].map(|p| vec!["export", p, "--out", "x.html", "--force"]).into(),
+        "translate" => [good, bad].map(|p| vec!["translate", p, "--to", "wgsl", "--force"]).into(),
+        "lsp" => vec![vec!["lsp"]],
+        "doctor" => vec![vec!["doctor"], vec!["doctor", "--json"]],
+        "completions" => vec![vec!["completions", "bash"], vec!["completions", bad]],
+        "man" => vec![vec!["man", "--out", out], vec!["man", "--out", "file\u{1b}[2J/x"]],
+        "help" => vec![vec!["help", bad]],
+        other => panic!("eddy {other} is new: call it here with a hostile project"),
     }
 }
 
 #[test]
-fn no_command_writes_control_characters_of_a_project() {
-    let Some(b) = Bench::with_gpu() else { return };
-    let projects = projects(&b);
-    let commands: Vec<String> =
-        cli::definition().get_subcommands().map(|command| command.get_name().to_owned()).collect();
-    assert!(commands.len() > 10, "{commands:?}");
-    let mut count = 0;
-    for command in &commands {
-        for (what, project) in &projects {
-            let Some(arguments) = call(command, project, &b) else { continue };
-            for json in [false, true] {
-                let takes_json =
-                    cli::definition().find_subcommand(command).unwrap().get_arguments().any(|a| a.get_id() == "json");
-                if json && !takes_json {
-                    continue;
-                }
-                let more = json.then(|| "--json".to_owned());
-                let run = run(b.command().args(arguments.iter().chain(&more)));
-                assert_safe(&run, &format!("{command}, {what}, json: {json}"));
-                count += 1;
+fn no_command_prints_controls_of_a_hostile_project() {
+    let bench = Bench::new();
+    let all: String = CONTROLS.iter().map(|(_, control)| *control).collect();
+    let drawable = "void mainImage(out vec4 o, in vec2 p) {\n  o = vec4(p, 0, 1);\n}\n".to_owned();
+    let good = (format!("good{all}"), vec![("image.glsl".into(), drawable)]);
+    let good = write(&bench, "1", good);
+    let bad = vec![
+        ("image.glsl".into(), format!("#error {all}\n{IMAGE}")),
+        ("eddy.toml".into(), format!("{} = 1", quoted(&all))),
+    ];
+    let bad = write(&bench, "2", (format!("bad{all}"), bad));
+    let out = format!("out{all}");
+    let mut names = commands(&bench, &[]);
+    assert!(names.iter().any(|name| name == "render"), "{names:?}");
+    let of_lab = commands(&bench, &["lab"]).into_iter().filter(|name| name != "help");
+    names.extend(of_lab.map(|name| format!("lab {name}")));
+    let draws = ["render", "probe", "trace", "compare", "bench", "lab", "doctor"];
+    let has_gpu = gpu().is_some();
+    let mut leaks = Vec::new();
+    for name in names {
+        if !has_gpu && draws.iter().any(|command| name.starts_with(command)) {
+            continue;
+        }
+        for call in calls(&name, &good, &bad, &out) {
+            leaks.extend(leak_of(&bench, &call));
+        }
+    }
+    let drawn = fs::read_dir(bench.path(&out)).is_ok_and(|files| files.count() > 0);
+    assert!(drawn || !has_gpu, "the project that can be drawn was not");
+    // Errors of usage repeat what was typed, or what a shell has put there.
+    for call in [vec!["check", "--no\u{1b}[2J"], vec!["\u{9b}31m", "--x"], vec!["render", &good, "--size", &all]] {
+        leaks.extend(leak_of(&bench, &call));
+    }
+    assert!(leaks.is_empty(), "{} calls leak:\n{}", leaks.len(), leaks.join("\n"));
+}
+
+/// Files that write to the streams of the process themselves, and what they write.
+const WRITERS: [(&str, &str); 7] = [
+    ("cli/terminal.rs", "the writer that escapes"),
+    ("cli/leave.rs", "flushes"),
+    ("cli/mod.rs", "the language server's protocol"),
+    ("gui/report.rs", "escaped JSON"),
+    ("playback/trial.rs", "a fixed word"),
+    ("gpu/testing.rs", "tests"),
+    ("glsl/lib.rs", "an example in its docs"),
+];
+
+#[test]
+fn only_the_writer_that_escapes_writes_to_the_terminal() {
+    let mut todo = vec![std::path::PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))];
+    let (mut found, mut seen) = (Vec::new(), 0);
+    while let Some(folder) = todo.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.to_string_lossy().rsplit_once("/src/").unwrap().1.to_owned();
+            if path.is_dir() {
+                todo.extend((!name.ends_with("/examples")).then_some(path));
+                continue;
+            }
+            if !name.ends_with(".rs") || WRITERS.iter().any(|(writer, _)| *writer == name) {
+                continue;
+            }
+            seen += 1;
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap().replace("io::stderr().is_terminal()", "");
+            let words = ["io::stdout()", "io::stderr()", "println!(", "eprint!(", " print!("];
+            let is_of_tests = name.ends_with("/tests.rs")
+                || name.contains("/tests/")
+                || ["gui/editor/cost.rs", "gui/frame/fields.rs"].contains(&&*name);
+            if !is_of_tests && words.iter().any(|word| code.contains(word)) {
+                found.push(name);
             }
         }
     }
-    assert!(count > 200, "{count} runs");
-}
-
-#[test]
-fn arguments_and_missing_files_are_escaped() {
-    let b = Bench::new();
-    for arguments in [
-        vec!["check".to_owned(), format!("--{HOSTILE}")],
-        vec![format!("{HOSTILE}.png")],
-        vec!["render".into(), "--size".into(), HOSTILE.into(), "x".into()],
-        vec!["check".into(), format!("{HOSTILE}/missing.glsl"), FORGED.into()],
-        vec!["render".into(), "x".into(), "--mouse".into(), HOSTILE.into(), "--out".into(), "a.png".into()],
-        vec!["import".into(), FORGED.into(), "--out".into(), HOSTILE.into()],
-    ] {
-        let run = run(b.command().args(&arguments).env("DISPLAY", "").env_remove("WAYLAND_DISPLAY"));
-        assert_safe(&run, &format!("{arguments:?}"));
-    }
-}
-
-#[test]
-#[cfg(unix)]
-fn a_checkpoint_is_not_written_through_a_link_out_of_its_folder() {
-    let Some(b) = Bench::with_gpu() else { return };
-    b.write("p/buffer_a.glsl", "#iChannel0 \"self\"\nvoid mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 0.1; }\n");
-    b.write(
-        "p/image.glsl",
-        "#iChannel0 \"buffer_a\"\nvoid mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n",
-    );
-    b.write("victim", "precious");
-    fs::create_dir(b.path("states")).unwrap();
-    std::os::unix::fs::symlink("../victim", b.path("states/p_000002.eddystate")).unwrap();
-    let run = b.line("render p --size 8x8 --frames 4 --checkpoint-every 2 --checkpoints states --out o.png").expect(2);
-    assert!(run.err.contains("p_000002.eddystate") && run.err.contains("a link leads out of"), "{}", run.err);
-    assert_eq!(b.bytes("victim"), b"precious");
+    assert!(seen > 500, "{seen} files");
+    assert!(found.is_empty(), "use cli/terminal.rs, which escapes control characters, in {found:?}");
 }

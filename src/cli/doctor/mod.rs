@@ -163,9 +163,9 @@ pub fn run(args: &DoctorArgs) -> io::Result<u8> {
     assert!(!args.panic, "`eddy doctor --panic` was called");
     let doctor = Doctor::examine();
     if args.json {
-        terminal::json_line(&doctor)?;
+        terminal::print_json(&doctor)?;
     } else {
-        let mut out = terminal::out();
+        let mut out = terminal::stdout();
         out.write_all(home_as_tilde(&text::of(&doctor)).as_bytes())?;
         out.flush()?;
     }

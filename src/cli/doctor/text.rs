@@ -4,6 +4,7 @@ use super::{
     Answer, Doctor, EncoderLine,
     folders::{FolderLine, FolderState},
 };
+use crate::cli::terminal::one_line;
 use std::fmt::Write;
 
 /// Returns the lines of a report.
@@ -97,7 +98,7 @@ pub fn of(doctor: &Doctor) -> String {
 }
 
 fn line(out: &mut String, name: &str, value: &str) {
-    let _ = writeln!(out, "{}", format!("  {name:<24} {value}").trim_end());
+    let _ = writeln!(out, "{}", format!("  {:<24} {}", one_line(name), one_line(value)).trim_end());
 }
 
 fn listed(names: &[String]) -> String {

@@ -1,16 +1,18 @@
 //! Progress of `eddy render` on standard error: a bar, lines for a log, or lines that a scheduler reads.
 
+mod bar;
 mod estimate;
 mod openjd;
-mod terminal;
 
-use super::report::Report;
-use crate::diag;
+use super::{
+    report::Report,
+    terminal::{self, one_line},
+};
 use estimate::Estimate;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{
     cell::{Cell, RefCell},
-    io::{self, Write},
+    io::Write,
     time::{Duration, Instant},
 };
 
@@ -73,7 +75,7 @@ impl CallProgress {
     pub fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
         let target = match self.style {
             Style::Auto if steps > 1 => ProgressDrawTarget::stderr_with_hz(HERTZ),
-            Style::Bar => terminal::target(HERTZ),
+            Style::Bar => bar::target(HERTZ),
             _ => ProgressDrawTarget::hidden(),
         };
         let bar = ProgressBar::with_draw_target(Some(steps.into()), target);
@@ -81,7 +83,7 @@ impl CallProgress {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
-        bar.set_prefix(diag::one_line(title).into_owned());
+        bar.set_prefix(title.to_owned());
         let now = Instant::now();
         // Where nobody sees a bar, a call that takes hours says so once.
         let estimate = (self.style == Style::Auto && bar.is_hidden()).then(RefCell::default);
@@ -176,8 +178,7 @@ fn words(title: &str, (done, all, unit): (u64, u64, &str), elapsed: Duration) ->
 /// Writes a line at once, so that lines of others do not come between. Nobody is left to tell where standard error is
 /// closed.
 fn say(line: &str) {
-    let line = diag::one_line(line);
-    let _ = io::stderr().lock().write_all(format!("{line}\n").as_bytes());
+    let _ = writeln!(terminal::stderr(), "{}", one_line(line));
 }
 
 #[cfg(test)]

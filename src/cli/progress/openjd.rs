@@ -1,6 +1,8 @@
 //! Lines by which a task tells a scheduler of Open Job Description how it fares: specification 2023-09, "How Jobs Are Run",
 //! section "Stdout/Stderr Messages". Each stands at the beginning of a line, on either stream.
 
+use crate::diag::is_terminal_control;
+
 /// `openjd_progress`, in percent from 0 to 100 of a part from 0 to 1. It is rounded down: 100 is the end.
 pub fn progress(part: f64) -> String {
     format!("openjd_progress: {:.1}", (part.clamp(0.0, 1.0) * 1000.0).floor() / 10.0)
@@ -17,7 +19,7 @@ pub fn fail(why: &str) -> String {
 /// Returns a text without line breaks, so that no part of it is read as a message of its own.
 fn one_line(text: &str) -> String {
     let words: Vec<&str> =
-        text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|w| !w.is_empty()).collect();
+        text.split(|c: char| c.is_whitespace() || is_terminal_control(c)).filter(|w| !w.is_empty()).collect();
     words.join(" ")
 }
 
@@ -35,6 +37,6 @@ mod tests {
     #[test]
     fn a_message_has_one_line() {
         assert_eq!(fail("a.glsl:1\r\nopenjd_env: A=1\n"), "openjd_fail: a.glsl:1 openjd_env: A=1");
-        assert_eq!(status("a  b\u{1b}[2J\u{85}c\u{2028}d"), "openjd_status: a b [2J c d");
+        assert_eq!(status("a  b\u{1b}[2J\u{85}c\u{2028}d\u{202e}e"), "openjd_status: a b [2J c d e");
     }
 }

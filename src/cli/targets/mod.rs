@@ -153,6 +153,16 @@ impl Targets {
         self.place == Output::Pipe
     }
 
+    /// Returns whether files get their names from Eddy, in a folder.
+    pub fn is_folder(&self) -> bool {
+        matches!(self.place, Output::Folder(..))
+    }
+
+    /// Returns how a file is written: links in a folder are not followed.
+    pub fn output(&self, path: PathBuf) -> film::Output {
+        if self.is_folder() { film::Output::Within(path) } else { film::Output::File(path) }
+    }
+
     /// Fails where a file of a folder is a link out of it: nothing is written through such a link.
     pub fn check(&self, path: &Path) -> anyhow::Result<()> {
         if let Output::Folder(folder, _) = &self.place { check_within(folder, path) } else { Ok(()) }

@@ -1,7 +1,8 @@
 //! A bar where standard error is no terminal, as of a remote shell or a viewer of logs that reads control codes.
 
+use crate::cli::terminal::stderr_with_codes;
 use indicatif::{ProgressDrawTarget, TermLike};
-use std::io::{self, Write};
+use std::io;
 
 /// Columns of such a place, which cannot be asked.
 const COLUMNS: u16 = 80;
@@ -17,7 +18,7 @@ pub fn target(hertz: u8) -> ProgressDrawTarget {
 struct StandardError;
 
 fn write(text: &str) -> io::Result<()> {
-    io::stderr().lock().write_all(text.as_bytes())
+    stderr_with_codes(text)
 }
 
 /// Moves the cursor. A count of 0 would mean 1.
@@ -59,6 +60,6 @@ impl TermLike for StandardError {
     }
 
     fn flush(&self) -> io::Result<()> {
-        io::stderr().flush()
+        crate::cli::terminal::flush_stderr()
     }
 }
