@@ -69,7 +69,7 @@ pub enum Next {
 /// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
     let Cli { window, command } = parse().with_guests();
-    let Some(command) = command else { return Next::Window(window.with_project_of_file()) };
+    let Some(mut command) = command else { return Next::Window(window.with_project_of_file()) };
     if matches!(
         command,
         Command::Render(_)
@@ -84,7 +84,7 @@ pub fn main() -> Next {
         quiet::ask_for_no_wayland();
     }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
-    let code = match worker.spawn(move || run(&command)).map(std::thread::JoinHandle::join) {
+    let code = match worker.spawn(move || run(&mut command)).map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         // The panic has said what it had to.
         Ok(Err(_)) => TROUBLE,
@@ -108,8 +108,11 @@ fn parse() -> Cli {
     })
 }
 
-fn run(command: &Command) -> u8 {
-    let result = match command {
+fn run(command: &mut Command) -> u8 {
+    if let Command::Render(args) = command {
+        targets::choose_rate(args);
+    }
+    let result = match &*command {
         Command::Render(args) => {
             let inputs = match args.inputs() {
                 Ok(inputs) => inputs,

@@ -36,7 +36,7 @@ pub fn recorded_sound(
         moments.push(Moment { secs: frame.inputs.time_secs, sound: values.len() - 1 });
     }
     if let Some(speed) = film::speed(&moments, rate).filter(|speed| (speed - 1.0).abs() > OTHER_SPEED) {
-        note(report, other_speed(speed, run.fps));
+        note(report, other_speed(speed, run.fps()));
     }
     let music = film::music(project, media);
     let mut pass = match project.pass(&PassId::Sound) {

@@ -146,6 +146,9 @@ impl Job<'_> {
         if args.shutter.is_some() && offline.has_state()? {
             return Err(blurred_state(&project));
         }
+        if let Some(what) = &args.run.fps_note {
+            note(report, what.clone());
+        }
         let mut mean = Mean::default();
         let first = wanted.first().copied().unwrap_or_default();
         let checkpoints = self.checkpoints(report, (&project, &media), &offline, inputs)?;
@@ -185,7 +188,7 @@ impl Job<'_> {
                 None => pass_over(&mut offline, &args.run)?.millis,
                 Some(shutter) => {
                     let inputs = offline.next_inputs()?;
-                    let secs = shutter / args.run.fps;
+                    let secs = shutter / args.run.fps();
                     let drawn = offline.draw_parts_of(&inputs, args.samples, secs, |offline| {
                         if offline.tiling().is_none() {
                             mean.add(&offline.read(&picture.pass, layer)?);
@@ -376,7 +379,7 @@ impl Job<'_> {
             None => 0.0,
         };
         let (first, count) = (frames[0], frames.len() as u32);
-        let time = FilmTime { first, fps: args.run.fps, count, rate: targets.rate, fade_secs };
+        let time = FilmTime { first, fps: args.run.fps(), count, rate: targets.rate, fade_secs };
         let open = || open_sound_of(machine, report, (project, media), &args.run, inputs.clone());
         film::soundtrack((project, media), &time, open, || Ok(()))
     }

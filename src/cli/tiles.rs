@@ -103,7 +103,7 @@ fn strip(
     let drawn = match (parts, args.shutter) {
         (Some(inputs), Some(shutter)) => {
             let mut mean = Mean::default();
-            offline.draw_parts_of(inputs, args.samples, shutter / args.run.fps, |offline| {
+            offline.draw_parts_of(inputs, args.samples, shutter / args.run.fps(), |offline| {
                 mean.add(&offline.draw_strip(rows.clone())?);
                 Ok::<_, OfflineError>(())
             })?;

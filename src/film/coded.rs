@@ -60,8 +60,10 @@ impl Coded {
             Codec::H264 => &["libx264"],
             Codec::H265 => &["libx265"],
             Codec::Vp9 => &["libvpx-vp9"],
-            // SVT-AV1 is several times as fast, and has 4:2:0 of at least 64x64 pixels alone.
-            Codec::Av1 if is_420 && size.0.min(size.1) >= 64 => &["libsvtav1", "libaom-av1"],
+            // SVT-AV1 is several times as fast, and has only 4:2:0 of even sides of at least 64 pixels.
+            Codec::Av1 if is_420 && size.0.min(size.1) >= 64 && size.0 % 2 == 0 && size.1 % 2 == 0 => {
+                &["libsvtav1", "libaom-av1"]
+            }
             Codec::Av1 => &["libaom-av1"],
             Codec::ProRes => &["prores_ks"],
             Codec::Ffv1 => &["ffv1"],
@@ -220,8 +222,12 @@ impl Coded {
         all
     }
 
-    /// Fails for a size that the encoder does not take.
+    /// Fails for a size that the format does not have. VP9 and AV1 have frames of any size, with the half of an odd side
+    /// rounded up (VP9 Bitstream Specification, section 7.2.6; AV1 Bitstream Specification, section 5.9.5).
     pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), FilmError> {
+        if matches!(self.codec, Codec::Vp9 | Codec::Av1) {
+            return Ok(());
+        }
         let PixelFormat::Yuv(format) = self.pixels else { return Ok(()) };
         let (across, down) = format.halves();
         let is_odd = (across && width % 2 == 1) || (down && height % 2 == 1);

@@ -8,6 +8,7 @@ use super::{
     queue::{Shape, Sink},
     rate::Rate,
     rgb,
+    values::Format,
 };
 use eddy_engine::Pixels;
 use eddy_project::Staged;
@@ -16,9 +17,6 @@ use std::{
     ffi::OsString,
     path::{Path, PathBuf},
 };
-
-/// The most frames per second: browsers show no frame for less than two hundredths of a second.
-const FASTEST: f64 = 50.0;
 
 /// A film whose frames are kept until its palette is known.
 pub struct Gif {
@@ -57,7 +55,7 @@ impl Gif {
 /// Fails for a rate that browsers do not show.
 pub fn check_rate(rate: Rate) -> Result<(), FilmError> {
     match rate.per_second() {
-        fps if fps > FASTEST => Err(FilmError::GifRate(fps)),
+        fps if Format::Gif.fastest().is_some_and(|fastest| fps > fastest) => Err(FilmError::GifRate(fps)),
         _ => Ok(()),
     }
 }

@@ -39,6 +39,25 @@ impl Rate {
         (last.0 > 0 && last.1 > 0).then_some(Rate { numerator: last.0 as u32, denominator: last.1 as u32 })
     }
 
+    /// Reads frames per second as a number or as a ratio, as in `24000/1001`. The rounded numbers by which the rates of NTSC
+    /// are known, such as 23.976 and 29.97, mean those rates.
+    pub fn parse(text: &str) -> Option<f64> {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        let fps = match text.split_once('/') {
+            Some((numerator, denominator)) => number(numerator)? / number(denominator)?,
+            None => number(text)?,
+        };
+        let fps = match text.trim() {
+            "23.976" | "23.98" => 24_000.0 / 1001.0,
+            "29.97" => 30_000.0 / 1001.0,
+            "47.952" | "47.95" => 48_000.0 / 1001.0,
+            "59.94" => 60_000.0 / 1001.0,
+            "119.88" => 120_000.0 / 1001.0,
+            _ => fps,
+        };
+        (fps.is_finite() && fps > 0.0).then_some(fps)
+    }
+
     pub fn per_second(self) -> f64 {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
@@ -52,6 +71,23 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rates_are_read_as_numbers_and_as_ratios() {
+        for (text, right) in [
+            ("24000/1001", 24_000.0 / 1001.0),
+            ("23.976", 24_000.0 / 1001.0),
+            (" 29.97 ", 30_000.0 / 1001.0),
+            ("60000 / 1001", 60_000.0 / 1001.0),
+            ("12.5", 12.5),
+            ("60", 60.0),
+        ] {
+            assert_eq!(Rate::parse(text), Some(right), "{text}");
+        }
+        for text in ["1/0", "0/1", "-1/2", "1/2/3", "a/b", "/", "", "nan", "inf", "0", "inf/inf"] {
+            assert_eq!(Rate::parse(text), None, "{text}");
+        }
+    }
 
     #[test]
     fn rates_are_simple_ratios() {

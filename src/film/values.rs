@@ -48,6 +48,12 @@ impl Format {
         }
     }
 
+    /// Returns the most frames per second that the format has, where that is less than any film asks for. Browsers show no frame
+    /// of a GIF for less than two hundredths of a second.
+    pub fn fastest(self) -> Option<f64> {
+        (self == Format::Gif).then_some(50.0)
+    }
+
     /// Returns the format of a name, whatever the case of its letters.
     pub fn of_name(name: &str) -> Option<Format> {
         Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))

@@ -102,7 +102,7 @@ fn a_film_says_its_colours_and_its_rate() {
     b.line("render card.glsl --size 64x36 --frames 2 --out small.mp4 --codec av1").expect(0);
     for (film, more, codec, pixels, range, rate) in [
         ("a.mp4", "", "h264", "yuv420p", "tv", "60/1"),
-        ("b.mp4", "--codec h265 --depth 10 --fps 29.97", "hevc", "yuv420p10le", "tv", "2997/100"),
+        ("b.mp4", "--codec h265 --depth 10 --fps 29.97", "hevc", "yuv420p10le", "tv", "30000/1001"),
         ("c.webm", "--range full --fps 25", "vp9", "yuv420p", "pc", "25/1"),
         ("d.mp4", "--codec av1", "av1", "yuv420p", "tv", "60/1"),
         ("e.mov", "--fps 24", "prores", "yuv422p10le", "tv", "24/1"),
@@ -281,6 +281,37 @@ fn frames_go_through_a_pipe() {
         assert_eq!((run.out.trim(), run.err.as_str()), ("0", ""));
         assert_eq!(b.bytes("short").len(), 100);
     }
+}
+
+#[test]
+fn films_of_vp9_and_av1_have_odd_sizes() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    b.image("plain.glsl", "fragColor = vec4(0.25, 0.5, 0.75, 1.0);");
+    for (name, more, [width, height]) in [
+        ("a.webm", "", [161, 91]),
+        ("b.webm", "--codec av1", [161, 91]),
+        ("c.mp4", "--codec av1 --depth 10", [67, 128]),
+        ("d.webm", "--chroma 444", [63, 35]),
+        ("e.webm", "", [1, 1]),
+    ] {
+        b.line(&format!("render plain.glsl --size {width}x{height} --frames 2 --out {name} {more}")).expect(0);
+        let stream = &probed(&b.path(name))["streams"][0];
+        assert_eq!((&stream["width"], &stream["height"]), (&width.into(), &height.into()), "{name}");
+        let bytes = decoded_by(&b.path(name), "");
+        assert_eq!(bytes.len(), 2 * 3 * width * height, "{name}");
+        // The last column and row have a chroma sample of their own.
+        let off =
+            bytes.chunks_exact(3).map(|p| p[0].abs_diff(64).max(p[1].abs_diff(128)).max(p[2].abs_diff(191))).max();
+        assert!(off <= Some(3), "{name}: {off:?}");
+    }
+    b.line("render plain.glsl --size 161x91 --frames 3 --out a.gif").expect(0);
+    let stream = &probed(&b.path("a.gif"))["streams"][0];
+    assert_eq!((&stream["avg_frame_rate"], &stream["width"]), (&"50/1".into(), &161.into()));
+    let line = "render plain.glsl --frames 3 --out a.gif --json";
+    assert!(b.line(line).expect(0).out.contains("a GIF has at most 50 frames per second"));
+    // A refusal comes before the project is read.
+    let odd = b.line("render nothing-here.glsl --size 161x91 --frames 3 --out a.mp4").expect(2);
+    assert!(odd.err.contains("even width and height, not 161x91"), "{}", odd.err);
 }
 
 #[test]

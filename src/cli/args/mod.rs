@@ -283,7 +283,7 @@ mod tests {
         assert_eq!(r.run.frame_timeout, Some(Duration::from_millis(500)));
         assert!(parse("eddy fluid --paused").unwrap().window.paused);
         assert_eq!(r.project, ["a", "b"]);
-        assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(Frames::Count(9)), 30.0));
+        assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(Frames::Count(9)), Some(30.0)));
         assert_eq!((r.pass.pass.key(), r.style.format), ("buffer_b".into(), Some(Format::Npy)));
         assert_eq!(FrameList::joined(&r.at).unwrap().numbers(), [0, 4, 8]);
         assert_eq!(r.pass.target, 0);

@@ -16,6 +16,9 @@ use clap::Args;
 use jiff::civil::DateTime;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
+/// Frames per second of iTime where nobody asked for a rate.
+pub const DEFAULT_FPS: f64 = 60.0;
+
 /// Says how frames are drawn, wherever frames are drawn.
 #[derive(Clone, Debug, Args)]
 pub struct RunArgs {
@@ -25,9 +28,12 @@ pub struct RunArgs {
     /// Resolution of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
     pub size: (u32, u32),
-    /// Frames per second of iTime
-    #[arg(long, value_name = "N", default_value = "60", value_parser = fps, allow_hyphen_values = true)]
-    pub fps: f64,
+    /// Frames per second of iTime, as in 25, 29.97 or 24000/1001 [default: 60; for a GIF 50, the most that it can have]
+    #[arg(long, value_name = "N", value_parser = fps, allow_hyphen_values = true)]
+    pub fps: Option<f64>,
+    /// Says that the format of the film decided the rate.
+    #[arg(skip)]
+    pub fps_note: Option<String>,
     /// Mouse events by frame, in pixels of the picture from the bottom left: "0:down 40,40; 4:move 80,45; 10:up"
     #[arg(long, value_name = "SCRIPT", default_value = "")]
     pub mouse: String,
@@ -97,11 +103,16 @@ impl RunArgs {
         self.inputs()
     }
 
+    /// Returns the frames per second of iTime.
+    pub fn fps(&self) -> f64 {
+        self.fps.unwrap_or(DEFAULT_FPS)
+    }
+
     /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
     pub fn inputs(&self) -> Result<ScriptedInputs, String> {
         let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
         let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;
-        Ok(ScriptedInputs::new(self.fps)
+        Ok(ScriptedInputs::new(self.fps())
             .with_mouse(mouse)
             .with_keys(keys)
             .with_date(self.date)

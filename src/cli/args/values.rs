@@ -1,7 +1,7 @@
 //! Values of options, as a person writes them.
 
 use crate::{
-    film::{Chroma, Codec, ColorRange, Format, Quality},
+    film::{Chroma, Codec, ColorRange, Format, Quality, Rate},
     playback::{capture, recording::Recording, shard::Shard},
     project::PassId,
     texture::Face,
@@ -185,10 +185,7 @@ pub fn osc(text: &str) -> Result<SocketAddr, String> {
 }
 
 pub fn fps(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(fps) if fps.is_finite() && fps > 0.0 => Ok(fps),
-        _ => Err("frames per second must be a number above 0".into()),
-    }
+    Rate::parse(text).ok_or_else(|| "frames per second must be a number above 0, or a ratio as in 24000/1001".into())
 }
 
 #[cfg(test)]

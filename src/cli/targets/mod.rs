@@ -59,6 +59,19 @@ enum Output {
     Folder(PathBuf, Vec<String>),
 }
 
+/// Chooses the rate of a film whose format does not have the default one, where the call does not ask for a rate. What is
+/// wrong with the call is reported by [`Targets::of`].
+pub fn choose_rate(args: &mut RenderArgs) {
+    let Ok((format, _)) = place(args) else { return };
+    let (Some(fastest), Ok(asked)) = (format.fastest(), frames::of(args, !format.is_still())) else { return };
+    if args.run.fps.is_none() && args.run.fps() / f64::from(asked.step) > fastest {
+        args.run.fps = Some(fastest * f64::from(asked.step));
+        let name = format.name().to_uppercase();
+        args.run.fps_note =
+            Some(format!("a {name} has at most {fastest} frames per second: drawn as with --fps {}", args.run.fps()));
+    }
+}
+
 impl Targets {
     /// Err: what was asked for cannot be meant.
     pub fn of(args: &RenderArgs) -> Result<Targets, String> {
@@ -67,7 +80,7 @@ impl Targets {
         let (format, place) = place(args)?;
         let encoding = args.style.of(format).resolve()?;
         let asked = frames::of(args, !format.is_still())?;
-        let rate = args.run.fps / f64::from(asked.step);
+        let rate = args.run.fps() / f64::from(asked.step);
         let rate = Rate::of(rate).ok_or_else(|| film::FilmError::Rate(rate).to_string());
         let rate = if format.is_still() { rate.unwrap_or(Rate { numerator: 60, denominator: 1 }) } else { rate? };
         if let Encoding::Film(encoding) = &encoding {
@@ -123,6 +136,7 @@ impl Targets {
             Output::Folder(folder, _) => make_folder("--out", folder)?,
         }
         if self.place != Output::Nowhere {
+            film::check_size(&self.encoding, size)?;
             film::check_tools(&self.encoding, size, &Tools::default())?;
         }
         Ok(())

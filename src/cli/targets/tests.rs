@@ -4,7 +4,10 @@ use clap::Parser;
 
 fn targets(line: &str) -> Result<Targets, String> {
     match Cli::parse_from(["eddy", "render"].into_iter().chain(line.split(' '))).command {
-        Some(Command::Render(args)) => Targets::of(&args),
+        Some(Command::Render(mut args)) => {
+            choose_rate(&mut args);
+            Targets::of(&args)
+        }
         _ => unreachable!(),
     }
 }
@@ -88,6 +91,12 @@ fn a_film_shows_a_step_at_its_own_rate() {
     let rate = |line| targets(line).unwrap().rate.per_second();
     assert_eq!(rate("a --out x.mp4 --frames 9"), 60.0);
     assert_eq!(rate("a --out x.mp4 --frames 0-9:2 --fps 25"), 12.5);
+    assert_eq!(rate("a --out x.mp4 --frames 9 --fps 24000/1001"), 24_000.0 / 1001.0);
+    // A GIF has no 60 frames per second: it gets the most that it can have, unless a rate is asked for.
+    assert_eq!(rate("a --out x.gif --frames 9"), 50.0);
+    assert_eq!(rate("a --out o --format gif --frames 9"), 50.0);
+    assert_eq!(rate("a --out x.gif --frames 0-9:2"), 30.0);
+    assert_eq!(rate("a --out x.gif --frames 9 --fps 24"), 24.0);
     assert_eq!(rate("a --out x.gif --frames 0-9:3"), 20.0);
 }
 
@@ -107,7 +116,7 @@ fn no_file_is_written_over_another_of_the_same_call_and_nonsense_is_refused() {
         ("a --out x.mp4 --frames 0-9 --shard 0/2", "as a whole"),
         ("a --out o --frames 9 --shard 0/2", "--frames 0-599"),
         ("a --out o --frames 0-9 --at 2", "leave one of them out"),
-        ("a --out x.gif --frames 9", "50, 33.3, 25 or 20"),
+        ("a --out x.gif --frames 9 --fps 60", "50, 33.3, 25 or 20"),
         ("a --out x.webm --frames 9 --codec prores", "use vp9 or av1"),
         ("a --out x.png --depth 10", "8 or 16"),
         ("a --out o --frames 0-9 --loop 1", "--loop is for films"),

@@ -66,6 +66,15 @@ pub fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
 }
 
 /// Returns the name of a field for scripts.
+/// Returns the rate, or the most that a format has where the default rate is faster. A rate that a person wrote is kept, and
+/// an error at its field says what is wrong with it.
+fn fitting_rate(format: Format, fps: &str) -> String {
+    match format.fastest() {
+        Some(fastest) if fps == FilmForm::default().fps => fastest.to_string(),
+        _ => fps.to_owned(),
+    }
+}
+
 fn name(field: FilmField) -> String {
     format!("{field:?}").to_lowercase()
 }
@@ -146,7 +155,8 @@ pub fn show(
             let has_codecs = !Style::codecs(format).is_empty();
             let quality = if has_codecs { form.quality.clone() } else { String::new() };
             let fade = if format.is_still() { String::new() } else { form.fade.clone() };
-            form = FilmForm { format, codec, quality, fade, ..form.clone() };
+            let fps = fitting_rate(format, &form.fps);
+            form = FilmForm { format, codec, quality, fade, fps, ..form.clone() };
         }
     });
     let codecs = Style::codecs(form.format);

@@ -329,6 +329,7 @@ impl FilmForm {
     pub fn of_options(text: &str) -> Result<FilmForm, String> {
         let mut form = FilmForm { size: String::new(), ..FilmForm::default() };
         let mut words = text.split_whitespace();
+        let mut has_rate = false;
         while let Some(option) = words.next() {
             if option == "--no-audio" {
                 form.with_sound = false;
@@ -339,7 +340,7 @@ impl FilmForm {
             match option {
                 "--frames" => form.range = value()?,
                 "--size" => form.size = value()?,
-                "--fps" => form.fps = value()?,
+                "--fps" => (form.fps, has_rate) = (value()?, true),
                 "--format" => {
                     let name = value()?;
                     form.format = Format::of_name(&name).ok_or_else(|| format!("has an unknown format, {name}"))?;
@@ -356,6 +357,9 @@ impl FilmForm {
                     ));
                 }
             }
+        }
+        if let Some(fastest) = form.format.fastest().filter(|_| !has_rate) {
+            form.fps = fastest.to_string();
         }
         Ok(form)
     }
@@ -383,8 +387,7 @@ fn fitting(encoding: &Encoding, size: (u32, u32)) -> (u32, u32) {
 }
 
 fn read_fps(text: &str) -> Result<f64, String> {
-    let fps = text.trim().parse::<f64>().ok().filter(|fps| fps.is_finite() && *fps > 0.0);
-    let fps = fps.ok_or("write frames per second, as in 60 or 29.97")?;
+    let fps = Rate::parse(text).ok_or("write frames per second, as in 60, 29.97 or 24000/1001")?;
     Rate::of(fps).map(|_| fps).ok_or_else(|| FilmError::Rate(fps).to_string())
 }
 
