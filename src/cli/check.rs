@@ -10,9 +10,9 @@ use super::{
 use crate::{
     diag::{self, Diagnostic},
     engine::{self, CompiledPass},
-    glsl::Driver,
+    glsl::{Driver, PassKind, PassSource, Text, services::Analysis},
     media,
-    project::{self, Dialect, Project, ghostty, xscreensaver},
+    project::{self, Dialect, Origin, Project, ShaderForm, ghostty, xscreensaver},
 };
 use std::{
     io::{self, Write},
@@ -48,6 +48,11 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     let project = &loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(project));
     let began = Instant::now();
+    if let Some(found) = check_plain(project) {
+        report.diagnose(&found, &project.sources(), Some(project));
+        report.compile_ms = Some(millis_since(began));
+        return Ok(());
+    }
     let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
     let (mut found, compiled) = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
@@ -68,6 +73,18 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     found.extend(project::advice(project).into_iter().filter(is_new));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())
+}
+
+/// Returns what the compiler says of a plain shader, as the language server does; `None` for other files.
+fn check_plain(project: &Project) -> Option<Vec<Diagnostic>> {
+    let (Origin::File(path), [pass]) = (&project.origin, project.passes.as_slice()) else { return None };
+    let kind = match ShaderForm::of(path, &pass.source.text) {
+        ShaderForm::PlainVertex => PassKind::PlainVertex,
+        ShaderForm::PlainFragment => PassKind::PlainFragment,
+        ShaderForm::Shadertoy | ShaderForm::Isf => return None,
+    };
+    let text = Text { id: Project::pass_id(0), text: &pass.source.text };
+    Some(Analysis::new(&PassSource::new(kind, text)).diagnostics().to_vec())
 }
 
 /// The intermediate representation of every pass that compiles.

@@ -196,6 +196,13 @@ const DIALECTS: &[Dialect] = &[
              and iResolution.xy for r",
         ],
     },
+    // The last: others have a version and a `main` as well.
+    Dialect {
+        is: "a plain fragment shader, with a version and a `main` of its own",
+        any: &["#version"],
+        all: &["main"],
+        mends: &[ENTRY, "delete the lines of `#version`, `in` and `out`"],
+    },
 ];
 
 const ISF: &[&str] = &[
@@ -267,6 +274,9 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         let is = DIALECTS.first().map_or("an ISF shader", |isf| isf.is);
         return Some(named(is, span(range.start, range.len()), ISF));
     }
+    if let Some(hook) = mpv_hook(source.code.text) {
+        return Some(named("a shader of mpv", span(hook.start, hook.len()), &[ENTRY, PICTURE]).hint(SLIDER));
+    }
     let dialect = DIALECTS.iter().find_map(|dialect| {
         let at = dialect.any.iter().filter_map(|word| Some((words.place(word)?, word.len()))).min()?;
         dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
@@ -289,6 +299,16 @@ fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
     let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
     let begin = code.text.len() - text.len();
     is_isf.then(|| begin..begin + text.lines().next().map_or(0, str::len))
+}
+
+/// Returns the first `//!HOOK` line, which every shader of mpv has: the names of its functions come from it.
+fn mpv_hook(text: &str) -> Option<std::ops::Range<usize>> {
+    let mut start = 0;
+    text.split_inclusive('\n').find_map(|line| {
+        let range = start..start + line.trim_end().len();
+        start += line.len();
+        line.starts_with("//!HOOK").then_some(range)
+    })
 }
 
 /// A text without its comments.
@@ -340,7 +360,7 @@ mod tests {
         glsl::diagnose(&source).into_iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect()
     }
 
-    const OTHERS: [(&str, &str); 22] = [
+    const OTHERS: [(&str, &str); 24] = [
         ("an ISF shader", "/*{ \"ISFVSN\": \"2\", \"INPUTS\": [] }*/\nvoid main() { gl_FragColor = vec4(level); }"),
         ("an ISF shader", "void main() { gl_FragColor = IMG_NORM_PIXEL(inputImage, isf_FragNormCoord); }"),
         ("WGSL", "@fragment\nfn main(@location(0) uv: vec2<f32>) -> @location(0) vec4<f32> { return vec4<f32>(1.0); }"),
@@ -357,6 +377,14 @@ mod tests {
         (
             "RetroArch",
             "#if defined(VERTEX)\nCOMPAT_ATTRIBUTE vec4 a;\n#else\nCOMPAT_VARYING vec2 b;\n#endif\nvoid main(){}",
+        ),
+        (
+            "a plain fragment shader",
+            "#version 300 es\nprecision highp float;\nout vec4 o;\nvoid main() { o = vec4(1.0); }",
+        ),
+        (
+            "mpv",
+            "// a licence\n\n//!DESC double\n//!HOOK MAIN\n//!BIND MAIN\nvec4 hook() { return MAIN_texOff(vec2(0.0)); }",
         ),
         ("mpv", "//!HOOK LUMA\nvec4 hook() { return HOOKED_tex(HOOKED_pos); }"),
         ("TouchDesigner", "out vec4 c;\nvoid main() { c = TDOutputSwizzle(texture(sTD2DInputs[0], vUV.st)); }"),

@@ -104,6 +104,17 @@ impl Dialect {
         self == Dialect::Isf
     }
 
+    /// `#version` and `#extension` may come after what the host puts before a text, and mean nothing there. GLSL ES 1.00
+    /// wants extensions first (section 3.4), and browsers warn where they are not.
+    pub(crate) fn ignores_late_directives(self) -> bool {
+        self == Dialect::Isf
+    }
+
+    /// `#extension` may come after declarations: GLSL 4.30 (section 3.3) wants it first only where the extension says so.
+    pub(crate) fn has_late_extensions(self) -> bool {
+        self == Dialect::Ghostty
+    }
+
     /// Returns what stands before the text, for messages.
     pub(crate) fn header(self) -> &'static str {
         match self {

@@ -14,7 +14,6 @@ mod hints;
 mod hover;
 mod messages;
 mod navigation;
-mod plain;
 mod positions;
 mod program;
 mod published;

@@ -1,6 +1,6 @@
 //! A project, or one plain stage, as it is with the editor's texts: what stands where, what it means and what is wrong.
 
-use super::{documents::Documents, plain};
+use super::documents::Documents;
 use eddy_diag::{self as diag, Diagnostic, Fix, SourceId, SourceMap, Span};
 use eddy_engine::{KeptAnalyses, Sources, StageAnalysis};
 use eddy_glsl::{
@@ -8,7 +8,9 @@ use eddy_glsl::{
     services::{Analysis, Programs},
 };
 use eddy_media as media;
-use eddy_project::{self as project, Channel, EditedTexts, PassId, PassSettings, Project, ProjectError, Stage};
+use eddy_project::{
+    self as project, Channel, Dialect, EditedTexts, PassId, PassSettings, Project, ProjectError, ShaderForm, Stage,
+};
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
@@ -96,7 +98,7 @@ impl Program {
         (self.is_stale, self.is_untold) = (false, true);
         let text = documents.get(self.root.path()).map(|document| document.text.clone());
         if let (Root::File(path), Some(text)) = (&self.root, text)
-            && let Some(kind) = plain::stage(path, &text)
+            && let Some(kind) = plain_kind(path, &text)
         {
             let texts = vec![(path.clone(), text, kind)];
             self.take_alone(texts);
@@ -110,7 +112,7 @@ impl Program {
                 let here = documents.iter().filter(|document| document.path.starts_with(around));
                 let is_text = |path: &Path| !project::is_manifest(path);
                 let alone = here.filter(|document| is_text(&document.path)).map(|document| {
-                    let kind = plain::stage(&document.path, &document.text).unwrap_or(PassKind::Image);
+                    let kind = plain_kind(&document.path, &document.text).unwrap_or(PassKind::Image);
                     (document.path.clone(), document.text.clone(), kind)
                 });
                 let alone: Vec<_> = match &self.root {
@@ -139,8 +141,12 @@ impl Program {
         let own = own.chain(project.passes.iter().map(|pass| Some(&pass.source)));
         let own = own.chain(project.stages().map(|(_, stage)| Some(stage))).chain(includes.map(Some));
         let base = self.root.base().to_owned();
+        // The texts around an ISF file are Eddy's, and in no file.
+        let is_generated = |s: &project::Source| project.dialect == Dialect::Isf && s.path.is_none();
         let file = |source: Option<&project::Source>| {
-            source.map_or_else(PathBuf::new, |s| s.path.clone().unwrap_or_else(|| base.join(&s.name)))
+            source
+                .filter(|s| !is_generated(s))
+                .map_or_else(PathBuf::new, |s| s.path.clone().unwrap_or_else(|| base.join(&s.name)))
         };
         let mut paths: Vec<PathBuf> = own.map(file).collect();
         let beside = sources.iter().skip(paths.len()).map(|(_, text)| base.join(&text.name));
@@ -307,9 +313,24 @@ impl Program {
     pub fn is_whole(&self) -> bool {
         match &self.root {
             Root::Folder(_) => true,
-            Root::File(path) => self.id_of(path).is_some_and(|id| plain::has_entry(self.text(id))),
+            Root::File(path) => self.id_of(path).is_some_and(|id| has_entry(self.text(id))),
         }
     }
+}
+
+/// Returns the kind of a plain shader.
+fn plain_kind(path: &Path, text: &str) -> Option<PassKind> {
+    match ShaderForm::of(path, text) {
+        ShaderForm::PlainVertex => Some(PassKind::PlainVertex),
+        ShaderForm::PlainFragment => Some(PassKind::PlainFragment),
+        ShaderForm::Shadertoy | ShaderForm::Isf => None,
+    }
+}
+
+/// Returns whether a text is a pass of its own rather than one that others include.
+fn has_entry(text: &str) -> bool {
+    let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    words.any(|word| matches!(word, "mainImage" | "mainSound" | "mainCubemap" | "main"))
 }
 
 /// Reads a text of no project.
@@ -317,7 +338,60 @@ fn alone(kind: PassKind, id: SourceId, text: &str) -> Analysis {
     Analysis::new(&PassSource::new(kind, Text { id, text }))
 }
 
-/// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone.
+/// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone. The vertex
+/// shader of an ISF file is read with that.
 pub(crate) fn root_of(path: &Path, edited: &EditedTexts) -> Root {
-    project::project_of(path, edited).map_or_else(|| Root::File(path.to_owned()), Root::Folder)
+    let file = || Root::File(project::isf_of_vertex_shader(path, edited).unwrap_or_else(|| path.to_owned()));
+    project::project_of(path, edited).map_or_else(file, Root::Folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// Returns the errors and warnings of an ISF file that an editor has open.
+    fn said(text: &str) -> Vec<String> {
+        let item = json!({"uri": "file:///nowhere/a.fs", "languageId": "glsl", "version": 1, "text": text});
+        let mut documents = Documents::default();
+        let path = documents.open(serde_json::from_value(item).expect("a document"));
+        let mut program = Program::new(Root::File(path));
+        program.read(&documents);
+        program.diagnostics().into_iter().map(|d| d.message).collect()
+    }
+
+    #[test]
+    fn valid_isf_has_no_message() {
+        let header = r#"/*{"INPUTS": [{"NAME": "a", "TYPE": "float", "DEFAULT": true}]}*/"#;
+        for text in [
+            "void main() { gl_FragColor = vec4(a, isf_FragNormCoord, fract(TIME)); }",
+            "#extension GL_OES_standard_derivatives : enable\nvoid main() { gl_FragColor = vec4(fwidth(gl_FragCoord.x)); }",
+            "#version 120\nvoid main() { gl_FragColor = vec4(RENDERSIZE, DATE.xy); }",
+        ] {
+            assert_eq!(said(&format!("{header}\n{text}")), [""; 0], "{text}");
+        }
+        assert_eq!(said("/*{}*/\nvoid main() { gl_FragColor = vec4(1.0); }"), [""; 0]);
+    }
+
+    #[test]
+    fn a_broken_header_is_one_message() {
+        let text = r#"/*{"INPUTS": [{"NAME": "a", "TYPE": "float"}]*/ void main() { gl_FragColor = vec4(a); }"#;
+        assert_eq!(said(text).len(), 1);
+    }
+
+    #[test]
+    fn names_of_isf_are_free_for_macros_and_declarations() {
+        for text in [
+            "#define TIME 0.2 * TIME\nvoid main() { gl_FragColor = vec4(fract(TIME)); }",
+            "#define RENDERSIZE vec2(640.0, 360.0)\nvoid main() { gl_FragColor = vec4(RENDERSIZE, 0.0, 1.0); }",
+            "#define iTime TIME\nvoid main() { gl_FragColor = vec4(fract(TIME), fract(iTime), 0.0, 1.0); }",
+            "#define iResolution vec3(RENDERSIZE, 1.0)\nvoid main() { gl_FragColor = vec4(iResolution, RENDERSIZE.x); }",
+            "float f(float TIME) { return TIME; }\n\
+             void main() { vec4 DATE = vec4(0.25); int PASSINDEX = 1; gl_FragColor = vec4(f(0.5), DATE.xy, PASSINDEX); }",
+            "struct S { float TIME; vec2 RENDERSIZE; };\n\
+             void main() { S s; s.TIME = 0.5; s.RENDERSIZE = vec2(0.25); gl_FragColor = vec4(s.TIME, s.RENDERSIZE, 1.0); }",
+        ] {
+            assert_eq!(said(&format!("/*{{\"CREDIT\": \"\"}}*/\n{text}")), [""; 0], "{text}");
+        }
+    }
 }

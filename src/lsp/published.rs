@@ -87,10 +87,11 @@ pub(crate) fn publish(
         lists.insert(document.uri.clone(), Vec::new());
     }
     for diagnostic in &said {
-        let path = match diagnostic.span {
-            Some(span) => program.path_of(span.source),
-            None => program.main_path(),
-        };
+        let placed = diagnostic.span.and_then(|span| program.path_of(span.source));
+        // One in a text that is in no file is told at the beginning of the main one.
+        let unplaced = Diagnostic { span: None, ..diagnostic.clone() };
+        let diagnostic = if placed.is_some() { diagnostic } else { &unplaced };
+        let path = placed.or_else(|| program.main_path());
         let Some(path) = path else { continue };
         let list = lists.entry(documents.uri(path)).or_default();
         let one = places.diagnostic(diagnostic);

@@ -1,4 +1,7 @@
-//! The programs whose shaders Eddy draws as they are, beside Shadertoy's.
+//! The programs whose shaders Eddy draws as they are, beside Shadertoy's, and the one place that chooses among them for a file.
+
+use super::{file_names::is_vertex_extension, isf, words::find_word};
+use std::{ffi::OsStr, path::Path};
 
 /// The program that the texts of a project are written for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -26,5 +29,66 @@ impl Dialect {
     /// Returns the dialect of a name.
     pub fn of(name: &str) -> Option<Dialect> {
         Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
+    }
+}
+
+/// The forms of a GLSL file that belongs to no project. Whatever reads a file asks [`ShaderForm::of`], so that the command line,
+/// the window and editors agree. A shader of Ghostty looks like one of Shadertoy's: the user says that it is one, by
+/// [`super::load`]'s `ghostty:`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShaderForm {
+    /// A pass of Shadertoy's. So is what has no other form: the compiler's messages name the program that it is written for.
+    Shadertoy,
+    Isf,
+    /// A vertex shader of GLSL ES 3.00 with a `main` and uniforms of its own, which is checked but not drawn.
+    PlainVertex,
+    /// A fragment shader of that kind.
+    PlainFragment,
+}
+
+impl ShaderForm {
+    /// Returns the form of a file by its text and the endings of its name.
+    pub fn of(path: &Path, text: &str) -> ShaderForm {
+        if isf::json_of(path, text).is_some() {
+            return ShaderForm::Isf;
+        }
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let is_vertex = name.split('.').skip(1).any(|ending| is_vertex_extension(OsStr::new(ending)));
+        let has = |word: &str| find_word(text, word).is_some();
+        if is_vertex {
+            return ShaderForm::PlainVertex;
+        }
+        if ["mainImage", "mainSound", "mainCubemap"].into_iter().any(has) || !has("main") {
+            return ShaderForm::Shadertoy;
+        }
+        match text.trim_start_matches('\u{feff}').lines().map(str::trim).find(|line| line.starts_with('#')) {
+            _ if has("gl_Position") => ShaderForm::PlainVertex,
+            // Without it, or with another one, a fragment shader is in another language.
+            Some(line) if line.split_whitespace().eq(["#version", "300", "es"]) => ShaderForm::PlainFragment,
+            _ => ShaderForm::Shadertoy,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_has_a_form_by_its_name_and_its_text() {
+        let of = |name: &str, text: &str| ShaderForm::of(Path::new(name), text);
+        let (image, main) = ("void mainImage(out vec4 c, in vec2 p) {}", "#version 300 es\nvoid main() {}");
+        assert_eq!(of("a.glsl", image), ShaderForm::Shadertoy);
+        assert_eq!(of("a.frag", image), ShaderForm::Shadertoy);
+        assert_eq!(of("a.frag", main), ShaderForm::PlainFragment);
+        assert_eq!(of("a.glsl", &format!("// A licence.\n\n  {main}")), ShaderForm::PlainFragment);
+        for version in ["", "#version 410 core", "#version 100", "#define A"] {
+            assert_eq!(of("a.frag", &format!("{version}\nvoid main() {{}}")), ShaderForm::Shadertoy, "{version}");
+        }
+        assert_eq!(of("a.glsl", "void main() { gl_Position = vec4(0); }"), ShaderForm::PlainVertex);
+        assert_eq!(of("a.glsl", "#version 300 es\nvoid main() { /* gl_Position */ }"), ShaderForm::PlainFragment);
+        assert_eq!(of("a.vert.glsl", ""), ShaderForm::PlainVertex);
+        assert_eq!(of("noise.glsl", "float noise(vec2 p) { return p.x; }"), ShaderForm::Shadertoy);
+        assert_eq!(of("a.fs", "/*{}*/ void main() {}"), ShaderForm::Isf);
     }
 }

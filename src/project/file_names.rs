@@ -8,6 +8,11 @@ pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {
     ["glsl", "frag", "fs"].iter().any(|e| extension.eq_ignore_ascii_case(e))
 }
 
+/// The endings of vertex shaders, which are no passes.
+pub(super) fn is_vertex_extension(extension: &OsStr) -> bool {
+    ["vert", "vs", "vertex"].iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
+
 /// The pass a file is by its stem; `None` for Common and for files that are not of the convention.
 pub(super) fn pass_of_stem(stem: &str) -> Option<PassId> {
     match PassId::parse(stem)? {

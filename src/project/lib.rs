@@ -60,7 +60,7 @@ pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
-pub use dialect::Dialect;
+pub use dialect::{Dialect, ShaderForm};
 pub use directives::ignored_channel_lines;
 pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
@@ -80,6 +80,7 @@ pub use imports::{
 pub use includes::{IncludeLines, include_names};
 pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};
+pub use isf::isf_of_vertex_shader;
 pub use json::losses as json_losses;
 pub use json_values::check_json_values;
 pub use load::Loaded;

@@ -104,6 +104,8 @@ fn of_glsl(path: &Path, name: String, text: String) -> Project {
 }
 
 pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
+    let of_vertex = isf::isf_of_vertex_shader(path, edited);
+    let path = of_vertex.as_deref().unwrap_or(path);
     let what = path.display().to_string();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let text = match edited.get(path).filter(|text| text.len() as u64 <= limits::GLSL_TEXT.bytes) {

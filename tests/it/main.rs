@@ -64,6 +64,7 @@ mod lab_stability;
 mod layers;
 mod long_arrays;
 mod lsp;
+mod lsp_dialects;
 mod lsp_projects;
 mod music;
 mod next_project;

@@ -73,6 +73,9 @@ impl Preprocessor<'_, '_> {
             "line" => self.line_directive(name, line),
             "version" if self.is_plain => self.version(name, line),
             "extension" if self.is_plain => self.extension(name, line),
+            // Hosts give a version of their own: the text's says what it was written in, and the rules here take all of these.
+            "version" | "extension" if self.dialect.ignores_late_directives() => {}
+            "extension" if self.dialect.has_late_extensions() => self.extension(name, line),
             "version" => self.error(
                 name,
                 format!("`#version` must come first, and {} already has it", self.dialect.header()),
@@ -120,9 +123,9 @@ impl Preprocessor<'_, '_> {
             _ => return self.error(name, "write `#extension NAME : enable`", None),
         };
         let message = format!("there is no extension `{extension}`");
-        let hint = "delete the line: the feature is part of GLSL ES 3.00 or not available";
+        let hint = format!("delete the line: the feature is part of {} or not available", self.dialect.language());
         if behaviour == "require" {
-            self.error(name, message, Some(hint.into()));
+            self.error(name, message, Some(hint));
         } else {
             self.report.add(Diagnostic::warning(name.span, message).hint(hint));
         }

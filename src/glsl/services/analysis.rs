@@ -23,6 +23,10 @@ pub struct Analysis {
     /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is
     /// before it.
     pub(super) sources: Vec<Source>,
+    /// The index of the first included text.
+    pub(super) included_from: usize,
+    /// Where the pass's own text includes a file for the first time.
+    pub(super) first_include: Option<u32>,
     pub(super) origins: Origins,
     pub(super) names: Interner,
     pub(super) module: Module,
@@ -58,11 +62,15 @@ impl Analysis {
         }
         let custom_uniforms =
             source.custom_uniforms.iter().map(|k| (k.name.to_owned(), custom_uniform_type(k.kind))).collect();
+        let lines = source.includes.iter().filter(|include| include.line.source == source.code.id);
+        let first_include = lines.map(|include| include.line.start).min();
         let sources = texts.into_iter().map(|text| Source::new(text, &origins, &mut names)).collect();
         let mut analysis = Self {
             kind: source.kind,
             channels: source.channels,
             sources,
+            included_from: usize::from(source.common.is_some()),
+            first_include,
             origins,
             names,
             module,

@@ -174,7 +174,7 @@ impl Analysis {
             }
         }
         for (i, global) in self.module.globals.iter().enumerate().rev() {
-            let is_before = self.position_of(global.name.token).is_some_and(|place| place < at);
+            let is_before = self.position_of(global.name.token).is_some_and(|place| self.is_before(place, at));
             if is_before && seen.insert(global.name.symbol) {
                 let constant = global.storage == GlobalStorage::Const;
                 let kind = if constant { CompletionKind::Constant } else { CompletionKind::Global };
@@ -183,7 +183,9 @@ impl Analysis {
             }
         }
         for (i, def) in self.module.structs.iter().enumerate() {
-            let Some(name) = def.name.filter(|n| self.position_of(n.token).is_some_and(|place| place < at)) else {
+            let Some(name) =
+                def.name.filter(|n| self.position_of(n.token).is_some_and(|place| self.is_before(place, at)))
+            else {
                 continue;
             };
             if !self.names.get(name.symbol).starts_with("gl_") && seen.insert(name.symbol) {

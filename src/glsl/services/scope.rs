@@ -23,6 +23,16 @@ impl Analysis {
         Some((self.source_index(span.source)?, span.start))
     }
 
+    /// Returns whether a declaration at a place is known at another one. What the pass's own text, the last one, declares before
+    /// its first `#include` is known in included files, too.
+    pub(super) fn is_before(&self, place: Position, at: Position) -> bool {
+        let last = self.sources.len() - 1;
+        match place.0 == last && (self.included_from..last).contains(&at.0) {
+            true => self.first_include.is_some_and(|include| place.1 < include),
+            false => place <= at,
+        }
+    }
+
     /// Returns the function whose header or body a place is in.
     pub(super) fn function_at(&self, at: Position) -> Option<FuncId> {
         let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
@@ -74,7 +84,7 @@ impl Analysis {
         if let Some(id) = local {
             return Some(Target::Decl(DeclRef::Local(id)));
         }
-        let is_before = |token: TokenId| self.position_of(token).is_some_and(|place| place <= at);
+        let is_before = |token: TokenId| self.position_of(token).is_some_and(|place| self.is_before(place, at));
         let of_structs = self.module.structs.iter().rposition(|s| {
             s.name.is_some_and(|n| n.symbol == symbol && is_before(n.token))
                 && !self.names.get(symbol).starts_with("gl_")
@@ -99,7 +109,7 @@ impl Analysis {
 
     /// User functions that are declared before a place.
     pub(super) fn functions_before(&self, at: Position) -> impl Iterator<Item = FuncId> {
-        let is_before = move |token: TokenId| self.position_of(token).is_some_and(|place| place <= at);
+        let is_before = move |token: TokenId| self.position_of(token).is_some_and(|place| self.is_before(place, at));
         let functions = self.module.functions.iter().enumerate();
         functions
             .filter(move |(_, f)| f.declared_at.first().is_some_and(|&token| is_before(token)))
@@ -111,9 +121,9 @@ impl Analysis {
     pub(super) fn macro_at(&self, symbol: Symbol, at: Position) -> Option<crate::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
-                && def
-                    .name_at
-                    .is_none_or(|span| self.source_index(span.source).is_some_and(|source| (source, span.start) <= at))
+                && def.name_at.is_none_or(|span| {
+                    self.source_index(span.source).is_some_and(|source| self.is_before((source, span.start), at))
+                })
         })?;
         Some(crate::ast::MacroId::new(found))
     }

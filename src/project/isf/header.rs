@@ -228,6 +228,9 @@ impl Reader<'_> {
                 reader.error(&name, format!("\"{name}\" is not a name of an image"), "use letters, digits and _");
             } else if let Some(path) = path.as_str() {
                 all.push(Imported { name, path: path.to_owned() });
+            } else if path.is_null() {
+                let message = format!("the import \"{name}\" has no PATH");
+                reader.error(&name, message, "give the PATH of an image file; a TARGET needs no import");
             } else {
                 let message = format!("the imported image \"{name}\" is a cubemap, which ISF does not have");
                 reader.error(&name, message, "give one PATH, of an image file");

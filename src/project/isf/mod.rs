@@ -15,11 +15,18 @@ mod tests;
 
 pub(super) use read::{load, save};
 
+use super::{
+    files::{EditedTexts, Files, Read},
+    limits,
+};
+
 use super::{lines::trim_start, words::find_word};
+use std::path::{Path, PathBuf};
 
 /// Returns the JSON of an ISF file and where it begins, if it is in the first comment between `/*` and `*/`, and the text has an
-/// entry point of a whole fragment shader. Lines of `//` may stand before it.
-pub(super) fn json_of(text: &str) -> Option<(usize, &str)> {
+/// entry point of a whole fragment shader. Lines of `//` may stand before it. All keys are optional: an object without any is
+/// one in a file with the ending of ISF, `.fs`.
+pub(super) fn json_of<'t>(path: &Path, text: &'t str) -> Option<(usize, &'t str)> {
     let mut start = trim_start(text.trim_start_matches('\u{feff}'));
     while let Some(line) = start.strip_prefix("//") {
         start = trim_start(line.split_once('\n')?.1);
@@ -29,8 +36,24 @@ pub(super) fn json_of(text: &str) -> Option<(usize, &str)> {
     let json = &comment[..end];
     let keys =
         ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\"", "\"DESCRIPTION\"", "\"CREDIT\""];
-    let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
+    let is_object = || {
+        path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("fs"))
+            && json.trim_start().strip_prefix('{').is_some_and(|rest| rest.trim() == "}")
+    };
+    let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key)) || is_object();
     let is_whole = find_word(text, "main").is_some() && find_word(text, "mainImage").is_none()
         || find_word(text, "gl_FragColor").is_some();
     (is_isf && is_whole).then(|| (text.len() - comment.len(), json))
+}
+
+/// Returns the ISF file that a vertex shader belongs to: `a.fs` beside `a.vs`, with texts of an editor in place of what is on
+/// disk.
+pub fn isf_of_vertex_shader(path: &Path, edited: &EditedTexts) -> Option<PathBuf> {
+    path.extension().filter(|ending| ending.eq_ignore_ascii_case("vs"))?;
+    let fragment = path.with_extension("fs");
+    let files = Files::edited(path.parent().unwrap_or(Path::new("")), edited);
+    match files.read(&fragment.file_name()?.to_string_lossy(), limits::GLSL_TEXT) {
+        Read::Text(text) if json_of(&fragment, &text).is_some() => Some(fragment),
+        _ => None,
+    }
 }

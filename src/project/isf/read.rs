@@ -26,7 +26,7 @@ const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
 
 /// Returns the project of a text of a file, if that is an ISF file. Err: what is wrong with its header.
 pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -> Option<Result<Loaded, ProjectError>> {
-    let (start, json) = json_of(text)?;
+    let (start, json) = json_of(path, text)?;
     let mut sources = SourceMap::default();
     let id = sources.add(name, text);
     let refuse =

@@ -1,7 +1,7 @@
 use super::json_of;
 use crate::{
-    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassId, PassSize, Project, ProjectError, Tab,
-    TexelFormat, load, save,
+    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassId, PassSize, Project, ProjectError, ShaderForm,
+    Tab, TexelFormat, load, save,
 };
 use std::{fs, path::Path};
 
@@ -128,7 +128,7 @@ fn a_vertex_shader_beside_it_is_included_too() {
 #[test]
 fn lines_of_comment_may_stand_before_the_header() {
     let text = "// Somebody\n\n// 2016\n/*{\"ISFVSN\": \"2\"}*/\nvoid main() { gl_FragColor = vec4(1.0); }";
-    let (start, json) = json_of(text).unwrap();
+    let (start, json) = json_of(Path::new("a.fs"), text).unwrap();
     assert_eq!((json, &text[start..start + 3]), ("{\"ISFVSN\": \"2\"}", "{\"I"));
     assert_eq!(project(text).dialect, Dialect::Isf);
 }
@@ -215,8 +215,29 @@ fn other_texts_with_a_comment_are_left_alone() {
         "// {\"INPUTS\": []}",
         "",
     ] {
-        assert!(json_of(text).is_none(), "{text}");
+        assert!(json_of(Path::new("a.fs"), text).is_none(), "{text}");
     }
+}
+
+#[test]
+fn an_empty_header_is_isf_in_a_file_with_its_ending() {
+    let of = |name: &str, text: &str| ShaderForm::of(Path::new(name), text);
+    let text = "/* { } */\nvoid main() { gl_FragColor = vec4(1.0); }";
+    assert_eq!((of("a.fs", text), of("a.glsl", text)), (ShaderForm::Isf, ShaderForm::Shadertoy));
+    assert_eq!(project(text).dialect, Dialect::Isf);
+    assert_eq!(of("a.glsl", &text.replace("{ }", "{\"CREDIT\": \"\"}")), ShaderForm::Isf);
+    assert_eq!(of("a.fs", "/* { a } */\nvoid main() { gl_FragColor = vec4(1.0); }"), ShaderForm::Shadertoy);
+}
+
+#[test]
+fn an_import_without_a_path_is_not_called_a_cubemap() {
+    let said = |import: &str| {
+        let text = format!("/*{{\"IMPORTED\": {{\"buf\": {import}}}}}*/\nvoid main() {{ gl_FragColor = vec4(1.0); }}");
+        let dir = tempfile::tempdir().unwrap();
+        format!("{:?}", open(dir.path(), "a.fs", &text).unwrap_err())
+    };
+    assert!(said("{\"PASSINDEX\": 0}").contains("the import \\\"buf\\\" has no PATH"));
+    assert!(said("{\"PATH\": [\"a.png\"]}").contains("is a cubemap"));
 }
 
 #[test]

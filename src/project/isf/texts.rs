@@ -168,7 +168,7 @@ pub(super) fn pass(
     vertex: Option<&str>,
 ) -> String {
     let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
-    let _ = writeln!(out, "#define PASSINDEX {index}");
+    let _ = writeln!(out, "const int PASSINDEX = {index};");
     for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
         let _ = writeln!(out, "#define {name} iChannel{channel}");
     }
@@ -185,6 +185,11 @@ pub(super) fn pass(
             }
         }
     }
+    // The array of outputs is the older form of the one colour (GLSL 1.20, section 7.2).
+    let has_outputs = of.words.contains("gl_FragData");
+    if has_outputs {
+        out.push_str("vec4 isf_FragData[1];\n#define gl_FragData isf_FragData\n");
+    }
     // A function of the text may be called as the entry point below is.
     if of.has_main_image {
         out.push_str("#define mainImage isf_mainImage\n");
@@ -200,7 +205,8 @@ pub(super) fn pass(
     if vertex.is_some() {
         out.push_str("    isf_vertexMain();\n");
     }
-    out.push_str("    isf_main();\n    isf_color = isf_FragColor;\n}\n");
+    let color = if has_outputs { "isf_FragData[0]" } else { "isf_FragColor" };
+    let _ = write!(out, "    isf_main();\n    isf_color = {color};\n}}\n");
     out
 }
 
@@ -233,13 +239,13 @@ void mainImage(out vec4 color, in vec2 at) {
 
 const BUILT_INS: &str = "\
 // What an ISF host puts before a shader, in terms of Shadertoy's uniforms.
-#define TIME iTime
-#define TIMEDELTA iTimeDelta
-#define FRAMEINDEX iFrame
-#define DATE vec4(iDate.x, iDate.y + 1.0, iDate.zw)
-vec2 isf_renderSize() { return iResolution.xy; }
-#define RENDERSIZE isf_renderSize()
-#define isf_FragNormCoord (gl_FragCoord.xy / RENDERSIZE)
+// Variables, so that macros, parameters and members may have their names.
+float TIME = iTime;
+float TIMEDELTA = iTimeDelta;
+int FRAMEINDEX = iFrame;
+vec4 DATE = vec4(iDate.x, iDate.y + 1.0, iDate.zw);
+vec2 RENDERSIZE = iResolution.xy;
+vec2 isf_FragNormCoord = gl_FragCoord.xy / iResolution.xy;
 #define vv_FragNormCoord isf_FragNormCoord
 #define IMG_SIZE(image) vec2(textureSize(image, 0))
 #define IMG_NORM_PIXEL texture
@@ -249,6 +255,13 @@ vec4 IMG_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at 
 #define IMG_THIS_NORM_PIXEL(image) texture(image, isf_FragNormCoord)
 #define IMG_NORM_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
 #define texture2D texture
+#define texture2DProj textureProj
+#define texture2DLod textureLod
+#define texture2DLodEXT textureLod
+#define texture2DProjLod textureProjLod
+#define texture2DProjLodEXT textureProjLod
+#define texture2DGradEXT textureGrad
+#define texture2DProjGradEXT textureProjGrad
 #define texture2DRect(image, at) IMG_PIXEL(image, at)
 vec4 isf_FragColor;
 #define gl_FragColor isf_FragColor

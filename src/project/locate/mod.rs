@@ -148,7 +148,7 @@ fn locate(spec: &str) -> Result<Location, ProjectError> {
         Ok(Location::Folder(folder.to_owned()))
     } else if extension.eq_ignore_ascii_case("json") {
         Ok(Location::Json(path.to_owned(), None))
-    } else if file_names::is_glsl_extension(extension) {
+    } else if file_names::is_glsl_extension(extension) || file_names::is_vertex_extension(extension) {
         Ok(Location::Glsl(path.to_owned()))
     } else {
         Err(ProjectError::UnknownKind { path: path.to_owned() })

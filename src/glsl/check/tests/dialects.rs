@@ -179,7 +179,24 @@ fn messages_name_the_program_whose_header_it_is() {
         (Dialect::Isf, "the ISF host's header"),
     ] {
         let said = said(dialect);
-        assert_eq!(said.matches(header).count(), 2, "{said}");
+        // A version means nothing in ISF.
+        let count = if dialect == Dialect::Isf { 1 } else { 2 };
+        assert_eq!(said.matches(header).count(), count, "{said}");
         assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");
     }
+}
+
+#[test]
+fn extensions_and_versions_are_taken_as_the_host_takes_them() {
+    let main = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fwidth(p), 0.0, 1.0); }";
+    let extension =
+        |behaviour: &str| format!("float a = 1.0;\n#extension GL_OES_standard_derivatives : {behaviour}\n{main}");
+    for text in [extension("enable"), extension("require"), format!("#version 150\n{main}")] {
+        assert_eq!(errors(Dialect::Isf, &text), [""; 0], "{text}");
+        assert_eq!(errors(Dialect::Shadertoy, &text).len(), 1, "{text}");
+    }
+    assert_eq!(errors(Dialect::Ghostty, &extension("enable")), [""; 0]);
+    let all = diagnose(&source(Dialect::Ghostty, &extension("enable")));
+    assert!(all.iter().any(|d| d.message == "there is no extension `GL_OES_standard_derivatives`"), "{all:?}");
+    assert_eq!(errors(Dialect::Ghostty, &extension("require")).len(), 1);
 }

@@ -2,10 +2,10 @@
 
 use super::Marked;
 use crate::{
-    PassSource,
+    Include, PassKind, PassSource, Text,
     services::{Analysis, CompletionKind, Completions},
 };
-use eddy_diag::SourceId;
+use eddy_diag::{SourceId, Span};
 
 fn at(m: &Marked) -> (Completions, String) {
     let found = m.analysis().completions(m.at.0, m.at.1);
@@ -153,4 +153,18 @@ fn plain_shaders_have_no_names_of_the_site() {
         |label: &&String| ["iTime", "iResolution", "iChannel", "iCh0"].iter().any(|name| label.starts_with(name));
     assert_eq!(labels.iter().find(of_site), None);
     assert!(labels.iter().any(|label| label == "gl_FragCoord") && labels.iter().any(|label| label == "inversesqrt"));
+}
+
+#[test]
+fn an_included_file_knows_what_comes_before_it() {
+    let code = "#define SCALE 2.0\nconst int PASS = 1;\n\n#include \"a.glsl\"\n\nconst int LATER = 2;\n";
+    let included = "float f() { return 1.0; }\n";
+    let text = |id, text| Text { id: SourceId(id), text };
+    let at = code.find("#include").unwrap();
+    let line = Span::new(SourceId(1), at..at + "#include \"a.glsl\"".len());
+    let includes = [Include { line, text: Ok(text(7, included)) }];
+    let pass = PassSource { includes: &includes, ..PassSource::new(PassKind::Image, text(1, code)) };
+    let found = Analysis::new(&pass).completions(SourceId(7), included.find("1.0").unwrap());
+    let has = |name: &str| found.items.iter().any(|item| item.label == name);
+    assert_eq!(["SCALE", "PASS", "LATER"].map(has), [true, true, false]);
 }
