@@ -19,8 +19,17 @@ pub enum MediaError {
     NotPlayed { path: PathBuf, played: Played },
     #[error("{} is a {kind} image, which is not supported; supported are {}", path.display(), listed(&KNOWN))]
     Unread { path: PathBuf, kind: &'static str },
+    #[error(
+        "the content of {} is not that of a {}, or of another image that is supported; supported are {}",
+        path.display(),
+        path.extension().unwrap_or_default().to_string_lossy().to_uppercase(),
+        listed(&KNOWN)
+    )]
+    OtherContent { path: PathBuf },
     #[error("{}: {reason}", path.display())]
     Radiance { path: PathBuf, reason: String },
+    #[error("{}: {reason}", path.display())]
+    Exr { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
     Npy { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
@@ -85,8 +94,12 @@ impl MediaError {
                 "read it as music: add kind = \"music\" beside file in eddy.toml".into()
             }
             MediaError::NotPlayed { .. } => "read it as a video: add kind = \"video\" beside file in eddy.toml".into(),
+            MediaError::Exr { .. } => "save it with the channels R, G, B and A, or Y".into(),
             MediaError::Radiance { .. } => "re-save the image as HDR in RGB, or as NPY of float32".into(),
-            MediaError::Decode { .. } | MediaError::Empty { .. } | MediaError::Unread { .. } => {
+            MediaError::Decode { .. }
+            | MediaError::Empty { .. }
+            | MediaError::Unread { .. }
+            | MediaError::OtherContent { .. } => {
                 "re-save the image, for example as PNG".into()
             }
             MediaError::Npy { .. } => {

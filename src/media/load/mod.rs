@@ -2,6 +2,7 @@
 
 mod apng;
 pub(crate) mod cube;
+mod exr;
 mod kinds;
 mod radiance;
 mod rows;
@@ -161,12 +162,19 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     if let Some(kind) = kinds::unread(&bytes) {
         return Err(MediaError::Unread { path: path.to_owned(), kind });
     }
+    if exr::is_exr(&bytes) {
+        let texels = exr::read(&bytes, path, room)?;
+        return Ok(if vflip { flipped(texels) } else { texels });
+    }
     let radiance = radiance::header(&bytes).transpose();
     let radiance = radiance.map_err(|reason| MediaError::Radiance { path: path.to_owned(), reason })?;
     let bytes = radiance.as_ref().map(|header| header.plain(&bytes)).unwrap_or(bytes);
     let mut reader = ImageReader::new(Cursor::new(&*bytes));
-    // The ending counts where the content says nothing, as with TGA.
+    // The ending counts where the content says nothing, as with TGA. The others begin with bytes of their own.
     if let Ok(format) = ImageFormat::from_path(path) {
+        if format != ImageFormat::Tga && !bytes.is_empty() && image::guess_format(&bytes).is_err() {
+            return Err(MediaError::OtherContent { path: path.to_owned() });
+        }
         reader.set_format(format);
     }
     let mut reader = reader.with_guessed_format().map_err(|e| failed(e.into()))?;

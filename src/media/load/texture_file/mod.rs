@@ -2,6 +2,9 @@
 //!
 //! The first mip level is read. Values are as stored: no colour space is undone.
 
+mod masks;
+
+use self::masks::Masks;
 use super::{cube, flipped, volume};
 use crate::Texels;
 use eddy_project::limits;
@@ -59,6 +62,8 @@ struct File {
 enum Stored {
     /// Three bytes, red first.
     Rgb8,
+    /// Numbers whose bits are channels.
+    Masked(Masks),
     Other(ImageFormat),
 }
 
@@ -68,6 +73,7 @@ impl Stored {
         use ImageFormat as F;
         match self {
             Stored::Rgb8 | Stored::Other(F::Bgr8Unorm) => (1, 3),
+            Stored::Masked(masks) => (1, u64::from(masks.bytes)),
             Stored::Other(format) => match format {
                 F::BC1RgbaUnorm | F::BC1RgbaUnormSrgb | F::BC4RUnorm | F::BC4RSnorm => (4, 8),
                 F::BC2RgbaUnorm
@@ -107,6 +113,7 @@ impl Stored {
         use ImageFormat as F;
         match self {
             Stored::Rgb8 => TexelFormat::Rgba8,
+            Stored::Masked(masks) => masks.kept(),
             Stored::Other(format) => match format {
                 F::R8Unorm | F::BC4RUnorm => TexelFormat::R8,
                 F::Rg8Unorm | F::BC5RgUnorm => TexelFormat::Rg8,
@@ -174,8 +181,11 @@ impl File {
 
     fn dds(bytes: &[u8], room: u64) -> Result<Self, String> {
         let dds = Dds::read(bytes).map_err(|error| format!("the DDS file is damaged ({error})"))?;
-        let mut surface =
-            Surface::from_dds(&dds).map_err(|_| format!("its format {} cannot be read; {READ}", dds_format(&dds)))?;
+        let mut surface = match (Surface::from_dds(&dds), Masks::of(bytes)) {
+            (Ok(surface), _) => surface,
+            (Err(_), Some(masks)) => return Self::masked(&dds, masks, room),
+            (Err(_), None) => return Err(format!("its format {} cannot be read; {READ}", dds_format(&dds))),
+        };
         let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP)
             || dds.header10.as_ref().is_some_and(|h| h.misc_flag == image_dds::ddsfile::MiscFlag::TEXTURECUBE);
         if is_cube && surface.layers == 1 {
@@ -196,6 +206,35 @@ impl File {
             layers.push(data[..layer].to_vec());
         }
         Ok(Self { dimension, width: surface.width, height: surface.height, texels, layers })
+    }
+
+    /// Reads a file of Direct3D 9 without a code of four letters: a picture, a volume, or six faces that each have their mip
+    /// levels behind them.
+    fn masked(dds: &Dds, masks: Masks, room: u64) -> Result<Self, String> {
+        let (width, height, depth) = (dds.get_width(), dds.get_height(), dds.get_depth().max(1));
+        let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP);
+        let (faces, depth) = if is_cube { (6u32, 1) } else { (1, depth) };
+        let texels = Stored::Masked(masks);
+        let layer = checked(width, height, u64::from(faces) * u64::from(depth), texels, room)?;
+        let levels = dds.get_num_mipmap_levels().clamp(1, u32::BITS);
+        let level = |n: u32| {
+            let side = |side: u32| u64::from((side >> n).max(1));
+            side(width) * side(height) * side(depth) * u64::from(masks.bytes)
+        };
+        let stride: u64 = (0..levels).map(level).sum();
+        let mut layers = Vec::new();
+        for (face, slice) in (0..u64::from(faces)).flat_map(|face| (0..depth as usize).map(move |slice| (face, slice)))
+        {
+            let from = usize::try_from(face * stride).map_err(|_| "its faces are too large")? + slice * layer;
+            let data = dds.data.get(from..from + layer);
+            layers.push(data.ok_or_else(|| format!("the file ends before layer {}", layers.len()))?.to_vec());
+        }
+        let dimension = match (is_cube, depth) {
+            (true, _) => Dimension::Cube,
+            (false, 1) => Dimension::D2,
+            (false, _) => Dimension::D3,
+        };
+        Ok(Self { dimension, width, height, texels, layers })
     }
 
     fn layers(self) -> Result<Vec<Texels>, String> {
@@ -283,8 +322,10 @@ fn of_vulkan(format: Format) -> Option<Stored> {
 /// Makes the texels of a layer of what a file stores.
 fn decoded(stored: Stored, width: u32, height: u32, layer: Vec<u8>) -> Result<Vec<u8>, String> {
     let kept = stored.kept();
-    let Stored::Other(image_format) = stored else {
-        return Ok(layer.chunks_exact(3).flat_map(|rgb| [rgb[0], rgb[1], rgb[2], 255]).collect());
+    let image_format = match stored {
+        Stored::Rgb8 => return Ok(layer.chunks_exact(3).flat_map(|rgb| [rgb[0], rgb[1], rgb[2], 255]).collect()),
+        Stored::Masked(masks) => return Ok(masks.decoded(&layer)),
+        Stored::Other(format) => format,
     };
     if stored.block() == (1, kept.bytes()) && !is_reordered(image_format) {
         return Ok(layer);

@@ -168,3 +168,56 @@ fn damaged_files_are_no_danger() {
         }
     }
 }
+
+/// A DDS file of Direct3D 9: flags, bits of a texel and the masks of its channels.
+fn dds9(
+    [width, height]: [u32; 2],
+    flags: u32,
+    bits: u32,
+    masks: [u32; 4],
+    levels: u32,
+    caps2: u32,
+    data: &[u8],
+) -> Vec<u8> {
+    let mut fields = vec![124, 0x2_1007, height, width, 0, 0, levels];
+    fields.extend([0; 11]);
+    fields.extend([32, flags, 0, bits]);
+    fields.extend(masks);
+    fields.extend([0x1000, caps2, 0, 0, 0]);
+    let mut file = b"DDS ".to_vec();
+    file.extend(fields.iter().flat_map(|field| field.to_le_bytes()));
+    file.extend(data);
+    file
+}
+
+#[test]
+fn channels_of_dds_are_bits_of_a_number() {
+    const LUMINANCE: u32 = 0x2_0000;
+    let read = |flags, bits, masks, data: &[u8]| {
+        let texels = read_as(&dds9([2, 1], flags, bits, masks, 1, 0, data), Dimension::D2).unwrap();
+        (texels.shape.format, texels.bytes)
+    };
+    let rgba8 = |bytes: [u8; 8]| (TexelFormat::Rgba8, bytes.to_vec());
+    assert_eq!(read(LUMINANCE, 8, [0xff, 0, 0, 0], &[7, 250]), rgba8([7, 7, 7, 255, 250, 250, 250, 255]));
+    assert_eq!(read(LUMINANCE | 1, 16, [0xff, 0, 0, 0xff00], &[7, 9, 250, 4]), rgba8([7, 7, 7, 9, 250, 250, 250, 4]));
+    assert_eq!(read(LUMINANCE | 1, 8, [0xf, 0, 0, 0xf0], &[0x31, 0xf8]), rgba8([17, 17, 17, 51, 136, 136, 136, 255]));
+    assert_eq!(read(2, 8, [0, 0, 0, 0xff], &[7, 250]), rgba8([0, 0, 0, 7, 0, 0, 0, 250]));
+    assert_eq!(read(0x40, 16, [0xf800, 0x7e0, 0x1f, 0], &[0, 0xf8, 0xe0, 7]), rgba8([255, 0, 0, 255, 0, 255, 0, 255]));
+    assert_eq!(read(0x40, 8, [0xe0, 0x1c, 3, 0], &[0xe0, 3]), rgba8([255, 0, 0, 255, 0, 0, 255, 255]));
+    // 16 bits of luminance do not fit into a byte.
+    let (format, bytes) = read(LUMINANCE, 16, [0xffff, 0, 0, 0], &[0xff, 0xff, 0, 0x80]);
+    let floats: Vec<f32> = bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+    assert_eq!((format, floats[0], floats[3]), (TexelFormat::Rgba32f, 1.0, 1.0));
+    assert!((floats[4] - 32768.0 / 65535.0).abs() < 1e-6, "{floats:?}");
+    // Each face of a cubemap has its mip levels behind it.
+    let data: Vec<u8> = (0..6).flat_map(|face| [face, face, face, face, 99]).collect();
+    let cube = dds9([2, 2], LUMINANCE, 8, [0xff, 0, 0, 0], 2, 0xfe00, &data);
+    let texels = read_as(&cube, Dimension::Cube).unwrap();
+    let faces: Vec<u8> = texels.bytes.chunks_exact(16).map(|face| face[0]).collect();
+    assert_eq!(faces, [0, 1, 2, 3, 4, 5]);
+    for cut in [0, 1, 127, 128, 130, cube.len() - 5] {
+        assert!(super::read(&cube[..cut], Dimension::Cube, false, 1 << 20).is_err(), "{cut}");
+    }
+    let wide = dds9([16384, 16384], LUMINANCE, 8, [0xff, 0, 0, 0], 1, 0, &[]);
+    assert!(read_as(&wide, Dimension::D2).unwrap_err().contains("too much"));
+}
