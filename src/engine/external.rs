@@ -8,7 +8,7 @@ use super::{
 use eddy_audio::{Analyser, BINS, SAMPLE_RATE, Sound, Spectrum, synthetic};
 use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_media::{Gamepads, Keyboard, MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Input, InputKind};
+use eddy_project::{Channel, Input, InputKind, Media};
 use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
 use std::sync::Arc;
@@ -56,7 +56,11 @@ pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn 
         InputKind::Texture | InputKind::Cubemap | InputKind::Volume => {
             Some(Box::new(Picture(media.get(&MediaKey::of_channel(channel)?)?.clone())))
         }
-        InputKind::Music => Some(Box::new(Music::new(media.sound(channel.input.media()?).cloned()))),
+        InputKind::Music => Some(match (channel.input.media()?, media.sound(channel.input.media()?)) {
+            (_, Some(sound)) => Box::new(Music::new(Some(sound.clone()))),
+            (Media::Site { .. } | Media::Builtin(_), None) => Box::new(Music::new(None)),
+            (Media::File(_) | Media::Picked(_), None) => Box::new(Picture(Arc::new(silence()))),
+        }),
         InputKind::Video => {
             let video = media.video(channel.input.media()?)?.clone();
             Some(Box::new(VideoTexture::new(video, channel.sampler.vflip, media.pace())))
@@ -165,6 +169,12 @@ impl ExternalTexture for Music {
     fn clock(&self) -> ChannelClock {
         self.sound.as_ref().map_or(ChannelClock::Synthetic, |sound| ChannelClock::Looped(sound.seconds()))
     }
+}
+
+/// Returns the texture of a file that cannot be read: no level at any frequency, and a wave that rests.
+fn silence() -> Texels {
+    let bytes = [[0; BINS], [128; BINS]].concat();
+    Texels::flat(BINS as u32, 2, TexelFormat::R8, bytes)
 }
 
 /// The spectrum and the wave of the microphone, which come with the frame; without one what the site makes up.

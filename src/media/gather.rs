@@ -80,7 +80,11 @@ fn pictures(
         }
         let (loaded, instead) = if is_music {
             let sound = sound::load(&key.media, base, media_dir, set.room());
-            (sound.map(|sound| set.insert_sound(key.media.clone(), sound, &mut warn)), "a synthetic spectrum is shown")
+            let instead = match key.media {
+                Media::Site { .. } | Media::Builtin(_) => "a synthetic spectrum is shown",
+                Media::File(_) | Media::Picked(_) => "the channel is silent",
+            };
+            (sound.map(|sound| set.insert_sound(key.media.clone(), sound, &mut warn)), instead)
         } else if is_video && set.videos.len() >= limits::VIDEOS {
             let message = format!("the project has more than {} videos, the limit", limits::VIDEOS);
             warn(format!("{message}; the channel is black and of size 0"), "read fewer different videos".into());

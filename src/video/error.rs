@@ -13,6 +13,10 @@ pub enum VideoError {
     Hangs { program: String },
     #[error("there is no video in the file")]
     NoPicture,
+    #[error("there is no sound in the file")]
+    NoSound,
+    #[error("the sound is damaged, or of a kind that is not supported ({0})")]
+    Sound(String),
     #[error("the video is damaged, or of a kind that is not supported ({0})")]
     Damaged(String),
     #[error(
@@ -40,6 +44,8 @@ impl VideoError {
             VideoError::Start { .. } => "check that ffmpeg runs in a terminal: ffmpeg -version",
             VideoError::Hangs { .. } | VideoError::Damaged(_) => "encode it again: ffmpeg -i FILE video.webm",
             VideoError::NoPicture => "use a file with a video in it; for sound write kind = \"music\"",
+            VideoError::NoSound => "use a file with sound in it",
+            VideoError::Sound(_) => "encode it again: ffmpeg -i FILE music.ogg",
             VideoError::TooLarge { .. } => "scale it down: ffmpeg -i FILE -vf scale=1920:-2 video.webm",
             VideoError::TooLong { .. } | VideoError::TooMany => "cut it: ffmpeg -i FILE -t 60 video.webm",
             VideoError::Encoder { .. } => "check the disk, and that this ffmpeg can encode: ffmpeg -encoders",

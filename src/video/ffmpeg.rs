@@ -27,16 +27,21 @@ use std::{
 /// The way to the file that a child has as its standard input.
 pub const INPUT: &str = "file:/dev/stdin";
 /// Containers that hold their frames themselves. Those that name other files are not among them.
-const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
+pub const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
     m4v,mpegvideo,h264,hevc,mxf,rm,dv";
 /// Frames before a position are decoded from so many seconds before it on: the one that is shown may begin that early.
 const BEFORE: f64 = 1.0;
 
-/// Begins a command line that reads a file. Returns what `-i` names with it.
+/// Begins a command line that reads a video file. Returns what `-i` names with it.
 pub fn command(program: &Path, file: &File, real: &Path) -> Result<(Command, String), VideoError> {
+    command_of(program, file, real, FORMATS)
+}
+
+/// Does the same for a file of one of these formats.
+pub fn command_of(program: &Path, file: &File, real: &Path, formats: &str) -> Result<(Command, String), VideoError> {
     let failed = |reason: String| VideoError::Start { program: program.display().to_string(), reason };
     let mut command = Command::new(program);
-    command.args(["-hide_banner", "-protocol_whitelist", "file,pipe", "-format_whitelist", FORMATS]);
+    command.args(["-hide_banner", "-protocol_whitelist", "file,pipe", "-format_whitelist", formats]);
     if cfg!(target_os = "linux") {
         command.stdin(file.try_clone().map_err(|e| failed(e.to_string()))?);
         return Ok((command, INPUT.to_owned()));

@@ -13,6 +13,7 @@ mod numbered;
 mod probe;
 mod process;
 mod reader;
+mod sound;
 #[cfg(test)]
 mod tests;
 
@@ -23,6 +24,7 @@ pub use error::VideoError;
 pub use numbered::frame_rate_of;
 pub use process::{Stop, Tools};
 pub use reader::Pool;
+pub use sound::sound_of;
 
 use eddy_project::FileError;
 use reader::Reader;

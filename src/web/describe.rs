@@ -10,7 +10,7 @@ use eddy_engine::{CompiledPass, Sources, channel_kinds};
 use eddy_glsl::{ChannelKind, taken};
 use eddy_graph::{FramePlan, PassFacts, effective_sampler};
 use eddy_project::{
-    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, PassBody, PassId, PassSize, Project,
+    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassBody, PassId, PassSize, Project,
     Sampler, Stage, Term, Wrap,
 };
 use serde_json::Value;
@@ -161,7 +161,10 @@ impl Description<'_> {
                 let place = format!("iChannel{number} of {}", pass.id.title());
                 match (inlined.channel(channel, &place), kind) {
                     (Some(at), _) => ("media", None, Some(at)),
-                    (None, InputKind::Music) => ("synthetic", None, None),
+                    (None, InputKind::Music) => match channel.input.media() {
+                        Some(Media::Site { .. } | Media::Builtin(_)) => ("synthetic", None, None),
+                        _ => ("silence", None, None),
+                    },
                     (None, _) => ("none", None, None),
                 }
             }

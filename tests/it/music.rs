@@ -1,6 +1,6 @@
 //! Music as a texture: the analyser's rows, the same whichever frames were drawn, and what stands in for a missing file.
 
-use crate::support::program::Bench;
+use crate::support::{ffmpeg::has_ffmpeg, program::Bench};
 use std::f64::consts::TAU;
 
 /// A WAV file of a sine, 16 bits, stereo, 44.1 kHz.
@@ -58,10 +58,30 @@ fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
 }
 
 #[test]
-fn without_a_file_the_spectrum_is_the_sites_own() {
+fn music_that_cannot_be_read_is_silent_and_that_of_the_site_is_made_up() {
     let Some(b) = Bench::with_gpu() else { return };
-    project(&b, "{ file = \"gone.mp3\", kind = \"music\" }");
-    let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
+    b.write("p/bad.mp3", [7; 4000]);
+    for name in ["gone.mp3", "bad.mp3"] {
+        project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
+        let run = b.line("render p --size 512x3 --at 30 --out p.npy --overwrite").expect(0);
+        assert!(run.err.contains(name) && run.err.contains("the channel is silent"), "{}", run.err);
+        let shown = b.npy("p.npy");
+        for x in [0, 3, 100, 511] {
+            assert_eq!(shown.at(x, 0)[0], 0.0, "{name}: no level");
+            assert!((shown.at(x, 1)[0] - 128.0 / 255.0).abs() < 1e-6, "{name}: the wave rests");
+        }
+        // The time, and the size of the texture.
+        assert_eq!(shown.at(0, 2), [0.0, 512.0, 2.0, 1.0], "{name}");
+    }
+    let pass = r#"{"inputs": [{"id": 1, "src": "/media/a/gone.mp3", "ctype": "music", "channel": 0,
+        "sampler": {"filter": "linear", "wrap": "clamp", "vflip": "true", "srgb": "false", "internal": "byte"}}],
+        "outputs": [{"id": 37, "channel": 0}], "code": CODE, "name": "", "description": "", "type": "image"}"#;
+    let code = serde_json::to_string(&String::from_utf8(b.bytes("p/image.glsl")).unwrap()).unwrap();
+    b.write(
+        "site.json",
+        format!(r#"{{"ver": "0.1", "info": {{"id": "x"}}, "renderpass": [{}]}}"#, pass.replace("CODE", &code)),
+    );
+    let run = b.line("render site.json --size 512x3 --at 30 --out p.npy --overwrite").expect(0);
     assert!(run.err.contains("gone.mp3") && run.err.contains("synthetic spectrum"), "{}", run.err);
     let shown = b.npy("p.npy");
     let t: f64 = 30.0 / 60.0;
@@ -71,6 +91,33 @@ fn without_a_file_the_spectrum_is_the_sites_own() {
         assert!((f64::from(shown.at(j, 0)[0]) - level).abs() < 1.0 / 255.0, "{j}");
     }
     assert_eq!(shown.at(0, 2)[0], 10.5);
+}
+
+/// What is not decoded here is by ffmpeg: Opus, AIFF, and the sound of a video.
+#[test]
+fn ffmpeg_decodes_other_sounds_and_those_of_videos() {
+    let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
+    b.write("p/tone.wav", wav(440.0, 1.0));
+    let convert = |options: &[&str], name: &str| {
+        let mut command = std::process::Command::new("ffmpeg");
+        command.args(["-v", "error", "-y"]).args(options).arg(name).current_dir(b.path("p"));
+        assert!(command.status().unwrap().success(), "{name}");
+    };
+    let picture = ["-i", "tone.wav", "-f", "lavfi", "-i", "color=red:size=64x64:rate=25:duration=1", "-shortest"];
+    convert(&["-i", "tone.wav", "-c:a", "libopus", "-b:a", "128k"], "a.opus");
+    convert(&["-i", "tone.wav"], "a.aiff");
+    convert(&["-i", "tone.wav", "-c:a", "ac3"], "a.ac3");
+    convert(&[&picture[..], &["-c:v", "libvpx-vp9", "-c:a", "libopus"]].concat(), "a.webm");
+    convert(&[&picture[..], &["-c:v", "mpeg4", "-c:a", "ac3"]].concat(), "a.mkv");
+    convert(&["-f", "lavfi", "-i", "color=red:size=64x64:rate=25:duration=1", "-c:v", "mpeg4"], "mute.mkv");
+    for name in ["a.opus", "a.aiff", "a.ac3", "a.webm", "a.mkv"] {
+        project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
+        let texels = texels(&b, "50");
+        let peak = (0..512).max_by(|x, y| texels.at(*x, 0)[0].total_cmp(&texels.at(*y, 0)[0])).unwrap();
+        assert!((20..=21).contains(&peak), "{name}: 440 Hz lies in bin 20.4, not {peak}");
+    }
+    project(&b, "{ file = \"mute.mkv\", kind = \"music\" }");
+    assert!(b.line("check p").expect(0).err.contains("the channel is silent"));
 }
 
 #[test]

@@ -70,7 +70,7 @@ impl AudioError {
     pub fn hint(&self) -> &'static str {
         match self {
             AudioError::Unknown(_) | AudioError::Unsupported(_) => {
-                "wav, mp3, ogg, flac, m4a and aac are read; convert it: ffmpeg -i FILE music.ogg"
+                "wav, mp3, ogg, flac, m4a and aac are read, and others where ffmpeg is installed; or convert it: ffmpeg -i FILE music.ogg"
             }
             AudioError::NoTrack => "choose a file with sound in it",
             AudioError::Channels(..) => "mix it down: ffmpeg -i FILE -ac 2 music.ogg",

@@ -111,6 +111,10 @@ impl FileError {
         matches!(self.reason, Reason::Io(_))
     }
 
+    pub fn is_too_large(&self) -> bool {
+        matches!(self.reason, Reason::TooLarge(_))
+    }
+
     pub fn is_missing(&self) -> bool {
         self.reason == Reason::Missing
     }

@@ -142,6 +142,7 @@ function device(kind) {
     gamepad: () => ({tex: texture('2d', 'r32f', 17, 12, 1, false)}),
     microphone: () => ({tex: texture('2d', 'r8', 512, 2, 1, false)}),
     synthetic: () => ({tex: texture('2d', 'r8', 512, 2, 1, false)}),
+    silence: () => { const tex = texture('2d', 'r8', 512, 2, 1, false); write(tex, new Uint8Array(1024).fill(128, 512)); return {tex}; },
     webcam: () => { const tex = texture('2d', 'rgba8', 320, 240, 1, false); write(tex, new Uint8Array(320 * 240 * 4).map((_, i) => i % 4 == 3 ? 255 : 0)); return {tex}; },
   }[kind]();
 }
