@@ -205,6 +205,14 @@ fn samples_without_compression_are_read_in_every_form() {
     file[16] = 40;
     file[20..22].copy_from_slice(&[0xfe, 0xff]);
     assert_eq!(left(&file), [0.25, -2.0]);
+    // That too, with the most significant byte first: the identifier begins with a number of 32 bits.
+    file[..4].copy_from_slice(b"RIFX");
+    for field in [4..8, 16..20, 20..22, 22..24, 24..28, 28..32, 32..34, 34..36, 36..38, 38..40, 40..44, 44..48, 64..68]
+    {
+        file[field].reverse();
+    }
+    file[68..].chunks_exact_mut(4).for_each(<[u8]>::reverse);
+    assert_eq!(left(&file), [0.25, -2.0]);
 }
 
 #[test]

@@ -129,8 +129,8 @@ fn read_format(numbers: Numbers<'_>, at: usize, size: u32) -> Result<Format, Aud
     let (tag, channels) = (numbers.u16(at).ok_or_else(damaged)?, numbers.u16(at + 2).ok_or_else(damaged)?);
     let (rate, align) = (numbers.u32(at + 4).ok_or_else(damaged)?, numbers.u16(at + 12).ok_or_else(damaged)?);
     let bits = numbers.u16(at + 14).filter(|_| size >= 16).unwrap_or(8);
-    // The first two bytes of a subformat's identifier are the number of the codec.
-    let tag = if tag == EXTENSIBLE && size >= 40 { numbers.u16(at + 24).ok_or_else(damaged)? } else { tag };
+    // A subformat's identifier begins with the number of the codec, in 32 bits.
+    let tag = if tag == EXTENSIBLE && size >= 40 { numbers.u32(at + 24).ok_or_else(damaged)? as u16 } else { tag };
     Ok(Format { tag, channels: channels.into(), rate, align: align.into(), bits: bits.into() })
 }
 
