@@ -49,6 +49,8 @@ pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound o
 /// A model file together with the buffers that it names.
 pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
+/// Values of `eddy.toml`, counted by the signs before them: `=`, `,`, `[` and `{`, in texts too.
+pub const MANIFEST_VALUES: usize = 1 << 17;
 /// Values in the JSON text of a project that an image file holds: its texts and what is said of each.
 pub const PICTURE_VALUES: u64 = 1 << 18;
 /// The scripts of mouse and keys that an image file holds.

@@ -21,21 +21,23 @@ use std::{
     time::{Duration, Instant},
 };
 
-const MIB: usize = 1 << 20;
+pub const MIB: usize = 1 << 20;
 /// Inputs of each kind.
 const INPUTS: u64 = 300;
 
 /// What the inputs of one kind came to.
-struct Row {
+pub struct Row {
     name: &'static str,
     inputs: u64,
     read: u64,
     peak: usize,
     longest: Duration,
+    /// The most bytes for a byte of a file of 64 KiB or more.
+    ratio: usize,
 }
 
 /// Reads `INPUTS` files that `make` makes, and fails where one takes more than `most` bytes at once for its length.
-fn measure(
+pub fn measure(
     name: &'static str,
     file: &str,
     make: impl Fn(&mut Random) -> Vec<u8>,
@@ -44,7 +46,7 @@ fn measure(
 ) -> Row {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join(file);
-    let mut row = Row { name, inputs: INPUTS, read: 0, peak: 0, longest: Duration::ZERO };
+    let mut row = Row { name, inputs: INPUTS, read: 0, peak: 0, longest: Duration::ZERO, ratio: 0 };
     for n in 0..INPUTS {
         let bytes = make(&mut Random::new(n));
         fs::write(&path, &bytes).unwrap();
@@ -55,6 +57,9 @@ fn measure(
         let peak = MEMORY.peak().saturating_sub(before);
         row.longest = row.longest.max(since.elapsed());
         row.peak = row.peak.max(peak);
+        if length >= 64 << 10 {
+            row.ratio = row.ratio.max(peak / length);
+        }
         assert!(peak <= most, "{name}: input {n} of {length} bytes takes {peak} bytes, and {most} are allowed");
     }
     row
@@ -62,11 +67,12 @@ fn measure(
 
 /// Compares every reader with its row. Part of the one test of this program, as the memory is that of the process.
 pub fn check() {
-    let rows = [pictures(), scenes(), checkpoints(), models()];
-    println!("  inputs    read     peak  longest");
+    let mut rows = vec![pictures(), scenes(), checkpoints(), models()];
+    rows.extend(super::readers::rows());
+    println!("  inputs    read     peak  longest  most bytes for a byte");
     for row in &rows {
         let (peak, millis) = (row.peak >> 10, row.longest.as_millis());
-        println!("{:8} {:7} {peak:5} KiB {millis:5} ms  {}", row.inputs, row.read, row.name);
+        println!("{:8} {:7} {peak:5} KiB {millis:5} ms {:6}  {}", row.inputs, row.read, row.ratio, row.name);
         // A generator of which nothing is read tests the first lines of a reader only.
         assert!(row.read * 20 > row.inputs && row.read < row.inputs, "{}: {} read", row.name, row.read);
     }

@@ -10,6 +10,7 @@ mod ceilings;
 mod media_seeds;
 mod memory;
 mod mutate;
+mod readers;
 mod seeds;
 #[path = "../it/support/mod.rs"]
 mod support;

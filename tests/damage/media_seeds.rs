@@ -2,8 +2,9 @@
 //! installed.
 
 use super::seeds::{File, IMAGE, Seed, fixed, target};
+use exr::prelude::{SpecificChannels, Vec2, WritableImage};
 use image::{
-    Delay, DynamicImage, Frame, Rgba, RgbaImage,
+    Delay, Frame, Rgba, RgbaImage,
     codecs::gif::{GifEncoder, Repeat},
 };
 use std::{
@@ -85,9 +86,9 @@ fn textures() -> Vec<Seed> {
     [5u32, 4, 3].iter().for_each(|side| volume.extend(side.to_le_bytes()));
     volume.extend([4, 0, 0, 0]);
     volume.extend(texels(5 * 4 * 3 * 4));
-    let float = DynamicImage::from(image::Rgb32FImage::from_fn(12, 9, |x, y| image::Rgb([x as f32, y as f32, 0.5])));
     let mut exr = Cursor::new(Vec::new());
-    float.write_to(&mut exr, image::ImageFormat::OpenExr).unwrap();
+    let rgb = SpecificChannels::rgb(|at: Vec2<usize>| (at.x() as f32, at.y() as f32, 0.5f32));
+    exr::prelude::Image::from_channels((12, 9), rgb).write().to_buffered(&mut exr).unwrap();
     vec![
         seed("exr", "pic.exr", "", exr.into_inner()),
         seed("bin", "fog.bin", "volume", volume),

@@ -409,6 +409,9 @@ fn limits_are_named_with_the_file_and_the_line() {
     assert!(refusal(&dir.path().join("p")).contains("image.glsl is larger than 8 MiB, the limit for a GLSL file"));
     sized("x.json", 84 << 20);
     assert!(refusal(&dir.path().join("p/x.json")).contains("x.json is larger than 32 MiB"));
+    let many = format!("tags = [{}]\n[passes.image]\n", "\"t\",".repeat(limits::MANIFEST_VALUES));
+    fs::write(dir.path().join("p/eddy.toml"), many).unwrap();
+    assert!(refusal(&dir.path().join("p")).contains("eddy.toml has more than 131072 values, the limit"));
     sized("eddy.toml", limits::MANIFEST.bytes + 1);
     assert!(refusal(&dir.path().join("p")).contains("eddy.toml is larger than 2 MiB"));
     fs::remove_file(dir.path().join("p/eddy.toml")).unwrap();

@@ -28,7 +28,7 @@ pub struct RunArgs {
     /// Resolution of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
     pub size: (u32, u32),
-    /// Frames per second of iTime, as in 25, 29.97 or 24000/1001 [default: 60; for a GIF 50, the most that it can have]
+    /// Frames per second of iTime, as in 25, 29.97 or 24000/1001 [default: 60, or 50 for a GIF, its limit]
     #[arg(long, value_name = "N", value_parser = fps, allow_hyphen_values = true)]
     pub fps: Option<f64>,
     /// Says that the format of the film decided the rate.

@@ -25,7 +25,7 @@ pub struct Analysis {
     pub(super) sources: Vec<Source>,
     /// The index of the first included text.
     pub(super) included_from: usize,
-    /// Where the pass's own text includes a file for the first time.
+    /// The place of the first `#include` of the pass's own text.
     pub(super) first_include: Option<u32>,
     pub(super) origins: Origins,
     pub(super) names: Interner,

@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, Media
     Ok(Texels::flat(width, height, TexelFormat::Rgba32f, bytemuck::cast_slice(&texels).to_vec()))
 }
 
-/// Where the pixels of a part lie in the picture.
+/// The place of the pixels of a part in the picture.
 #[derive(Clone, Copy)]
 struct Picture {
     width: usize,

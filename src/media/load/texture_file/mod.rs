@@ -186,6 +186,8 @@ impl File {
             (Err(_), Some(masks)) => return Self::masked(&dds, masks, room),
             (Err(_), None) => return Err(format!("its format {} cannot be read; {READ}", dds_format(&dds))),
         };
+        // The crate makes a list of as many levels as the file says.
+        surface.mipmaps = surface.mipmaps.clamp(1, levels(surface.width, surface.height, surface.depth));
         let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP)
             || dds.header10.as_ref().is_some_and(|h| h.misc_flag == image_dds::ddsfile::MiscFlag::TEXTURECUBE);
         if is_cube && surface.layers == 1 {
@@ -216,7 +218,7 @@ impl File {
         let (faces, depth) = if is_cube { (6u32, 1) } else { (1, depth) };
         let texels = Stored::Masked(masks);
         let layer = checked(width, height, u64::from(faces) * u64::from(depth), texels, room)?;
-        let levels = dds.get_num_mipmap_levels().clamp(1, u32::BITS);
+        let levels = dds.get_num_mipmap_levels().clamp(1, levels(width, height, depth));
         let level = |n: u32| {
             let side = |side: u32| u64::from((side >> n).max(1));
             side(width) * side(height) * side(depth) * u64::from(masks.bytes)
@@ -245,6 +247,11 @@ impl File {
         };
         self.layers.into_iter().map(decode).collect()
     }
+}
+
+/// Returns the number of mip levels down to a single texel.
+fn levels(width: u32, height: u32, depth: u32) -> u32 {
+    width.max(height).max(depth).max(1).ilog2() + 1
 }
 
 const READ: &str = "8-bit and float formats and BC1 to BC7 can be";

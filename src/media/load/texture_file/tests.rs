@@ -218,6 +218,9 @@ fn channels_of_dds_are_bits_of_a_number() {
     for cut in [0, 1, 127, 128, 130, cube.len() - 5] {
         assert!(super::read(&cube[..cut], Dimension::Cube, false, 1 << 20).is_err(), "{cut}");
     }
+    // More levels than there can be.
+    let many = dds9([2, 2], 0x41, 32, [0xff, 0xff00, 0xff_0000, 0xff00_0000], u32::MAX, 0, &[7; 20]);
+    assert_eq!(read_as(&many, Dimension::D2).unwrap().bytes, [7; 16]);
     let wide = dds9([16384, 16384], LUMINANCE, 8, [0xff, 0, 0, 0], 1, 0, &[]);
     assert!(read_as(&wide, Dimension::D2).unwrap_err().contains("too much"));
 }
