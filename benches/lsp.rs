@@ -15,6 +15,45 @@ fn main() {
     for (title, common) in [("one file", 0), ("Common of 1,000 lines before it", 1000)] {
         measure(title, lines, &text, common);
     }
+    while_reading();
+}
+
+/// Measures the time to any answer while a text of 4 MB is read that takes seconds: an answer, or that it is still being read.
+fn while_reading() {
+    let body: String = (0..100_000).map(|i| format!("color.x = nam_of_functio_{i}x(1.0);\n")).collect();
+    let text = format!("void mainImage(out vec4 color, in vec2 at) {{\n{body}}}\n");
+    let uri = "file:///nowhere/a.glsl";
+    let mut server = Server::threaded();
+    let mut out = Vec::new();
+    let mut times = Vec::new();
+    let mut send = |message: Value| {
+        let began = Instant::now();
+        server.handle(serde_json::from_value(message).expect("a message"), &mut out);
+        server.idle(&mut out);
+        out.clear();
+        times.push(began.elapsed());
+    };
+    send(json!({"id": 0, "method": "initialize", "params": {"capabilities": {}}}));
+    let document = json!({"uri": uri, "languageId": "glsl", "version": 0, "text": text});
+    send(json!({"method": "textDocument/didOpen", "params": {"textDocument": document}}));
+    for version in 1..40 {
+        let range = json!({"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}});
+        send(json!({"method": "textDocument/didChange", "params": {
+            "textDocument": {"uri": uri, "version": version}, "contentChanges": [{"range": range, "text": " "}],
+        }}));
+        let at = json!({"textDocument": {"uri": uri}, "position": {"line": 0, "character": 6}});
+        send(json!({"id": version, "method": "textDocument/hover", "params": at}));
+    }
+    times.sort();
+    let millis = |time: Duration| time.as_secs_f64() * 1e3;
+    let (median, worst) = (times[times.len() / 2], times[times.len() - 1]);
+    println!(
+        "{:.1} MB that are read meanwhile: median {:.2} ms, worst {:.2} ms of {}",
+        text.len() as f64 / 1e6,
+        millis(median),
+        millis(worst),
+        times.len()
+    );
 }
 
 /// A shader of two thousand lines: functions that call each other.

@@ -87,6 +87,7 @@
 // What has a length here is never empty: a table of types has those of the language, a swizzle a component.
 #![allow(clippy::len_without_is_empty)]
 
+pub mod cancel;
 mod compile;
 mod diagnostics;
 mod dialects;

@@ -18,7 +18,7 @@ pub(crate) struct Document {
 }
 
 /// Documents by their paths.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Documents {
     open: BTreeMap<PathBuf, Document>,
     /// The same texts, as projects read them.

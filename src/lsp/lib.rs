@@ -17,6 +17,7 @@ mod navigation;
 mod positions;
 mod program;
 mod published;
+mod reading;
 mod requests;
 mod server;
 mod symbols;

@@ -93,6 +93,25 @@ impl Program {
         }
     }
 
+    /// Returns the same program with nothing read, and hands over what is kept for the next reading.
+    pub fn unread(&mut self) -> Self {
+        Self { kept: std::mem::take(&mut self.kept), ..Self::new(self.root.clone()) }
+    }
+
+    /// Takes the place of an earlier reading of the same program.
+    pub fn follows(&mut self, earlier: &mut Self) {
+        self.published = std::mem::take(&mut earlier.published);
+        self.media = std::mem::take(&mut earlier.media);
+        if self.project.is_none() {
+            self.media = Media::default();
+        }
+    }
+
+    /// Keeps for the next reading what another one has read of the program.
+    pub fn keep_of(&mut self, other: Self) {
+        self.kept = other.kept;
+    }
+
     /// Reads it again.
     pub fn read(&mut self, documents: &Documents) {
         (self.is_stale, self.is_untold) = (false, true);

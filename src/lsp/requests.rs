@@ -10,7 +10,7 @@ use super::{
     program::Program,
     published::Places,
     symbols, tokens,
-    workspace::Workspace,
+    workspace::{PATIENCE, Unfound, Workspace},
 };
 use eddy_diag::SourceId;
 use gen_lsp_types::{
@@ -26,6 +26,8 @@ use serde_json::Value;
 pub(crate) struct ClientCapabilities {
     /// Parameters of a signature are said by where they stand in it.
     pub label_offsets: bool,
+    /// Requests of the server that ask for colours and hints again.
+    pub refreshed: [Option<&'static str>; 2],
 }
 
 /// Parameters that are read by what Eddy needs of them: an editor may add others.
@@ -94,8 +96,10 @@ fn ask(
     work: impl FnOnce(QueriedText<'_>) -> Answer,
 ) -> Answer {
     let path = path_of(&document.uri.0);
-    if workspace.find(&path).is_err() {
-        return Ok(Value::Null);
+    match workspace.find(&path) {
+        Ok(_) => {}
+        Err(Unfound::Unknown) => return Ok(Value::Null),
+        Err(Unfound::Reading) => return Err(still_reading()),
     }
     // Asked for again, as what is found borrows the documents too.
     let owner = workspace.owner(&path).map(|index| &workspace.programs[index]);
@@ -103,6 +107,11 @@ fn ask(
         return Ok(Value::Null);
     };
     work(QueriedText { program, places: Places::new(program, &workspace.documents, encoding), id })
+}
+
+/// The answer to a request about a program that is being read: editors ask again, or at the next change.
+fn still_reading() -> lsp_server::ResponseError {
+    error(ErrorCode::ContentModified, "the text is still being analysed: ask again")
 }
 
 /// Answers a request; `None` for a method that Eddy does not know.
@@ -186,7 +195,9 @@ pub(crate) fn request(
             answer(actions::actions(asked.program, &mut asked.places, asked.id, bytes))
         }),
         "workspace/symbol" => read(params).and_then(|OfQuery { query }| {
-            workspace.settle();
+            if !workspace.settle_within(PATIENCE) {
+                return Err(still_reading());
+            }
             let mut found = Vec::new();
             for program in &workspace.programs {
                 symbols::of_program(program, &workspace.documents, encoding, &query, &mut found);

@@ -25,6 +25,7 @@ use serde_json::{Value, json};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::PathBuf,
+    time::Duration,
 };
 
 /// The state of a server.
@@ -53,6 +54,19 @@ pub struct Server {
 impl Server {
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Returns a server that reads programs on a thread of its own. A request about one that is being read is refused after
+    /// 50 ms, and a change gives the reading up. [`Server::idle`] has to be called again while [`Server::is_reading`].
+    pub fn threaded() -> Self {
+        let mut server = Self::new();
+        server.workspace.is_threaded = true;
+        server
+    }
+
+    /// Returns whether a program is being read on the other thread.
+    pub fn is_reading(&self) -> bool {
+        self.workspace.is_reading()
     }
 
     /// Takes a message in; what is to be sent is added to `out`. Returns the exit code when the editor has said that the
@@ -84,9 +98,16 @@ impl Server {
     }
 
     fn idle_work(&mut self, out: &mut Vec<Message>) -> bool {
-        let is_stale = self.workspace.programs.iter().any(|program| program.is_stale);
-        if is_stale {
-            self.workspace.settle();
+        let is_stale = self.workspace.programs.iter().any(|program| program.is_stale) || self.workspace.is_reading();
+        if is_stale && !self.workspace.settle_within(Duration::ZERO) {
+            return false;
+        }
+        if std::mem::take(&mut self.workspace.has_refused) {
+            let refresh = |method: &str| {
+                let id = RequestId::from(format!("eddy-{method}"));
+                Message::Request(Request { id, method: method.into(), params: Value::Null })
+            };
+            out.extend(self.abilities.refreshed.iter().flatten().map(|method| refresh(method)));
         }
         let folders = &self.folders;
         let left = self.workspace.take_left(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
@@ -121,7 +142,7 @@ impl Server {
         let is_others = |path: &std::path::Path| {
             owners.iter().any(|(other, owner)| other == path && owner.is_some_and(|owner| owner != index))
         };
-        let Workspace { documents, programs } = &mut self.workspace;
+        let Workspace { documents, programs, .. } = &mut self.workspace;
         for params in publish(&mut programs[index], documents, self.encoding, is_others) {
             out.push(publish_diagnostics(&params));
         }
@@ -133,6 +154,7 @@ impl Server {
         if done.is_err() {
             log::error!("a message could not be handled; the documents are read again");
             // What was half done is done from the beginning.
+            self.workspace.drop_reading();
             self.workspace.programs.clear();
             let paths: Vec<PathBuf> = self.workspace.documents.iter().map(|d| d.path.clone()).collect();
             for path in paths {
@@ -183,6 +205,13 @@ impl Server {
         let signature = "/capabilities/textDocument/signatureHelp/signatureInformation/parameterInformation";
         let is_on = |path: &str| at(path).and_then(Value::as_bool).unwrap_or_default();
         self.abilities.label_offsets = is_on(&format!("{signature}/labelOffsetSupport"));
+        let refreshes = |what: &'static str, method: &'static str| {
+            is_on(&format!("/capabilities/workspace/{what}/refreshSupport")).then_some(method)
+        };
+        self.abilities.refreshed = [
+            refreshes("semanticTokens", "workspace/semanticTokens/refresh"),
+            refreshes("inlayHint", "workspace/inlayHint/refresh"),
+        ];
         self.watches_files = is_on("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration");
         let folders = at("/workspaceFolders").and_then(Value::as_array).into_iter().flatten();
         let folders = folders.filter_map(|folder| folder.get("uri")?.as_str());

@@ -3,12 +3,17 @@
 use super::server::Server;
 use eddy_project::limits;
 use lsp_server::{ErrorCode, Message, Notification, RequestId};
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::json;
 use std::{
     collections::VecDeque,
     io::{self, BufRead, BufReader, Read, Write},
-    sync::mpsc::{Receiver, TryRecvError, channel},
+    sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel},
+    time::Duration,
 };
+
+/// The time between two looks at a program that is being read.
+const POLL: Duration = Duration::from_millis(2);
 
 /// A message from the editor.
 enum Incoming {
@@ -37,7 +42,7 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Resul
 }
 
 fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> {
-    let mut server = Server::new();
+    let mut server = Server::threaded();
     let mut waiting: VecDeque<Incoming> = VecDeque::new();
     let mut out = Vec::new();
     let mut is_open = true;
@@ -60,10 +65,19 @@ fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> 
             Some(Incoming::Malformed(why)) => {
                 // What cannot be read has no id.
                 let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
-                write_value(&mut output, json!({ "id": null, "error": error }))?;
+                write_value(&mut output, &json!({ "id": null, "error": error }))?;
                 output.flush()?;
             }
             None if server.idle(&mut out) => {}
+            // A message is handled at once; without one, what has been read is looked for again.
+            None if server.is_reading() => match incoming.recv_timeout(POLL) {
+                Ok(message) => waiting.push_back(message),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    is_open = false;
+                    std::thread::sleep(POLL);
+                }
+            },
             // Whoever closes the stream without a word has gone.
             None if !is_open => return Ok(1),
             None => match incoming.recv() {
@@ -138,14 +152,21 @@ fn write_all(output: &mut impl Write, out: &mut Vec<Message>) -> io::Result<()> 
         return Ok(());
     }
     for message in out.drain(..) {
-        write_value(output, serde_json::to_value(message)?)?;
+        write_value(output, &message)?;
     }
     output.flush()
 }
 
-fn write_value(output: &mut impl Write, mut value: Value) -> io::Result<()> {
-    value["jsonrpc"] = "2.0".into();
-    let text = serde_json::to_vec(&value)?;
+/// A message with what the protocol has in every one.
+#[derive(Serialize)]
+struct Envelope<'m, T> {
+    jsonrpc: &'static str,
+    #[serde(flatten)]
+    message: &'m T,
+}
+
+fn write_value(output: &mut impl Write, message: &impl Serialize) -> io::Result<()> {
+    let text = serde_json::to_vec(&Envelope { jsonrpc: "2.0", message })?;
     write!(output, "Content-Length: {}\r\n\r\n", text.len())?;
     output.write_all(&text)
 }

@@ -3,19 +3,33 @@
 use super::{
     documents::Documents,
     program::{Program, Root, root_of},
+    reading::{Progress, Reading},
 };
 use eddy_diag::SourceId;
 use eddy_project::is_manifest;
-use std::path::Path;
+use std::{mem, path::Path, time::Duration};
 
-/// Says that a document is closed, or is none of Eddy's.
-#[derive(Debug)]
-pub(crate) struct Unknown;
+/// Why nothing can be said of a document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unfound {
+    /// It is closed, or is none of Eddy's.
+    Unknown,
+    /// Its program is still being read.
+    Reading,
+}
+
+/// The time that a request waits for a program that is being read.
+pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
 #[derive(Default)]
 pub(crate) struct Workspace {
     pub documents: Documents,
     pub programs: Vec<Program>,
+    /// Programs are read on a thread of their own, one after the other.
+    pub is_threaded: bool,
+    reading: Option<Reading>,
+    /// A request was refused as its program was being read.
+    pub has_refused: bool,
 }
 
 impl Workspace {
@@ -44,7 +58,16 @@ impl Workspace {
                     Root::File(file) => file == path,
                 }
         };
-        self.programs.iter_mut().filter(|program| holds(program)).for_each(|program| program.is_stale = true);
+        // Which texts a program has that is being read is known only later.
+        let read = self.reading.as_ref().map(|reading| &reading.root);
+        let mut is_outdated = false;
+        for program in self.programs.iter_mut().filter(|program| holds(program) || Some(&program.root) == read) {
+            is_outdated |= Some(&program.root) == read;
+            program.is_stale = true;
+        }
+        if let Some(reading) = self.reading.as_ref().filter(|_| is_outdated) {
+            reading.give_up();
+        }
     }
 
     /// Files on disk have changed.
@@ -53,29 +76,96 @@ impl Workspace {
             program.is_stale = true;
             program.forget_media();
         }
+        if let Some(reading) = &self.reading {
+            reading.give_up();
+        }
+    }
+
+    /// Returns whether a program is being read.
+    pub fn is_reading(&self) -> bool {
+        self.reading.is_some()
+    }
+
+    /// Gives up what is being read, without an answer.
+    pub fn drop_reading(&mut self) {
+        if let Some(reading) = self.reading.take() {
+            reading.give_up();
+        }
+    }
+
+    /// As [`Workspace::settle`] where programs are read on this thread. Otherwise reads on the other one, and returns false
+    /// where that takes longer than so long for a program.
+    pub fn settle_within(&mut self, patience: Duration) -> bool {
+        if !self.is_threaded {
+            self.settle();
+            return true;
+        }
+        loop {
+            if let Some(reading) = self.reading.take() {
+                match reading.wait(patience) {
+                    Progress::Reading => {
+                        self.reading = Some(reading);
+                        return false;
+                    }
+                    Progress::Read(read) => self.take_read(*read),
+                    Progress::Ended { has_failed: true } => {
+                        log::error!("{} cannot be read: this is a bug in Eddy", reading.root.path().display());
+                    }
+                    Progress::Ended { has_failed: false } => {}
+                }
+            }
+            if let Some(program) = self.programs.iter_mut().find(|program| program.is_stale) {
+                program.is_stale = false;
+                match Reading::start(program.unread(), self.documents.clone()) {
+                    Ok(reading) => self.reading = Some(reading),
+                    // Without a thread it is read here.
+                    Err(_) => program.read(&self.documents),
+                }
+            } else if !self.begin_lost() {
+                return true;
+            }
+        }
+    }
+
+    fn take_read(&mut self, mut read: Program) {
+        let Some(program) = self.programs.iter_mut().find(|program| program.root == read.root) else { return };
+        if program.is_stale {
+            // A text has changed since.
+            program.keep_of(read);
+            return;
+        }
+        read.follows(program);
+        *program = read;
     }
 
     /// Reads every program again that has changed, and lets go of those that no document belongs to.
-    pub fn settle(&mut self) {
+    fn settle(&mut self) {
         loop {
             for program in self.programs.iter_mut().filter(|program| program.is_stale) {
                 program.read(&self.documents);
             }
-            // A file may have left its project.
-            let lost = self.documents.iter().find(|document| self.owner(&document.path).is_none());
-            let Some(path) = lost.map(|document| document.path.clone()) else { break };
-            let root = match root_of(&path, self.documents.texts()) {
-                Root::Folder(folder) if self.programs.iter().any(|p| p.root == Root::Folder(folder.clone())) => {
-                    Root::File(path.clone())
-                }
-                root => root,
-            };
-            if self.programs.iter().any(|program| program.root == root) {
-                // It cannot be read at all; what is wrong is told there.
+            if !self.begin_lost() {
                 break;
             }
-            self.begin(root);
         }
+    }
+
+    /// Adds a program for a document that none has: a file may have left its project. Returns whether there was one.
+    fn begin_lost(&mut self) -> bool {
+        let lost = self.documents.iter().find(|document| self.owner(&document.path).is_none());
+        let Some(path) = lost.map(|document| document.path.clone()) else { return false };
+        let root = match root_of(&path, self.documents.texts()) {
+            Root::Folder(folder) if self.programs.iter().any(|p| p.root == Root::Folder(folder.clone())) => {
+                Root::File(path.clone())
+            }
+            root => root,
+        };
+        if self.programs.iter().any(|program| program.root == root) {
+            // It cannot be read at all; what is wrong is told there.
+            return false;
+        }
+        self.begin(root);
+        true
     }
 
     /// Returns the program that a document belongs to: of a text that others include, the one that includes it.
@@ -96,24 +186,30 @@ impl Workspace {
     pub fn take_left(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
         let owners: Vec<usize> = self.documents.iter().filter_map(|document| self.owner(&document.path)).collect();
         let mut index = 0;
-        let (kept, left): (Vec<Program>, Vec<Program>) =
-            std::mem::take(&mut self.programs).into_iter().partition(|p| {
-                index += 1;
-                owners.contains(&(index - 1)) || keep(&p.root)
-            });
+        let (kept, left): (Vec<Program>, Vec<Program>) = mem::take(&mut self.programs).into_iter().partition(|p| {
+            index += 1;
+            owners.contains(&(index - 1)) || keep(&p.root)
+        });
         self.programs = kept;
         left
     }
 
     /// Returns the program of a document, read, and the document's text in it.
-    pub fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unknown> {
+    pub fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unfound> {
         if self.documents.get(path).is_none() {
-            return Err(Unknown);
+            return Err(Unfound::Unknown);
         }
-        self.settle();
-        let owner = self.owner(path).ok_or(Unknown)?;
+        let read = self.reading.as_ref().map(|reading| &reading.root);
+        // What is read of other programs is not waited for.
+        let is_read = |program: &Program| !program.is_stale && Some(&program.root) != read;
+        let is_known = self.owner(path).is_some_and(|owner| is_read(&self.programs[owner]));
+        if !is_known && !self.settle_within(PATIENCE) {
+            self.has_refused = true;
+            return Err(Unfound::Reading);
+        }
+        let owner = self.owner(path).ok_or(Unfound::Unknown)?;
         let program = &self.programs[owner];
-        let id = program.id_of(path).ok_or(Unknown)?;
+        let id = program.id_of(path).ok_or(Unfound::Unknown)?;
         Ok((program, id))
     }
 }

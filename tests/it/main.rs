@@ -66,6 +66,7 @@ mod long_arrays;
 mod lsp;
 mod lsp_dialects;
 mod lsp_projects;
+mod lsp_threads;
 mod music;
 mod next_project;
 mod packages;

@@ -172,6 +172,7 @@ impl<'a> Checker<'a> {
     /// Checks the declarations that were not checked yet.
     pub fn declarations(&mut self) {
         while let Some(&item) = self.ast.items.get(self.items) {
+            crate::cancel::check();
             self.global_declaration(item);
             self.items += 1;
         }
