@@ -50,6 +50,9 @@ pub enum LabCommand {
     Precision(PrecisionArgs),
 }
 
+/// Statements of a pixel that is audited: a tenth of those of a pixel that is traced, as there are many.
+const AUDIT_STEPS: u64 = STEPS / 10;
+
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
 pub struct PrecisionArgs {
@@ -69,7 +72,7 @@ pub struct PrecisionArgs {
     #[arg(long, value_name = "PATH", requires = "project", value_parser = values_file)]
     pub map: Option<PathBuf>,
     /// Stop a pixel after this number of statements
-    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    #[arg(long, value_name = "N", default_value_t = AUDIT_STEPS)]
     pub max_statements: u64,
     #[command(flatten)]
     pub run: RunArgs,
