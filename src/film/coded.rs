@@ -61,7 +61,9 @@ impl Coded {
             Codec::H265 => &["libx265"],
             Codec::Vp9 => &["libvpx-vp9"],
             // SVT-AV1 is several times as fast, and has only 4:2:0 of even sides of at least 64 pixels.
-            Codec::Av1 if is_420 && size.0.min(size.1) >= 64 && size.0 % 2 == 0 && size.1 % 2 == 0 => {
+            Codec::Av1
+                if is_420 && size.0.min(size.1) >= 64 && size.0.is_multiple_of(2) && size.1.is_multiple_of(2) =>
+            {
                 &["libsvtav1", "libaom-av1"]
             }
             Codec::Av1 => &["libaom-av1"],

@@ -63,7 +63,7 @@ fn only_targets_that_the_program_has_are_kept() {
         )
     };
     let with = |text: &str, entry: &str| format!("{}{entry}\n", text.strip_suffix("]}").unwrap());
-    std::fs::write(&file, with(&with(&text, &entry(1)).trim_end().to_owned(), &entry(2))).unwrap();
+    std::fs::write(&file, with(with(&text, &entry(1)).trim_end(), &entry(2))).unwrap();
     let error = read(&file, &moment(), &forms()).unwrap_err().to_string();
     assert!(error.contains("targets that this run does not have"), "{error}");
     let twice = text.replace("\"cube_a\"", "\"buffer_a\"");
