@@ -5,6 +5,7 @@ use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
     self as glsl, ChannelKind, Dialect, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression,
     Text, UniformValue, Varying,
+    cancel::Cancel,
     services::Analysis,
     walkable::{Detail, Walkable},
 };
@@ -16,7 +17,7 @@ use eddy_texture::Dimension;
 use std::{
     borrow::Cow,
     collections::BTreeSet,
-    sync::{Arc, OnceLock},
+    sync::{Arc, OnceLock, atomic::AtomicBool},
 };
 
 /// The texts of a project as the compiler takes them, what they include and what they declare.
@@ -29,6 +30,7 @@ pub struct Sources<'p> {
     /// The values of uniforms that are no custom uniforms.
     pub(super) values: Vec<UniformValue>,
     dialect: Dialect,
+    cancel: Option<Arc<AtomicBool>>,
     /// See [`Sources::preamble`].
     pub(super) preamble: OnceLock<Option<Arc<Preamble>>>,
     /// The texts of fills, each with its pass.
@@ -54,7 +56,17 @@ impl<'p> Sources<'p> {
         diagnostics.extend(ignored_channel_lines(project));
         let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
         let dialect = host::dialect(project.dialect);
-        Self { project, dialect, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
+        let (preamble, cancel) = (OnceLock::new(), None);
+        Self { project, dialect, cancel, texts, lines, custom_uniforms, values, preamble, fills, diagnostics }
+    }
+
+    /// Returns the same texts, whose reading ends when the flag is set: see [`glsl::cancel`].
+    pub fn cancelled_by(self, flag: Arc<AtomicBool>) -> Self {
+        Self { cancel: Some(flag), ..self }
+    }
+
+    fn cancel(&self) -> Cancel<'_> {
+        self.cancel.as_deref().map_or_else(Cancel::default, Cancel::by)
     }
 
     pub fn custom_uniforms(&self) -> &CustomUniforms {
@@ -96,6 +108,7 @@ impl<'p> Sources<'p> {
             includes: &includes,
             custom_uniforms: &self.uniforms_in_scope(None),
             values: &self.values,
+            cancel: self.cancel(),
             ..PassSource::new(PassKind::Buffer, code)
         })
     }
@@ -116,6 +129,7 @@ impl<'p> Sources<'p> {
             channels: channel_kinds(&self.project.passes[index]),
             custom_uniforms: &self.uniforms_in_scope(Some(id)),
             values: &self.values,
+            cancel: self.cancel(),
             ..PassSource::new(kind, self.text(id))
         })
     }

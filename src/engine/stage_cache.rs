@@ -161,6 +161,8 @@ impl StageKey {
             tiled,
             plain,
             probe,
+            // It changes no result.
+            cancel: _,
         } = *source;
         let Link { varyings, targets } = *link;
         let text = |text: Text<'_>| (place(ids, text.id), shared(text));

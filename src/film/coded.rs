@@ -230,6 +230,9 @@ impl Coded {
         if matches!(self.codec, Codec::Vp9 | Codec::Av1) {
             return Ok(());
         }
+        if self.codec == Codec::H265 && width.min(height) < SMALLEST_H265 {
+            return Err(FilmError::SmallSize { what: self.codec.title(), least: SMALLEST_H265, width, height });
+        }
         let PixelFormat::Yuv(format) = self.pixels else { return Ok(()) };
         let (across, down) = format.halves();
         let is_odd = (across && width % 2 == 1) || (down && height % 2 == 1);
@@ -240,6 +243,9 @@ impl Coded {
         Ok(())
     }
 }
+
+/// The least width and height of a frame that ffmpeg gives to libx265 (`libavcodec/libx265.c`): its smallest block.
+const SMALLEST_H265: u32 = 16;
 
 /// A film that is being encoded.
 pub struct CodedFilm {

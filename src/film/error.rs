@@ -29,6 +29,10 @@ pub enum FilmError {
     Size { of: (u32, u32), film: (u32, u32) },
     #[error("{what} has an even width and height, not {width}x{height}: change the resolution, or use 4:4:4 chroma")]
     OddSize { what: String, width: u32, height: u32 },
+    #[error(
+        "a film of {what} has at least {least} pixels each way, not {width}x{height}: change the resolution or the codec"
+    )]
+    SmallSize { what: &'static str, least: u32, width: u32, height: u32 },
     #[error("{got} frames were drawn of the {wanted} of the film")]
     Frames { got: u32, wanted: u32 },
     #[error("a film cannot have {0} frames per second: use a rate from 1/65535 to 65535")]

@@ -1,6 +1,6 @@
 //! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
-use super::{driver::Driver, plain::PlainOptions, probe::Probe};
+use super::{cancel::Cancel, driver::Driver, plain::PlainOptions, probe::Probe};
 use eddy_diag::{Diagnostic, SourceId, Span};
 
 /// The entry point that a pass defines, and with it the uniforms that it may name.
@@ -228,6 +228,8 @@ pub struct PassSource<'a> {
     pub plain: PlainOptions,
     /// A value that is drawn instead of the picture; only in passes that draw one.
     pub probe: Option<Probe>,
+    /// Ends the front end before it is done; see [`super::cancel`].
+    pub cancel: Cancel<'a>,
 }
 
 impl<'a> PassSource<'a> {
@@ -247,6 +249,7 @@ impl<'a> PassSource<'a> {
             tiled: false,
             plain: PlainOptions::of(kind),
             probe: None,
+            cancel: Cancel::default(),
         }
     }
 

@@ -19,6 +19,13 @@ pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
     None
 }
 
+/// Says that a test is left out as a program is not installed. Where `EDDY_REQUIRE_GPU` is set that is a failure:
+/// `scripts/test` installs the program.
+pub fn missing(program: &str) {
+    assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "{program} is required here");
+    skipped(&format!("{program} is not installed"));
+}
+
 /// Says that a test, or a part of it, is left out: on standard error, past the harness, and in the file that
 /// `EDDY_SKIPS` names, whose lines `scripts/test` counts.
 pub fn skipped(why: &str) {

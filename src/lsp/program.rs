@@ -5,6 +5,7 @@ use eddy_diag::{self as diag, Diagnostic, Fix, SourceId, SourceMap, Span};
 use eddy_engine::{KeptAnalyses, Sources, StageAnalysis};
 use eddy_glsl::{
     PassKind, PassSource, Text,
+    cancel::Cancel,
     services::{Analysis, Programs},
 };
 use eddy_media as media;
@@ -14,7 +15,7 @@ use eddy_project::{
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, atomic::AtomicBool},
 };
 
 /// The folder or the file that a program is read from.
@@ -112,20 +113,20 @@ impl Program {
         self.kept = other.kept;
     }
 
-    /// Reads it again.
-    pub fn read(&mut self, documents: &Documents) {
+    /// Reads it again, unless it is cancelled.
+    pub fn read(&mut self, documents: &Documents, cancel: &Arc<AtomicBool>) {
         (self.is_stale, self.is_untold) = (false, true);
         let text = documents.get(self.root.path()).map(|document| document.text.clone());
         if let (Root::File(path), Some(text)) = (&self.root, text)
             && let Some(kind) = plain_kind(path, &text)
         {
             let texts = vec![(path.clone(), text, kind)];
-            self.take_alone(texts);
+            self.take_alone(texts, cancel);
             self.said = self.stages[0].analysis.diagnostics().to_vec();
             return;
         }
         match project::load_edited(self.root.path(), documents.texts()) {
-            Ok(loaded) => self.take_project(loaded),
+            Ok(loaded) => self.take_project(loaded, cancel),
             Err(error) => {
                 let around = self.root.base();
                 let here = documents.iter().filter(|document| document.path.starts_with(around));
@@ -138,15 +139,15 @@ impl Program {
                     Root::Folder(_) => alone.collect(),
                     Root::File(path) => alone.filter(|(other, ..)| other == path).collect(),
                 };
-                self.take_alone(alone);
+                self.take_alone(alone, cancel);
                 self.take_error(&error);
             }
         }
     }
 
-    fn take_project(&mut self, loaded: project::Loaded) {
+    fn take_project(&mut self, loaded: project::Loaded, cancel: &Arc<AtomicBool>) {
         let project::Loaded { project, warnings, sources } = loaded;
-        let texts = Sources::new(&project);
+        let texts = Sources::new(&project).cancelled_by(cancel.clone());
         self.stages = self.kept.analyse(&project, &texts);
         let mut said = warnings;
         said.extend(self.kept.diagnose(&project, &texts, &self.stages));
@@ -178,14 +179,14 @@ impl Program {
     }
 
     /// Takes texts that belong to no project, each for itself.
-    fn take_alone(&mut self, texts: Vec<(PathBuf, Arc<str>, PassKind)>) {
+    fn take_alone(&mut self, texts: Vec<(PathBuf, Arc<str>, PassKind)>, cancel: &AtomicBool) {
         self.project = None;
         (self.texts, self.stages, self.paths, self.plain) = Default::default();
         self.uniforms.clear();
         self.media = Media::default();
         for (index, (path, text, kind)) in texts.into_iter().enumerate() {
             let id = self.texts.add(path.file_name().unwrap_or_default().to_string_lossy(), text.clone());
-            let analysis = Arc::new(alone(kind, id, &text));
+            let analysis = Arc::new(alone(kind, id, &text, Cancel::by(cancel)));
             self.stages.push(StageAnalysis { index, stage: Stage::Own, analysis });
             self.paths.push(path);
             self.plain.push(kind);
@@ -320,7 +321,8 @@ impl Program {
                         texts.add(text.name.clone(), fix.applied(id, &text.text));
                     }
                     let read = self.plain.iter().zip(texts.iter());
-                    let read: Vec<Analysis> = read.map(|(kind, (id, text))| alone(*kind, id, &text.text)).collect();
+                    let read: Vec<Analysis> =
+                        read.map(|(kind, (id, text))| alone(*kind, id, &text.text, Cancel::default())).collect();
                     let analyses: Vec<&Analysis> = read.iter().collect();
                     check(&Programs { analyses: &analyses, uniforms: &[], texts: &texts });
                 }
@@ -353,8 +355,8 @@ fn has_entry(text: &str) -> bool {
 }
 
 /// Reads a text of no project.
-fn alone(kind: PassKind, id: SourceId, text: &str) -> Analysis {
-    Analysis::new(&PassSource::new(kind, Text { id, text }))
+fn alone(kind: PassKind, id: SourceId, text: &str, cancel: Cancel<'_>) -> Analysis {
+    Analysis::new(&PassSource { cancel, ..PassSource::new(kind, Text { id, text }) })
 }
 
 /// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone. The vertex
@@ -375,7 +377,7 @@ mod tests {
         let mut documents = Documents::default();
         let path = documents.open(serde_json::from_value(item).expect("a document"));
         let mut program = Program::new(Root::File(path));
-        program.read(&documents);
+        program.read(&documents, &Arc::default());
         program.diagnostics().into_iter().map(|d| d.message).collect()
     }
 

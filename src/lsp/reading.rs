@@ -26,7 +26,7 @@ pub(crate) struct Reading {
     result: Receiver<Option<Box<Program>>>,
 }
 
-/// How a reading stands.
+/// The state of a reading.
 pub(crate) enum Progress {
     Reading,
     Read(Box<Program>),
@@ -43,8 +43,8 @@ impl Reading {
         let is_outdated = Arc::new(AtomicBool::new(false));
         let (root, flag) = (program.root.clone(), is_outdated.clone());
         std::thread::Builder::new().name("reading".into()).stack_size(STACK).spawn(move || {
-            let read = cancellable(flag, move || {
-                program.read(&documents);
+            let read = cancellable(move || {
+                program.read(&documents, &flag);
                 Box::new(program)
             });
             // The server may have ended.

@@ -7,9 +7,9 @@ use super::{
 };
 use eddy_diag::SourceId;
 use eddy_project::is_manifest;
-use std::{mem, path::Path, time::Duration};
+use std::{mem, path::Path, sync::Arc, time::Duration};
 
-/// Why nothing can be said of a document.
+/// The reason why nothing can be said of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unfound {
     /// It is closed, or is none of Eddy's.
@@ -119,7 +119,7 @@ impl Workspace {
                 match Reading::start(program.unread(), self.documents.clone()) {
                     Ok(reading) => self.reading = Some(reading),
                     // Without a thread it is read here.
-                    Err(_) => program.read(&self.documents),
+                    Err(_) => program.read(&self.documents, &Arc::default()),
                 }
             } else if !self.begin_lost() {
                 return true;
@@ -142,7 +142,7 @@ impl Workspace {
     fn settle(&mut self) {
         loop {
             for program in self.programs.iter_mut().filter(|program| program.is_stale) {
-                program.read(&self.documents);
+                program.read(&self.documents, &Arc::default());
             }
             if !self.begin_lost() {
                 break;

@@ -312,6 +312,8 @@ fn films_of_vp9_and_av1_have_odd_sizes() {
     // A refusal comes before the project is read.
     let odd = b.line("render nothing-here.glsl --size 161x91 --frames 3 --out a.mp4").expect(2);
     assert!(odd.err.contains("even width and height, not 161x91"), "{}", odd.err);
+    let small = b.line("render nothing-here.glsl --size 128x2 --frames 3 --out a.mkv --codec h265").expect(2);
+    assert!(small.err.contains("at least 16 pixels each way, not 128x2"), "{}", small.err);
 }
 
 #[test]

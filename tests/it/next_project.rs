@@ -164,19 +164,19 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
 fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
-    let open = |name: &str, red: f32| write(&dir.path().join(name), &[("image.glsl", &plain(red))]);
-    let (a, b) = (open("a", 0.2), open("b", 0.6));
+    let open = |name: &str, text: &str| write(&dir.path().join(name), &[("image.glsl", text)]);
+    // A text that takes longer to compile than a tick.
+    let functions: String = (0..20_000).map(|n| format!("float f{n}(float x) {{ return x + {n}.0; }}\n")).collect();
+    let (a, b) = (open("a", &format!("{functions}{}", plain(0.2))), open("b", &plain(0.6)));
     let mut stage = Stage::bare(gpu);
     stage.session.apply(Command::Open(a));
     stage.act(Command::CompileNow);
-    std::thread::sleep(Duration::from_millis(500));
-    // The compile has ended, and the front end is woken for it just now.
+    assert!(stage.session.compile_state().compiling);
     let before = stage.session.programs_drawn();
     stage.session.apply(Command::Open(b));
-    stage.session.attend(Instant::now());
-    // On a busy machine the next project's own program may have come already.
-    assert!(stage.session.programs_drawn() == before || stage.red() == 153);
-    stage.until_compiled();
+    stage.until("a program", |session| session.programs_drawn() > before);
+    assert_eq!(stage.red(), 153, "the first program that is drawn is the next project's");
+    stage.for_a_while();
     assert_eq!(stage.red(), 153);
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{
     presets::preset,
     program::Bench,
-    programs::{failure, has},
+    programs::{failure, has_required},
 };
 use eddy::{
     project::presets,
@@ -65,7 +65,7 @@ fn wgsl_of_presets_is_read_again_and_valid() {
 
 #[test]
 fn spirv_of_presets_is_valid_for_vulkan() {
-    if !has("spirv-val") {
+    if !has_required("spirv-val") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -109,7 +109,7 @@ fn hlsl_keeps_all_but_what_glslang_lacks() {
 
 /// Hands all shaders of a version to glslang, of each stage at once: to set up its built-ins takes it longer than a shader.
 fn glslang(version: GlslVersion) {
-    if !has("glslangValidator") {
+    if !has_required("glslangValidator") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -144,7 +144,7 @@ fn glsl_es_300_of_presets_compiles() {
 
 #[test]
 fn hlsl_of_presets_compiles() {
-    if !has("glslangValidator") {
+    if !has_required("glslangValidator") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -1,20 +1,16 @@
 //! End to end: the camera is off until a person presses its button, shown while it is on, and off again by its light.
 
 use crate::support::{
-    skipped,
+    ffmpeg::has_ffmpeg,
     window::{Display, Window},
 };
-use std::{
-    fs,
-    process::{Command, Stdio},
-};
+use std::fs;
 
 #[test]
 fn the_camera_is_turned_on_by_hand_and_its_light_turns_it_off() {
     let Some(display) = Display::open() else { return };
-    let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    if !runs.is_ok_and(|status| status.success()) {
-        return skipped("ffmpeg is not installed");
+    if !has_ffmpeg() {
+        return;
     }
     let home = tempfile::tempdir().unwrap();
     // The window finds no programs but those that lie here.

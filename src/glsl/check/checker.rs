@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     ast::{self, Ast, Interner, Loc, Origins, Symbol},
+    cancel::Cancel,
     hir::{self, FuncId, Module, TypeId},
     near::Budget,
     report::MAX_ERRORS,
@@ -35,6 +36,7 @@ pub(super) struct Settings<'a> {
     pub values: &'a [UniformValue],
     /// The text that other stages have too.
     pub common: Option<SourceId>,
+    pub cancel: Cancel<'a>,
 }
 
 pub(super) struct Checker<'a> {
@@ -172,7 +174,7 @@ impl<'a> Checker<'a> {
     /// Checks the declarations that were not checked yet.
     pub fn declarations(&mut self) {
         while let Some(&item) = self.ast.items.get(self.items) {
-            crate::cancel::check();
+            self.settings.cancel.check();
             self.global_declaration(item);
             self.items += 1;
         }

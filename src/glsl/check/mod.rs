@@ -76,8 +76,8 @@ pub(crate) fn check(
     source: &PassSource<'_>,
     checkpoint: Option<&Checkpoint>,
 ) -> Checked {
-    let &PassSource { dialect, channels, custom_uniforms, values, common, .. } = source;
-    let settings = Settings { dialect, channels, custom_uniforms, values, common: common.map(|text| text.id) };
+    let &PassSource { dialect, channels, custom_uniforms, values, common, cancel, .. } = source;
+    let settings = Settings { dialect, channels, custom_uniforms, values, common: common.map(|text| text.id), cancel };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
     let bulk = checker.bulk.map(|name| origins.span(name));

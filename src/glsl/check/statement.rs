@@ -52,7 +52,7 @@ impl Checker<'_> {
     }
 
     fn statement(&mut self, id: ast::StmtId) {
-        crate::cancel::check();
+        self.settings.cancel.check();
         let ast::Stmt { kind, loc } = self.ast[id];
         match kind {
             S::Error | S::Empty => {}

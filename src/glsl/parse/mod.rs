@@ -24,6 +24,7 @@ pub(super) use hint::foreign_type;
 
 use super::{
     ast::{Ast, DeclKind, Interner, Origins, with_room},
+    cancel::Cancel,
     lex::{Kind, words},
     pieces::{self, Piece},
     preprocess::{MacroTable, Preprocessed, Tok, Unit, preprocess},
@@ -101,27 +102,28 @@ impl Parsed {
 pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
     let pieces = pieces::of(&texts, source.includes);
-    read(&pieces, (Unit::Pass(source.kind), source.dialect), already.map_or_else(Parsed::nothing, Parsed::clone))
+    let unit = (Unit::Pass(source.kind), source.dialect, source.cancel);
+    read(&pieces, unit, already.map_or_else(Parsed::nothing, Parsed::clone))
 }
 
 /// Preprocesses and parses Common alone.
 pub(super) fn parse_common(pieces: &[Piece<'_>]) -> Parsed {
-    read(pieces, (Unit::CommonAlone, Dialect::default()), Parsed::nothing())
+    read(pieces, (Unit::CommonAlone, Dialect::default(), Cancel::default()), Parsed::nothing())
 }
 
 /// Preprocesses and parses the pieces behind what is `done`.
-fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect), done: Parsed) -> Parsed {
+fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect, Cancel<'_>), done: Parsed) -> Parsed {
     on_deep_stack(|| read_here(pieces, unit, done))
 }
 
-fn read_here(pieces: &[Piece<'_>], (unit, dialect): (Unit, Dialect), done: Parsed) -> Parsed {
+fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Cancel<'_>), done: Parsed) -> Parsed {
     let Parsed { ast, origins, mut names, mut report, reader } = done;
     let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
     let begin = tokens.len().saturating_sub(1);
     let done =
         Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers, is_stopped: false };
     let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
-        preprocess(pieces, (unit, dialect), done, &mut names, &mut report);
+        preprocess(pieces, (unit, dialect, cancel), done, &mut names, &mut report);
     brackets::pair(&mut tokens, begin);
     let end = tokens.len() - 1;
     structs.resize(names.len(), false);
@@ -135,6 +137,7 @@ fn read_here(pieces: &[Piece<'_>], (unit, dialect): (Unit, Dialect), done: Parse
         pieces,
         unit,
         dialect,
+        cancel,
         depth: 0,
         levels: 0,
         expr_stack: Vec::new(),

@@ -3,6 +3,7 @@
 use super::{brackets, hint};
 use crate::{
     ast::{Ast, Declarator, ExprId, ExprKind, Ident, Interner, Loc, MAX_NESTING, Origins, StmtId, Symbol, TokenId},
+    cancel::Cancel,
     lex::Kind,
     pieces::Piece,
     preprocess::{Tok, Unit},
@@ -26,6 +27,7 @@ pub(super) struct Parser<'p> {
     pub pieces: &'p [Piece<'p>],
     pub unit: Unit,
     pub dialect: Dialect,
+    pub cancel: Cancel<'p>,
     /// Statements around the next token.
     pub depth: u32,
     /// Parentheses, operators and calls around it in its expression.

@@ -85,7 +85,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn statement(&mut self) -> Parse<StmtId> {
-        crate::cancel::check();
+        self.cancel.check();
         self.enter()?;
         let first = self.at;
         let kind = self.statement_kind()?;

@@ -27,7 +27,7 @@ pub(crate) const DIRECTIVES: [&str; 13] = [
 impl Preprocessor<'_, '_> {
     /// Carries out the directive that begins with `hash`, to the end of its line.
     pub(super) fn directive(&mut self, hash: Token) {
-        crate::cancel::check();
+        self.cancel.check();
         self.lexer.begin_directive();
         let name = self.raw();
         match name.kind {

@@ -30,7 +30,7 @@ pub(super) use preprocessed::Preprocessed;
 pub(super) use preprocessed::Tok;
 pub(super) use unit::Unit;
 
-use super::{ast::Interner, pieces::Piece, report::Report, source::Dialect};
+use super::{ast::Interner, cancel::Cancel, pieces::Piece, report::Report, source::Dialect};
 use state::Preprocessor;
 
 /// Runs the texts through, those behind what is `done`.
@@ -39,13 +39,13 @@ use state::Preprocessor;
 /// If that is all of them.
 pub(super) fn preprocess(
     pieces: &[Piece<'_>],
-    (unit, dialect): (Unit, Dialect),
+    (unit, dialect, cancel): (Unit, Dialect, Cancel<'_>),
     mut done: Preprocessed,
     names: &mut Interner,
     report: &mut Report,
 ) -> Preprocessed {
     done.reopen();
-    let mut all = Preprocessor::new(pieces, (unit, dialect), done, names, report);
+    let mut all = Preprocessor::new(pieces, (unit, dialect, cancel), done, names, report);
     all.run(unit);
     Preprocessed {
         tokens: all.tokens,

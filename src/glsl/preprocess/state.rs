@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     ast::{Interner, MacroDef, MacroId, Origin, Origins},
+    cancel::Cancel,
     lex::{Kind, LINE_START, Lexer, Token, words},
     pieces::Piece,
     report::Report,
@@ -71,6 +72,7 @@ pub(super) struct Preprocessor<'a, 'r> {
     /// Nothing stands in front of the text, so that it may begin with its version and extensions.
     pub is_plain: bool,
     pub dialect: Dialect,
+    pub cancel: Cancel<'r>,
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
@@ -80,7 +82,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     /// If there is none.
     pub fn new(
         pieces: &'r [Piece<'a>],
-        (unit, dialect): (Unit, Dialect),
+        (unit, dialect, cancel): (Unit, Dialect, Cancel<'r>),
         done: Preprocessed,
         names: &'r mut Interner,
         report: &'r mut Report,
@@ -113,6 +115,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             line: LineCount::new(unit),
             is_plain: matches!(unit, Unit::Pass(kind) if kind.is_plain()),
             dialect,
+            cancel,
         };
         // A token for four bytes is what shaders have, comments included.
         new.tokens.reserve(bytes / 4 + 16);

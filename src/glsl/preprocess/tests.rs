@@ -30,7 +30,7 @@ fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     let mut report = Report::default();
     let done = preprocess(
         &pieces::of(&texts, &includes),
-        (Unit::CommonAlone, Dialect::default()),
+        (Unit::CommonAlone, Dialect::default(), Cancel::default()),
         Preprocessed::default(),
         &mut names,
         &mut report,
@@ -376,7 +376,7 @@ fn origins_lead_back() {
     let (mut names, mut report) = (words::interner(), Report::default());
     let done = preprocess(
         &pieces::of(&texts, &[]),
-        (Unit::CommonAlone, Dialect::default()),
+        (Unit::CommonAlone, Dialect::default(), Cancel::default()),
         Preprocessed::default(),
         &mut names,
         &mut report,

@@ -28,6 +28,7 @@ fn has_ffmpeg() -> bool {
     let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let is_here = runs.is_ok_and(|status| status.success());
     if !is_here {
+        assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "ffmpeg is required here");
         skipped("ffmpeg is not installed");
     }
     is_here

@@ -1,6 +1,6 @@
 //! ffmpeg and ffprobe, where they are installed: what they say of a film, and its pictures and samples.
 
-use super::skipped;
+use super::missing;
 use std::{
     path::Path,
     process::{Command, Stdio},
@@ -11,7 +11,7 @@ pub fn has_ffmpeg() -> bool {
     let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let is_here = runs.is_ok_and(|status| status.success());
     if !is_here {
-        skipped("ffmpeg is not installed");
+        missing("ffmpeg");
     }
     is_here
 }

@@ -23,7 +23,7 @@ pub mod stage;
 pub mod walked;
 pub mod window;
 
-pub use eddy::gpu::testing::{gpu, gpu_with, skipped};
+pub use eddy::gpu::testing::{gpu, gpu_with, missing, skipped};
 use eddy::{
     engine::{BuildOptions, Builder, DrawFor, Engine, FrameInputs, PassInputs, Pixels},
     gpu::Gpu,

@@ -1,17 +1,29 @@
 //! Programs that are installed on some machines alone, as compilers of other languages and shells.
 
-use super::skipped;
+use super::{missing, skipped};
 use std::process::{Command, Stdio};
 
 /// Says whether a program is there, and counts a test that is left out.
 pub fn has(program: &str) -> bool {
-    let mut command = Command::new(program);
-    let command = command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    let is_here = command.status().is_ok();
+    let is_here = runs(program);
     if !is_here {
         skipped(&format!("{program} is not installed"));
     }
     is_here
+}
+
+/// Says the same of a program that `scripts/test` installs, and without which tests fail on CI.
+pub fn has_required(program: &str) -> bool {
+    let is_here = runs(program);
+    if !is_here {
+        missing(program);
+    }
+    is_here
+}
+
+fn runs(program: &str) -> bool {
+    let mut command = Command::new(program);
+    command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
 }
 
 /// Runs a program, and returns what it says where it fails.
