@@ -85,7 +85,7 @@ pub fn print_json(value: &impl Serialize) -> io::Result<()> {
 pub fn replace_line(words: &str) {
     let mut err = io::stderr().lock();
     let words = escape_line(words);
-    // Nobody is left to read it where standard error is closed.
+    // Standard error may be closed.
     let _ = if err.is_terminal() { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
     let _ = err.flush();
 }

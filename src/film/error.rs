@@ -60,7 +60,7 @@ impl FilmError {
         move |source| FilmError::Io { path, source }
     }
 
-    /// Names the film in the place of the temporary file in which it is written, whose name nobody knows.
+    /// Names the film in the place of the temporary file in which it is written, whose name is random.
     pub(super) fn of_film(self, film: &std::path::Path) -> FilmError {
         match self {
             FilmError::Io { source, .. } => FilmError::Io { path: film.to_owned(), source },

@@ -93,7 +93,7 @@ fn music_that_cannot_be_read_is_silent_and_that_of_the_site_is_made_up() {
     assert_eq!(shown.at(0, 2)[0], 10.5);
 }
 
-/// What is not decoded here is by ffmpeg: Opus, AIFF, and the sound of a video.
+/// ffmpeg decodes Opus, AC-3 and the sound of videos.
 #[test]
 fn ffmpeg_decodes_other_sounds_and_those_of_videos() {
     let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
@@ -115,6 +115,14 @@ fn ffmpeg_decodes_other_sounds_and_those_of_videos() {
         let texels = texels(&b, "50");
         let peak = (0..512).max_by(|x, y| texels.at(*x, 0)[0].total_cmp(&texels.at(*y, 0)[0])).unwrap();
         assert!((20..=21).contains(&peak), "{name}: 440 Hz lies in bin 20.4, not {peak}");
+    }
+    // A file that leads ffmpeg to another one is refused, whatever its ending.
+    b.write("p/list.aac", "ffconcat version 1.0\nfile tone.wav\n");
+    b.write("p/list.mp3", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\ntone.wav\n#EXT-X-ENDLIST\n");
+    for name in ["list.aac", "list.mp3"] {
+        project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
+        let said = b.line("check p").expect(0).err;
+        assert!(said.contains("the channel is silent"), "{name}: {said}");
     }
     project(&b, "{ file = \"mute.mkv\", kind = \"music\" }");
     assert!(b.line("check p").expect(0).err.contains("the channel is silent"));

@@ -390,7 +390,7 @@ fn an_audit_is_told_in_the_list_of_problems_until_the_next_compile() {
     stage.until("findings", |session| !session.diagnostics().is_empty());
     let told: Vec<_> =
         stage.session.diagnostics().iter().map(|d| (d.place.as_ref().unwrap().line, &*d.message)).collect();
-    // An undefined variable is told of at its declaration, the others where they arise.
+    // An undefined variable is reported at its declaration, the others where they arise.
     let line = |message: &str| if message.contains("was never written") { 2 } else { 4 };
     assert!(told.iter().all(|(at, message)| *at == line(message)), "{told:?}");
     for what in ["first NaN here", "was never written", "square root of a negative number"] {

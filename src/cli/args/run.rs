@@ -16,7 +16,7 @@ use clap::Args;
 use jiff::civil::DateTime;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-/// Frames per second of iTime where nobody asked for a rate.
+/// The default for frames per second of iTime.
 pub const DEFAULT_FPS: f64 = 60.0;
 
 /// Says how frames are drawn, wherever frames are drawn.

@@ -165,7 +165,7 @@ impl Observer<Shadowed> for Watch<'_> {
             let span = self.span(loc);
             self.find(Kind::Undefined(what), span, String::new());
         }
-        // What follows from an undefined value is told of where that comes from.
+        // What follows from an undefined value is reported where that value comes from.
         if self.flow.is_undefined(view, op) || self.flow.is_undefined_value(view, value) {
             return;
         }

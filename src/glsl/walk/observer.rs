@@ -47,7 +47,7 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
         layout.constants.len() + layout.registers
     }
 
-    /// The cells among [`Self::frame_cells`] that a value that is no address has for itself.
+    /// The cells among [`Self::frame_cells`] that a value other than an address has for itself.
     pub fn cells_of(&self, value: Value) -> Range<usize> {
         self.state.layout(self.frame).slots[value.index()].cells(0)
     }
