@@ -1,7 +1,7 @@
 //! Files that a person writes and the window follows: each is read when the window opens, and again when the window
 //! gets the keyboard and the file has changed.
 
-use crate::project::{confine, limits};
+use crate::project::confine;
 use std::{
     fs,
     io::{self, Write},
@@ -140,7 +140,7 @@ impl<T: Content> ConfigFile<T> {
 
 /// Reads a file; `None` where there is none.
 fn read(path: &Path) -> io::Result<Option<String>> {
-    confine::read_state(path, limits::STATE_FILE)
+    confine::read_state_toml(path)
 }
 
 fn with_place(path: &Path, mistake: &ConfigError) -> String {

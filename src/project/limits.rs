@@ -30,6 +30,12 @@ pub fn in_bytes(bytes: u64) -> String {
     }
 }
 
+/// Returns an upper bound for the values and tables of a TOML text: the signs before them (`a.b = 1` has a table and a value),
+/// those in texts, numbers and comments too. One takes a few hundred bytes once it is parsed, and its text may have two.
+pub fn toml_values(text: &str) -> usize {
+    text.bytes().filter(|byte| matches!(byte, b'=' | b',' | b'[' | b'{' | b'.')).count()
+}
+
 /// `eddy.toml`.
 pub const MANIFEST: Limit = Limit { bytes: 2 << 20, of: "an eddy.toml" };
 /// One GLSL text: a pass, a stage, Common or an included file.
@@ -49,7 +55,7 @@ pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound o
 /// A model file together with the buffers that it names.
 pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and its files" };
 
-/// Values of `eddy.toml`, counted by the signs before them: `=`, `,`, `[` and `{`, in texts too.
+/// Values of `eddy.toml`, counted by the signs before them: `=`, `,`, `.`, `[` and `{`, in texts too.
 pub const MANIFEST_VALUES: usize = 1 << 17;
 /// Values in the JSON text of a project that an image file holds: its texts and what is said of each.
 pub const PICTURE_VALUES: u64 = 1 << 18;
@@ -186,6 +192,8 @@ pub const RUN: Limit = Limit { bytes: 64 << 20, of: "the frames that lead to whe
 pub const RUN_BYTES: u64 = 256 << 20;
 /// A file of settings, of keys, of recent projects or of what the window looked like.
 pub const STATE_FILE: Limit = Limit { bytes: 4 << 20, of: "a file of settings" };
+/// Values of such a file, counted as those of `eddy.toml` are.
+pub const STATE_VALUES: usize = 1 << 17;
 /// A file with unsaved work that a crash left behind.
 pub const RECOVERY: Limit = Limit { bytes: 128 << 20, of: "a recovery file" };
 /// A font that settings name.

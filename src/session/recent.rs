@@ -2,7 +2,7 @@
 //!
 //! Owns the file that keeps them from one start to the next, which people can read and several windows write.
 
-use eddy_project::{Dialect, Origin, confine, limits};
+use eddy_project::{Dialect, Origin, confine};
 use serde::{Deserialize, Serialize};
 use std::{
     fs,
@@ -122,7 +122,7 @@ impl Recent {
 
     fn read(&mut self) -> Result<(), String> {
         let Some(path) = &self.path else { return Ok(()) };
-        let text = match confine::read_state(path, limits::STATE_FILE) {
+        let text = match confine::read_state_toml(path) {
             Ok(Some(text)) => text,
             Ok(None) => return Ok(()),
             Err(e) => return Err(format!("{}: {e}", path.display())),

@@ -69,6 +69,7 @@ pub fn measure(
 pub fn check() {
     let mut rows = vec![pictures(), scenes(), checkpoints(), models()];
     rows.extend(super::readers::rows());
+    rows.extend(super::streams::rows());
     println!("  inputs    read     peak  longest  most bytes for a byte");
     for row in &rows {
         let (peak, millis) = (row.peak >> 10, row.longest.as_millis());

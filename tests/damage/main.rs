@@ -12,6 +12,7 @@ mod memory;
 mod mutate;
 mod readers;
 mod seeds;
+mod streams;
 #[path = "../it/support/mod.rs"]
 mod support;
 

@@ -197,7 +197,11 @@ fn site_json() -> Row {
 
 fn manifests() -> Row {
     let make = |random: &mut Random| {
-        let text = match random.below(10) {
+        let text = match random.below(11) {
+            10 => {
+                let lines = (0..1 << random.below(15)).map(|n| format!("a{n}.b.c.d.e.f.g.h.i.j = 1\n"));
+                lines.collect::<String>() + "[passes.image]\n"
+            }
             7 => format!("description = \"{}\"\n[passes.image]", repeated(random, "n")),
             8 => format!("[passes.image]\n{}", repeated(random, "# a comment\n")),
             9 => format!("tags = [{}]\n[passes.image]", repeated(random, "\"t\",")),

@@ -323,3 +323,40 @@ fn a_pipe_in_the_place_of_a_file_of_settings_does_not_stop_the_window() {
     window.keys(&["ctrl+q"]);
     assert_eq!(window.ends(), Some(0));
 }
+
+/// The files are as large as they may be, or larger. SECURITY.md ("Memory and time of each reader") has the bounds: 96 MiB for
+/// the values of one TOML file, which are read one after another, three times the font and twice the recovery file.
+#[test]
+fn large_files_of_settings_and_recovery_take_bounded_memory() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let home = home.path();
+    let folder = project(home, "p");
+    let peak = |says: &str| {
+        let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
+        window.compiled();
+        let complaints = window.complaints();
+        assert!(complaints.contains(says), "{complaints}");
+        let peak = window.peak_resident();
+        window.keys(&["ctrl+q"]);
+        assert_eq!(window.ends(), Some(0));
+        peak
+    };
+    let usual = peak("");
+    let (config, state) = (home.join(".config/eddy"), home.join(".local/state/eddy"));
+    fs::create_dir_all(&config).unwrap();
+    let values = |count: usize| format!("x = [{}]\n", "0,".repeat(count));
+    let mut font = include_bytes!("../../assets/fonts/NotoSansMono-Regular.ttf").to_vec();
+    font.resize(63 << 20, 0);
+    fs::write(home.join("large.ttf"), font).unwrap();
+    let settings = format!("code-font = \"{}\"\n{}", home.join("large.ttf").display(), values(131_000));
+    fs::write(config.join("settings.toml"), settings).unwrap();
+    for large in [config.join("keys.toml"), state.join("window.toml"), state.join("projects.toml")] {
+        fs::write(large, values(2_000_000)).unwrap();
+    }
+    let recovery = state.join("recovery");
+    fs::create_dir_all(&recovery).unwrap();
+    fs::write(recovery.join("p-1.json"), format!("{{\"x\":[{}0]}}", "0,".repeat(63 << 20))).unwrap();
+    let taken = peak("more than 131072 values").saturating_sub(usual) >> 20;
+    println!("{} MiB as usual, {taken} MiB more with large files", usual >> 20);
+    assert!(taken < 96 + 3 * 64 + 2 * 128, "{taken} MiB more than {} MiB", usual >> 20);
+}

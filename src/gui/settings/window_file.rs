@@ -4,7 +4,7 @@ use crate::gui::{
     config_file::write,
     dock::{Node, Panel},
 };
-use crate::project::{confine, limits};
+use crate::project::confine;
 use std::{collections::BTreeSet, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 
@@ -73,7 +73,7 @@ impl WindowFile {
     /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
     pub fn read(&mut self) -> (WindowState, Vec<String>) {
         let Some(path) = &self.path else { return Default::default() };
-        let text = match confine::read_state(path, limits::STATE_FILE) {
+        let text = match confine::read_state_toml(path) {
             Ok(Some(text)) => text,
             Ok(None) => return Default::default(),
             Err(error) => return (WindowState::default(), vec![format!("{}: {error}", path.display())]),

@@ -8,7 +8,7 @@
 //! [`relative`] decides by the name alone, [`resolve`] by what is on the disk, and [`read`] reads. [`read_own`] is for
 //! a path that the person at the machine says, who may name any regular file.
 
-use super::limits::Limit;
+use super::limits::{self, Limit};
 use std::{
     fs::{self, File},
     io::{self, Read},
@@ -213,6 +213,16 @@ pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
 pub fn read_state(path: &Path, limit: Limit) -> io::Result<Option<String>> {
     let text = |bytes| String::from_utf8(bytes).map_err(|e| io::Error::new(io::ErrorKind::InvalidData, e));
     read_state_bytes(path, limit)?.map(text).transpose()
+}
+
+/// Reads a TOML file of Eddy's own likewise. It has at most [`limits::STATE_FILE`] bytes and [`limits::STATE_VALUES`] values:
+/// a value takes a hundred times its text once it is parsed.
+pub fn read_state_toml(path: &Path) -> io::Result<Option<String>> {
+    let Some(text) = read_state(path, limits::STATE_FILE)? else { return Ok(None) };
+    if limits::toml_values(&text) > limits::STATE_VALUES {
+        return Err(io::Error::other(format!("it has more than {} values, the limit", limits::STATE_VALUES)));
+    }
+    Ok(Some(text))
 }
 
 /// Does the same for a file that is not a text.

@@ -139,6 +139,10 @@ fn files_of_settings_are_regular_and_small() {
     assert_eq!(read_state(&at("text"), SMALL).unwrap().as_deref(), Some("zoom = 2.0"));
     assert_eq!(read_state(&at("mine"), SMALL).unwrap().as_deref(), Some("zoom = 2.0"));
     assert_eq!(read_state(&at("none"), SMALL).unwrap(), None);
+    assert_eq!(read_state_toml(&at("text")).unwrap().as_deref(), Some("zoom = 2.0"));
+    fs::write(at("many"), format!("zoom = [{}]", "0,".repeat(limits::STATE_VALUES))).unwrap();
+    let why = read_state_toml(&at("many")).unwrap_err().to_string();
+    assert!(why.contains("more than 131072 values"), "{why}");
 }
 
 #[test]

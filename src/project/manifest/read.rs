@@ -70,8 +70,7 @@ pub fn project(
 
 impl Reader<'_> {
     fn read(&mut self, folder_name: String, text: &str, origin: Origin) -> Option<Project> {
-        let values = text.bytes().filter(|byte| matches!(byte, b'=' | b',' | b'[' | b'{')).count();
-        if values > limits::MANIFEST_VALUES {
+        if limits::toml_values(text) > limits::MANIFEST_VALUES {
             let message = format!("eddy.toml has more than {} values, the limit", limits::MANIFEST_VALUES);
             self.error(None, message, "remove some of them, or move values into files");
             return None;

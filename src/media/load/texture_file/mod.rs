@@ -175,7 +175,13 @@ impl File {
         if data.len() < whole {
             return Err(format!("its first level should have {whole} bytes, and has {}", data.len()));
         }
-        let layers = data[..whole].chunks_exact(layer).map(<[u8]>::to_vec).collect();
+        let layers = match data {
+            Cow::Owned(mut data) if count == 1 => {
+                data.truncate(whole);
+                vec![data]
+            }
+            data => data[..whole].chunks_exact(layer).map(<[u8]>::to_vec).collect(),
+        };
         Ok(Self { dimension, width, height, texels, layers })
     }
 
