@@ -17,7 +17,7 @@ pub use terminal_text::{escape_json, escape_line, escape_message, escape_text, i
 use std::{
     collections::{HashMap, HashSet},
     ops::Range,
-    sync::Arc,
+    sync::{Arc, OnceLock},
 };
 
 /// Names the text of a [`SourceMap`] that a span points into: one per tab, included file or project file.
@@ -239,11 +239,61 @@ pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnos
 }
 
 /// A named text that spans point into.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct SourceText {
     /// The name that the author knows: `buffer_a.glsl`, `Image`, `eddy.toml`.
     pub name: String,
     pub text: Arc<str>,
+    lines: OnceLock<LineIndex>,
+}
+
+impl PartialEq for SourceText {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, &self.text) == (&other.name, &other.text)
+    }
+}
+
+impl Eq for SourceText {}
+
+/// An index of a text, so that the positions of many diagnostics are found without counting from its start for each.
+#[derive(Clone, Debug)]
+pub struct LineIndex {
+    /// The byte at which each line starts.
+    lines: Box<[u32]>,
+    /// The characters before each block of `BLOCK` bytes; one that crosses its start counts as before it.
+    characters: Box<[u32]>,
+}
+
+impl LineIndex {
+    const BLOCK: usize = 1024;
+
+    /// Reads the text once. It has less than 4 GiB.
+    pub fn new(text: &str) -> Self {
+        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at as u32 + 1);
+        let mut before = 0;
+        let blocks = text.as_bytes().chunks(Self::BLOCK).map(|block| {
+            let first = before;
+            before += characters(block);
+            first
+        });
+        Self { lines: std::iter::once(0).chain(starts).collect(), characters: blocks.collect() }
+    }
+
+    /// Returns the line, counted from 1, that a byte of the text is in; the last one for what is after its end.
+    pub fn line(&self, place: usize) -> usize {
+        self.lines.partition_point(|start| *start as usize <= place)
+    }
+
+    /// Returns the characters before a place, which is at the boundary of one.
+    fn characters_before(&self, text: &str, place: usize) -> u32 {
+        let block = (place / Self::BLOCK).min(self.characters.len().saturating_sub(1));
+        self.characters.get(block).map_or(0, |before| before + characters(&text.as_bytes()[block * Self::BLOCK..place]))
+    }
+}
+
+/// Returns how many characters of UTF-8 start in these bytes.
+fn characters(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|byte| **byte & 0xc0 != 0x80).count() as u32
 }
 
 /// A line and column, both counted from 1, as editors show them. Columns count characters, not bytes.
@@ -262,7 +312,7 @@ pub struct SourceMap {
 impl SourceMap {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> SourceId {
         let id = SourceId(u16::try_from(self.sources.len()).expect("fewer than 65,536 sources in one compile"));
-        self.sources.push(SourceText { name: name.into(), text: text.into() });
+        self.sources.push(SourceText { name: name.into(), text: text.into(), lines: OnceLock::new() });
         id
     }
 
@@ -276,20 +326,38 @@ impl SourceMap {
 
     /// Line and column of a span's start; `None` for an unknown source.
     pub fn line_column(&self, span: Span) -> Option<LineColumn> {
-        let text = &self.get(span.source)?.text;
+        let SourceText { text, lines, .. } = self.get(span.source)?;
         let mut start = (span.start as usize).min(text.len());
         while !text.is_char_boundary(start) {
             start -= 1;
         }
-        let before = &text[..start];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Some(LineColumn { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 })
+        let index = lines.get_or_init(|| LineIndex::new(text));
+        let line = index.line(start);
+        let line_start = index.lines[line - 1] as usize;
+        let characters = |place| index.characters_before(text, place) as usize;
+        Some(LineColumn { line, column: characters(start) - characters(line_start) + 1 })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn positions_are_those_of_counting_from_the_start() {
+        let line = "aé→😀 x".repeat(400);
+        for text in ["", "\n", "a", "a\nbé\n\n", &line, &format!("{line}\n\n{line}\r\n{line}")] {
+            let mut sources = SourceMap::default();
+            let source = sources.add("a", text);
+            for start in 0..=text.len() + 2 {
+                let before = (0..=start.min(text.len())).rev().find_map(|end| text.get(..end)).unwrap();
+                let line = before.matches('\n').count() + 1;
+                let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
+                let found = sources.line_column(Span::new(source, start..start));
+                assert_eq!(found, Some(LineColumn { line, column }), "{start} of {text:?}");
+            }
+        }
+    }
 
     #[test]
     fn the_edits_of_a_text_are_made_together() {

@@ -74,6 +74,10 @@ impl Fill {
     }
 }
 
+/// A value with escapes has a text of its own, with a line break for each line before it in the manifest, up to so many: a
+/// manifest of a million empty lines may have a thousand such values.
+const MOST_LINES: usize = 1 << 16;
+
 impl Written {
     /// Returns the text that diagnostics about a value point into, and where in it the value stands.
     pub(super) fn located(value: &Arc<str>, written: Option<&Written>) -> (Arc<str>, Range<usize>) {
@@ -84,7 +88,7 @@ impl Written {
         }
         // Escapes: what is compiled is not what is written.
         let before = &manifest[..range.start.min(manifest.len())];
-        let lines = before.matches('\n').count();
+        let lines = before.matches('\n').count().min(MOST_LINES);
         let text = "\n".repeat(lines) + value;
         (text.into(), lines..lines + value.len())
     }

@@ -83,10 +83,14 @@ pub fn check() {
 fn pictures() -> Row {
     let make = |random: &mut Random| {
         let side = 256 + random.below(768) as u32;
-        let image = match random.below(4) {
+        let image = match random.below(8) {
             0 => DynamicImage::new_luma8(side, side),
             1 => DynamicImage::new_luma_a8(side, side),
             2 => DynamicImage::new_rgb8(side, side),
+            3 => DynamicImage::new_luma16(side, side),
+            4 => DynamicImage::new_luma_a16(side, side),
+            5 => DynamicImage::new_rgb16(side, side),
+            6 => DynamicImage::new_rgba16(side, side),
             _ => DynamicImage::new_rgba8(side, side),
         };
         let mut png = Cursor::new(Vec::new());
@@ -110,7 +114,15 @@ fn pictures() -> Row {
         let (width, height) = (side(16), side(20));
         let is_decoded = width <= u64::from(limits::PICTURE_SIDE);
         // The decoder has a few rows of its own.
-        let texels = if is_decoded { 4 * width as usize * (height as usize + 16) } else { 0 };
+        // Depth and kind of colour (PNG, third edition, section 11.2.1): channels of 16 bits are decoded as such.
+        let channels = match png[25] {
+            0 => 1,
+            4 => 2,
+            2 => 3,
+            _ => 4,
+        };
+        let texel = if png[24] == 16 { (2 * channels).max(4) } else { 4 };
+        let texels = if is_decoded { texel * width as usize * (height as usize + 16) } else { 0 };
         texels + 2 * png.len() + MIB
     };
     measure("PNG", "a.png", make, read, most)

@@ -51,9 +51,14 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // Both may be there for a while.
-        self.took(size);
-        self.live.fetch_sub(layout.size(), Relaxed);
+        if size < layout.size() {
+            // Shrunk in place.
+            self.live.fetch_sub(layout.size() - size, Relaxed);
+        } else {
+            // Both may be there for a while.
+            self.took(size);
+            self.live.fetch_sub(layout.size(), Relaxed);
+        }
         unsafe { System.realloc(pointer, layout, size) }
     }
 }

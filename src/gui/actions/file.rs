@@ -1,7 +1,7 @@
 //! The file in which a person gives actions other keys.
 
 use super::{Chord, Entry, Group, Keymap, keymap::level, table::ACTIONS};
-use crate::{gui::config_file::ConfigError, project::nearest};
+use crate::{diag::LineIndex, gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
 
@@ -9,7 +9,8 @@ use toml_edit::{Document, Item, Value};
 pub fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut keymap = Keymap::default();
     let mut mistakes = Vec::new();
-    let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
+    let lines = LineIndex::new(text);
+    let line = |span: Option<Range<usize>>| lines.line(span.map_or(0, |span| span.start));
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {

@@ -1,7 +1,7 @@
 //! The text of `settings.toml`: read, made anew, and changed in one line.
 
 use super::keys::{Change, KEYS, Settings};
-use crate::{gui::config_file::ConfigError, project::nearest};
+use crate::{diag::LineIndex, gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
 
@@ -10,7 +10,8 @@ use toml_edit::{Document, DocumentMut, Item};
 pub fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let mut settings = Settings::default();
     let mut mistakes = Vec::new();
-    let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
+    let lines = LineIndex::new(text);
+    let line = |span: Option<Range<usize>>| lines.line(span.map_or(0, |span| span.start));
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {

@@ -4,7 +4,7 @@ use crate::gui::{
     config_file::write,
     dock::{Node, Panel},
 };
-use crate::project::confine;
+use crate::{diag::LineIndex, project::confine};
 use std::{collections::BTreeSet, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 
@@ -129,17 +129,18 @@ fn text(remembered: &WindowState) -> String {
 fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
     let mut remembered = WindowState::default();
     let mut mistakes = Vec::new();
+    let lines = LineIndex::new(text);
     let document = match toml_edit::Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
-            let line = 1 + text[..error.span().map_or(0, |s| s.start)].matches('\n').count();
+            let line = lines.line(error.span().map_or(0, |span| span.start));
             return (remembered, vec![(line, error.message().trim_end().to_owned())]);
         }
     };
     let table = document.as_table();
     let mut wrong = |name: &str, what: String| {
         let start = table.key(name).and_then(toml_edit::Key::span).map_or(0, |span| span.start);
-        mistakes.push((1 + text[..start].matches('\n').count(), what));
+        mistakes.push((lines.line(start), what));
     };
     for (name, _) in table.iter().filter(|(name, _)| !KEYS.contains(name)) {
         wrong(name, format!("unknown key \"{name}\"; the keys are {}", KEYS.join(", ")));

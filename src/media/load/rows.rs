@@ -1,5 +1,5 @@
-//! Decoded texels of 1 to 4 components become four bytes each in the buffer that they were decoded into, so that a picture
-//! is in memory once.
+//! Decoded texels of 1 to 4 components of 8 or 16 bits become four bytes each in the buffer that they were decoded into, so
+//! that a picture is in memory once.
 
 use crate::Texels;
 use eddy_texture::TexelFormat;
@@ -7,32 +7,56 @@ use image::{ColorType, ImageDecoder, ImageResult};
 
 /// Returns whether [`read`] reads texels of a kind.
 pub(super) fn fits(color: ColorType) -> bool {
-    color.bytes_per_pixel() <= 4 && matches!(color, ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8)
+    use ColorType as C;
+    matches!(color, C::L8 | C::La8 | C::Rgb8 | C::Rgba8 | C::L16 | C::La16 | C::Rgb16 | C::Rgba16)
 }
 
-/// Decodes a picture whose texels [`fits`] says are read. The memory is that of the result, and what the decoder itself
-/// takes.
+/// Decodes a picture whose texels [`fits`] says are read. The memory is that of the decoded picture, at least 4 bytes a texel,
+/// and what the decoder itself takes.
 pub(super) fn read(decoder: impl ImageDecoder) -> ImageResult<Texels> {
     let (width, height) = decoder.dimensions();
-    let components = usize::from(decoder.color_type().bytes_per_pixel());
+    let color = decoder.color_type();
+    let stored = usize::from(color.bytes_per_pixel());
     let count = width as usize * height as usize;
-    let mut bytes = vec![0; 4 * count];
-    // At the end of the buffer: a texel is never written over one that is still to be read.
-    let from = (4 - components) * count;
+    let mut bytes = vec![0; stored.max(4) * count];
+    // At the end of the buffer, and texels are widened from the first on; larger ones are narrowed likewise. So none is
+    // written over one that is still to be read.
+    let from = bytes.len() - stored * count;
     decoder.read_image(&mut bytes[from..])?;
-    if components < 4 {
+    let components = usize::from(color.channel_count());
+    if stored > components {
         for n in 0..count {
-            let texel = &bytes[from + n * components..][..components];
-            let wide = match *texel {
-                [l] => [l, l, l, 255],
-                [l, a] => [l, l, l, a],
-                [r, g, b] => [r, g, b, 255],
-                _ => unreachable!("texels of four components stay"),
-            };
-            bytes[4 * n..4 * n + 4].copy_from_slice(&wide);
+            let texel = &bytes[from + n * stored..][..stored];
+            let mut narrow = [0; 4];
+            for (to, value) in narrow.iter_mut().zip(texel.chunks_exact(2)) {
+                *to = eight_bits(u16::from_ne_bytes([value[0], value[1]]));
+            }
+            bytes[4 * n..4 * n + 4].copy_from_slice(&wide(&narrow[..components]));
+        }
+        bytes.truncate(4 * count);
+        bytes.shrink_to_fit();
+    } else if components < 4 {
+        for n in 0..count {
+            let texel = wide(&bytes[from + n * stored..][..stored]);
+            bytes[4 * n..4 * n + 4].copy_from_slice(&texel);
         }
     }
     Ok(Texels::flat(width, height, TexelFormat::Rgba8, bytes))
+}
+
+/// Returns the nearest value of 8 bits, as the image crate does: 65,535 is 255 times 257.
+fn eight_bits(value: u16) -> u8 {
+    ((u32::from(value) + 128) / 257) as u8
+}
+
+fn wide(texel: &[u8]) -> [u8; 4] {
+    match *texel {
+        [l] => [l, l, l, 255],
+        [l, a] => [l, l, l, a],
+        [r, g, b] => [r, g, b, 255],
+        [r, g, b, a] => [r, g, b, a],
+        _ => unreachable!("texels have 1 to 4 components"),
+    }
 }
 
 #[cfg(test)]
@@ -45,7 +69,21 @@ mod tests {
     fn every_number_of_components_gives_the_texels_of_the_image_crate() {
         let rgba = image::RgbaImage::from_fn(7, 5, |x, y| image::Rgba([x as u8 * 9, y as u8 * 31, 200, 255 - x as u8]));
         let rgba = DynamicImage::from(rgba);
-        let kinds = [rgba.to_luma8().into(), rgba.to_luma_alpha8().into(), rgba.to_rgb8().into(), rgba.clone()];
+        // All values of 16 bits are somewhere in it.
+        let deep = image::ImageBuffer::<image::Rgba<u16>, _>::from_fn(256, 64, |x, y| {
+            image::Rgba([0u16, 1, 2, 3].map(|n| 4 * (256 * y as u16 + x as u16) + n))
+        });
+        let deep = DynamicImage::from(deep);
+        let kinds = [
+            rgba.to_luma8().into(),
+            rgba.to_luma_alpha8().into(),
+            rgba.to_rgb8().into(),
+            rgba.clone(),
+            deep.to_luma16().into(),
+            deep.to_luma_alpha16().into(),
+            deep.to_rgb16().into(),
+            deep,
+        ];
         for image in kinds {
             let mut png = Cursor::new(Vec::new());
             image.write_to(&mut png, ImageFormat::Png).unwrap();
