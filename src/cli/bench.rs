@@ -2,9 +2,11 @@
 //! out what nobody reads is worth.
 
 use super::{
-    args::BenchArgs,
+    args::{BenchArgs, HostProgram},
+    command::{CommandError, Run},
     machine::{Machine, RunError, open},
     report::{Printer, Report},
+    sweep,
 };
 use crate::{
     engine::{CostClock, PassRole},
@@ -90,8 +92,22 @@ struct JsonLine<'a> {
     costs: Option<&'a Costs>,
 }
 
+impl Run for BenchArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        (self.run.guest, self.project.iter_mut().collect())
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        let inputs = self.inputs()?;
+        let sweep = sweep::combinations(&self.sweep)?;
+        Ok(run(self, &sweep, &inputs)?)
+    }
+}
+
 /// Measures every project at every combination of `sweep`.
-pub fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
+fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     for (spec, swept) in args.project.iter().flat_map(|spec| sweep.iter().map(move |swept| (spec, swept))) {

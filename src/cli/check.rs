@@ -3,6 +3,7 @@
 
 use super::{
     args::{CheckArgs, Consumer},
+    command::{CommandError, Run},
     machine::{Machine, RunError, millis_since},
     report::{Printer, Report},
     terminal::{self, one_line},
@@ -19,7 +20,13 @@ use std::{
     time::Instant,
 };
 
-pub fn run(args: &CheckArgs) -> io::Result<u8> {
+impl Run for CheckArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(run(self)?)
+    }
+}
+
+fn run(args: &CheckArgs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     // No device is made; the machine only keeps one project's panic from the others.
     let mut machine = Machine::default();

@@ -4,7 +4,8 @@
 //! is busy for both, and as with `--no-skip`, so that a picture at rest costs what it costs to draw.
 
 use super::{
-    args::{CompareArgs, CompareView, RunArgs},
+    args::{CompareArgs, CompareView, HostProgram, RunArgs},
+    command::{CommandError, Run},
     machine::{Machine, RunError, open},
     report::{Printer, Report},
     targets,
@@ -75,7 +76,20 @@ struct Time {
     repeats: u32,
 }
 
-pub fn run(args: &CompareArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+impl Run for CompareArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        (self.run.guest, vec![&mut self.project])
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        let inputs = self.run.inputs_of(self.frame + 1)?;
+        Ok(run(self, &inputs)?)
+    }
+}
+
+fn run(args: &CompareArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     let mut report = Report::new(&args.project);

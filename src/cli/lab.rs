@@ -1,7 +1,8 @@
 //! `eddy lab`: studies run and reported, or the results of several machines joined.
 
 use super::{
-    args::{LabArgs, LabCommand},
+    args::{HostProgram, LabArgs, LabCommand},
+    command::{CommandError, Run},
     failure::trouble,
     machine::shard_and_device,
     precision, stability,
@@ -19,7 +20,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub fn run(args: &LabArgs) -> io::Result<u8> {
+impl Run for LabArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        match &mut self.command {
+            Some(LabCommand::Precision(args)) => (args.run.guest, args.project.iter_mut().collect()),
+            _ => (None, Vec::new()),
+        }
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(run(self)?)
+    }
+}
+
+fn run(args: &LabArgs) -> io::Result<u8> {
     match &args.command {
         Some(LabCommand::Merge { from, out }) => return finish(merge(from, out)),
         Some(LabCommand::Precision(args)) if args.project.is_empty() && args.out.is_none() => {

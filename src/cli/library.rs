@@ -1,7 +1,8 @@
 //! `eddy list`, `eddy import`, `eddy export`: presets by name, projects to and from the site's JSON, and as HTML.
 
 use super::{
-    args::{ExportArgs, ExportFormat, ImportArgs},
+    args::{ExportArgs, ExportFormat, ImportArgs, ListArgs},
+    command::{CommandError, Run},
     machine::{Machine, RunError},
     report::{Printer, Report},
     terminal::{self, one_line, shown_path},
@@ -15,7 +16,13 @@ use std::{
     path::Path,
 };
 
-pub fn list() -> io::Result<u8> {
+impl Run for ListArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(list()?)
+    }
+}
+
+fn list() -> io::Result<u8> {
     let mut out = terminal::stdout();
     for name in project::presets::names() {
         writeln!(out, "{name}")?;
@@ -24,7 +31,13 @@ pub fn list() -> io::Result<u8> {
     Ok(0)
 }
 
-pub fn import(args: &ImportArgs) -> io::Result<u8> {
+impl Run for ImportArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(import(self)?)
+    }
+}
+
+fn import(args: &ImportArgs) -> io::Result<u8> {
     let file = args.file.to_string_lossy();
     let to = shown_path(&args.out);
     one(&file, |report| {
@@ -40,7 +53,13 @@ pub fn import(args: &ImportArgs) -> io::Result<u8> {
     })
 }
 
-pub fn export(args: &ExportArgs) -> io::Result<u8> {
+impl Run for ExportArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(export(self)?)
+    }
+}
+
+fn export(args: &ExportArgs) -> io::Result<u8> {
     let ends_in = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     match args.to {
         Some(ExportFormat::Html) => export_html(args),

@@ -2,6 +2,7 @@
 
 use super::{
     args::{Cli, CompletionsArgs, ManArgs},
+    command::{CommandError, Run},
     library::mend,
     machine::{Machine, RunError},
     report::{Printer, Report},
@@ -11,8 +12,14 @@ use super::{
 use clap::CommandFactory;
 use std::io::{self, Write};
 
+impl Run for CompletionsArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(completions(self)?)
+    }
+}
+
 /// Prints the completions of a shell.
-pub fn completions(args: &CompletionsArgs) -> io::Result<u8> {
+fn completions(args: &CompletionsArgs) -> io::Result<u8> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "eddy", &mut script);
     let mut out = terminal::stdout();
@@ -21,8 +28,14 @@ pub fn completions(args: &CompletionsArgs) -> io::Result<u8> {
     Ok(0)
 }
 
+impl Run for ManArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(man(self)?)
+    }
+}
+
 /// Writes a page per command.
-pub fn man(args: &ManArgs) -> io::Result<u8> {
+fn man(args: &ManArgs) -> io::Result<u8> {
     let mut report = Report::new("man");
     let written = Machine::default().attempt(&mut report, |_, _| {
         let pages = pages().map_err(anyhow::Error::from)?;

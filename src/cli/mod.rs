@@ -8,6 +8,7 @@ mod audit;
 mod bench;
 mod check;
 mod checkpoints;
+mod command;
 mod compare;
 mod divergence;
 mod doctor;
@@ -42,10 +43,11 @@ mod trace;
 mod translate;
 mod written;
 
-use crate::{diag::escape_line, lsp, playback::trial};
+use crate::diag::escape_line;
+use args::Cli;
 pub use args::Window;
-use args::{Cli, Command};
 use clap::Parser;
+use command::CommandError;
 use failure::TROUBLE;
 pub use failure::{error_chain, trouble};
 pub use panic_hook::install as install_log_and_reports;
@@ -70,23 +72,13 @@ pub enum Next {
 pub fn main() -> Next {
     let Cli { window, command } = parse().with_guests();
     let Some(mut command) = command else { return Next::Window(window.with_project_of_file()) };
-    if matches!(
-        command,
-        Command::Render(_)
-            | Command::Probe(_)
-            | Command::Trace(_)
-            | Command::Compare(_)
-            | Command::Bench(_)
-            | Command::Lab(_)
-            | Command::Doctor(_)
-            | Command::TryCompile
-    ) {
+    if command.opens_device() {
         quiet::ask_for_no_wayland();
     }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
-    let code = match worker.spawn(move || run(&mut command)).map(std::thread::JoinHandle::join) {
+    let code = match worker.spawn(move || exit_code(command.run())).map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
-        // The panic has said what it had to.
+        // The panic hook has reported it.
         Ok(Err(_)) => TROUBLE,
         Err(error) => trouble(format_args!("no thread could be started: {error}")),
     };
@@ -108,76 +100,12 @@ fn parse() -> Cli {
     })
 }
 
-fn run(command: &mut Command) -> u8 {
-    if let Command::Render(args) = command {
-        targets::choose_rate(args);
-    }
-    let result = match &*command {
-        Command::Render(args) => {
-            let inputs = match args.inputs() {
-                Ok(inputs) => inputs,
-                Err(usage) => return trouble(args.progress().failed(usage)),
-            };
-            match sound::Sounds::of(args) {
-                Ok(None) => {}
-                Ok(Some(sounds)) => match sounds.prepare() {
-                    Ok(()) => return printed(sound::run(args, &sounds, &inputs)),
-                    Err(error) => return trouble(args.progress().failed(error_chain(&error))),
-                },
-                Err(usage) => return trouble(args.progress().failed(usage)),
-            }
-            let targets = match targets::Targets::of(args) {
-                Ok(targets) => targets,
-                Err(usage) => return trouble(args.progress().failed(usage)),
-            };
-            if args.plan {
-                return printed(plan::run(args, &targets, &inputs));
-            }
-            if let Err(error) = targets.prepare(args.run.canvas()) {
-                return trouble(args.progress().failed(error_chain(&error)));
-            }
-            render::run(args, &targets, &inputs)
-        }
-        Command::Probe(args) => match args.face().and_then(|_| args.run.inputs_of(args.frame + 1)) {
-            Ok(inputs) => probe::run(args, &inputs),
-            Err(usage) => return trouble(usage),
-        },
-        Command::Trace(args) => match args.face().and_then(|_| args.run.inputs_of(args.frame + 1)) {
-            Ok(inputs) => trace::run(args, &inputs),
-            Err(usage) => return trouble(usage),
-        },
-        Command::Compare(args) => match args.run.inputs_of(args.frame + 1) {
-            Ok(inputs) => compare::run(args, &inputs),
-            Err(usage) => return trouble(usage),
-        },
-        Command::Check(args) => check::run(args),
-        Command::Bench(args) => match args.inputs().and_then(|i| Ok((sweep::combinations(&args.sweep)?, i))) {
-            Ok((sweep, inputs)) => bench::run(args, &sweep, &inputs),
-            Err(usage) => return trouble(usage),
-        },
-        Command::Lab(args) => lab::run(args),
-        Command::List => library::list(),
-        Command::Import(args) => library::import(args),
-        Command::Export(args) => library::export(args),
-        Command::Translate(args) => match args.language() {
-            Ok(language) => translate::run(args, language),
-            Err(usage) => return trouble(usage),
-        },
-        Command::Lsp => lsp::serve(io::stdin(), io::stdout().lock()),
-        Command::Doctor(args) => doctor::run(args),
-        Command::Completions(args) => manuals::completions(args),
-        Command::Man(args) => manuals::man(args),
-        Command::TryCompile => return u8::from(trial::serve(io::stdin()).is_err()),
-    };
-    printed(result)
-}
-
-/// Returns the exit code of a command that has printed.
-fn printed(result: io::Result<u8>) -> u8 {
+/// Returns the exit code of a command, after reporting why it was refused.
+fn exit_code(result: Result<u8, CommandError>) -> u8 {
     match result {
         Ok(code) => code,
-        // Whoever read along has seen enough.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-        Err(error) => trouble(format_args!("cannot write to standard output: {error}")),
+        // The reader of a pipe has closed it, as `head` does.
+        Err(CommandError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => 0,
+        Err(error) => trouble(error),
     }
 }

@@ -1,7 +1,8 @@
 //! `eddy probe`: the value of an expression, drawn instead of the picture.
 
 use super::{
-    args::ProbeArgs,
+    args::{HostProgram, ProbeArgs},
+    command::{CommandError, Run},
     machine::{Machine, RunError, open_probed, pass_over},
     report::{Printer, Report},
     targets,
@@ -50,7 +51,21 @@ struct Probed {
     written: Option<PathBuf>,
 }
 
-pub fn run(args: &ProbeArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+impl Run for ProbeArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        (self.run.guest, vec![&mut self.project])
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        self.face()?;
+        let inputs = self.run.inputs_of(self.frame + 1)?;
+        Ok(run(self, &inputs)?)
+    }
+}
+
+fn run(args: &ProbeArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     let mut report = Report::new(&args.project);

@@ -1,14 +1,18 @@
 //! `eddy render`: frames of many projects, drawn one after the other on one device and written as pictures or films.
 
 use super::{
-    args::RenderArgs,
+    args::{HostProgram, RenderArgs},
     checkpoints::Checkpoints,
+    command::{CommandError, Run},
+    failure::error_chain,
     machine::{Machine, RunError, millis_since, open_measured, open_sound_of, pass_over},
     measured::{self, Measured, Measures},
+    plan,
     progress::CallProgress,
     recorded_sound::recorded_sound,
     report::{Printer, Report},
-    targets::Targets,
+    sound::{self, Sounds},
+    targets::{self, Targets},
     terminal::{raw_stdout, shown_path},
     tiles,
 };
@@ -49,7 +53,33 @@ fn is_zero(number: &u32) -> bool {
     *number == 0
 }
 
-pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
+impl Run for RenderArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        (self.run.guest, self.project.iter_mut().collect())
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        targets::choose_rate(self);
+        let (args, style) = (&*self, self.progress());
+        // A scheduler reads on standard output why the call failed.
+        let refused = |why: String| CommandError::Refused(style.failed(why));
+        let inputs = args.inputs().map_err(refused)?;
+        if let Some(sounds) = Sounds::of(args).map_err(refused)? {
+            sounds.prepare().map_err(|error| refused(error_chain(&error)))?;
+            return Ok(sound::run(args, &sounds, &inputs)?);
+        }
+        let targets = Targets::of(args).map_err(refused)?;
+        if args.plan {
+            return Ok(plan::run(args, &targets, &inputs)?);
+        }
+        targets.prepare(args.run.canvas()).map_err(|error| refused(error_chain(&error)))?;
+        Ok(run(args, &targets, &inputs)?)
+    }
+}
+
+fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = if targets.is_pipe() { Printer::beside_pipe() } else { Printer::new(args.json) };
     let mut machine = Machine::default();
     let progress = CallProgress::new(args.progress(), targets.pictures(), "frames");

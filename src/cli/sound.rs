@@ -198,7 +198,7 @@ pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::args::{Cli, Command};
+    use crate::cli::{args::Cli, command::Command};
     use clap::Parser;
 
     fn sounds(line: &str) -> Result<Option<Sounds>, String> {

@@ -1,7 +1,8 @@
 //! `eddy trace`: what a pass does for one pixel, step by step, and how far its value is from the device's.
 
 use super::{
-    args::TraceArgs,
+    args::{HostProgram, TraceArgs},
+    command::{CommandError, Run},
     divergence::{self, DivergenceReport},
     machine::{Machine, RunError, open, pass_over},
     nonfinite::{self, Begin},
@@ -113,7 +114,21 @@ struct PlacedStep {
     value: Vec<Number>,
 }
 
-pub fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+impl Run for TraceArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+        (self.run.guest, self.project.iter_mut().collect())
+    }
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        self.face()?;
+        let inputs = self.run.inputs_of(self.frame + 1)?;
+        Ok(run(self, &inputs)?)
+    }
+}
+
+fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     for spec in &args.project {

@@ -2,6 +2,7 @@
 
 use super::{
     args::TranslateArgs,
+    command::{CommandError, Run},
     library::mend,
     machine::{Machine, RunError},
     report::{Printer, Report},
@@ -28,7 +29,14 @@ struct JsonLine<'a> {
     files: Vec<String>,
 }
 
-pub fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
+impl Run for TranslateArgs {
+    fn run(&mut self) -> Result<u8, CommandError> {
+        let language = self.language()?;
+        Ok(run(self, language)?)
+    }
+}
+
+fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
     let mut report = Report::new(&args.project);
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.project, language));
     // No device is made; the machine only turns a panic into an error.

@@ -1,6 +1,6 @@
 //! Programs whose shaders Eddy draws or checks as they are.
 
-use super::{Cli, Command};
+use super::Cli;
 use clap::ValueEnum;
 
 /// A program that a file is drawn as a shader of.
@@ -38,16 +38,11 @@ impl Consumer {
 }
 
 impl Cli {
-    /// Names every project as `--as` asks for.
+    /// Applies `--as` to every project.
     pub fn with_guests(mut self) -> Self {
-        let (guest, projects): (_, Vec<&mut String>) = match &mut self.command {
+        let (guest, projects) = match &mut self.command {
             None => (self.window.guest, self.window.project.iter_mut().collect()),
-            Some(Command::Render(args)) => (args.run.guest, args.project.iter_mut().collect()),
-            Some(Command::Bench(args)) => (args.run.guest, args.project.iter_mut().collect()),
-            Some(Command::Probe(args)) => (args.run.guest, vec![&mut args.project]),
-            Some(Command::Trace(args)) => (args.run.guest, args.project.iter_mut().collect()),
-            Some(Command::Compare(args)) => (args.run.guest, vec![&mut args.project]),
-            Some(_) => (None, Vec::new()),
+            Some(command) => command.hosted(),
         };
         if let Some(guest) = guest {
             projects.into_iter().for_each(|project| *project = guest.spec(project));
@@ -59,6 +54,7 @@ impl Cli {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::{args::LabCommand, command::Command};
     use clap::Parser;
 
     fn parse(line: &str) -> Cli {
@@ -74,6 +70,9 @@ mod tests {
         assert_eq!(args.project, ["ghostty:a.glsl", "ghostty:b.glsl"]);
         let Some(Command::Bench(args)) = parse("eddy bench a.glsl").command else { panic!() };
         assert_eq!(args.project, ["a.glsl"]);
+        let Some(Command::Lab(args)) = parse("eddy lab precision --as ghostty a.glsl").command else { panic!() };
+        let Some(LabCommand::Precision(args)) = args.command else { panic!() };
+        assert_eq!(args.project, ["ghostty:a.glsl"]);
         assert!(Cli::try_parse_from(["eddy", "--as", "kitty", "a.glsl"]).is_err());
     }
 }

@@ -13,15 +13,11 @@ pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
 pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
 pub use render::RenderArgs;
 pub use run::RunArgs;
-pub use tools::{CompletionsArgs, DoctorArgs, ManArgs, TranslateArgs};
+pub use tools::{CompletionsArgs, DoctorArgs, ListArgs, LspArgs, ManArgs, TranslateArgs, TryCompileArgs};
 
-use super::sweep::Sweep;
-use crate::{
-    glsl::opt::PassSet,
-    playback::{script::ScriptedInputs, trial::COMMAND},
-    video::CameraSource,
-};
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use super::{command::Command, sweep::Sweep};
+use crate::{glsl::opt::PassSet, playback::script::ScriptedInputs, video::CameraSource};
+use clap::{Args, CommandFactory, Parser, ValueEnum};
 use eddy_project::{EditedTexts, project_of};
 use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
@@ -94,43 +90,6 @@ impl Window {
         }
         self
     }
-}
-
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    /// Draw frames without a window, at a fixed step: frame i has iTime = i/60
-    Render(RenderArgs),
-    /// Draw the value of an expression instead of the picture
-    Probe(ProbeArgs),
-    /// Trace one pixel of a pass step by step on the CPU, and compare the result with the GPU
-    Trace(TraceArgs),
-    /// Compare the pictures and times of two projects, or of two revisions of one
-    Compare(CompareArgs),
-    /// Compile all passes and print errors and warnings; needs no GPU
-    Check(CheckArgs),
-    /// Measure the time and memory of a frame, after a warm-up
-    Bench(BenchArgs),
-    /// Measure methods against a reference: speed against error, as tables, plots and an HTML page
-    Lab(LabArgs),
-    /// List the presets, one per line
-    List,
-    /// Convert a Shadertoy JSON file to a project folder
-    Import(ImportArgs),
-    /// Convert a project to a Shadertoy JSON file, to an HTML file that plays it, or to an ISF file
-    Export(ExportArgs),
-    /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
-    Translate(TranslateArgs),
-    /// Serve an editor over the Language Server Protocol, on standard input and output
-    Lsp,
-    /// Describe this machine and this build, for a report; sends nothing
-    Doctor(DoctorArgs),
-    /// Print completions for a shell
-    Completions(CompletionsArgs),
-    /// Write manual pages
-    Man(ManArgs),
-    /// Compile the project on standard input with the graphics driver; Eddy runs this itself, see playback/trial.rs
-    #[command(hide = true, name = COMMAND)]
-    TryCompile,
 }
 
 /// Returns the names of all commands.
@@ -243,6 +202,7 @@ mod tests {
         *,
     };
     use crate::{
+        cli::command::Command,
         film::Format,
         playback::frames::{FrameList, Frames},
         project::PassId,

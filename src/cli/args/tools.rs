@@ -83,3 +83,12 @@ pub struct ManArgs {
     #[arg(long)]
     pub force: bool,
 }
+
+#[derive(Debug, Args)]
+pub struct ListArgs {}
+
+#[derive(Debug, Args)]
+pub struct LspArgs {}
+
+#[derive(Debug, Args)]
+pub struct TryCompileArgs {}

@@ -4,7 +4,11 @@
 mod folders;
 mod text;
 
-use super::{args::DoctorArgs, terminal};
+use super::{
+    args::DoctorArgs,
+    command::{CommandError, Run},
+    terminal,
+};
 use crate::{
     gpu::{AdapterReport, DeviceReport, GpuError},
     session::home_as_tilde,
@@ -159,7 +163,15 @@ struct EncoderLine {
     is_there: bool,
 }
 
-pub fn run(args: &DoctorArgs) -> io::Result<u8> {
+impl Run for DoctorArgs {
+    const OPENS_DEVICE: bool = true;
+
+    fn run(&mut self) -> Result<u8, CommandError> {
+        Ok(run(self)?)
+    }
+}
+
+fn run(args: &DoctorArgs) -> io::Result<u8> {
     assert!(!args.panic, "`eddy doctor --panic` was called");
     let doctor = Doctor::examine();
     if args.json {

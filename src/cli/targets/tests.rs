@@ -1,5 +1,5 @@
 use super::*;
-use crate::cli::args::{Cli, Command};
+use crate::cli::{args::Cli, command::Command};
 use clap::Parser;
 
 fn targets(line: &str) -> Result<Targets, String> {
