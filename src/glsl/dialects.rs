@@ -1,8 +1,9 @@
-//! Shaders of other tools, known by what only they have, so that one message says what a text is in place of many
-//! about its words.
+//! Recognises shaders written for other tools by identifiers that only those tools use, so that one message names the
+//! tool instead of many about unknown identifiers.
 //!
-//! Owns the table of tools and [`name`], which is asked of texts that do not compile alone: what compiles is right,
-//! whoever wrote it. A text that defines the entry point of its pass is the site's, whatever else it names.
+//! Contains the table of tools and [`name`], which is called only for texts that do not compile: a text that compiles
+//! is accepted whatever tool it was written for. A text that defines the entry point of its pass is taken for a
+//! Shadertoy shader, whatever other names it uses.
 
 use super::{
     PassKind,
@@ -10,13 +11,13 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// A tool, the words by which its texts are known, and what to do with one.
+/// A tool, the identifiers that its shaders are recognised by, and hints for porting one.
 struct Dialect {
     /// Completes "this is ...".
     is: &'static str,
-    /// Any of these words of the text, outside of comments.
+    /// At least one of these words is in the text, outside comments.
     any: &'static [&'static str],
-    /// All of these as well.
+    /// All of these are in the text as well.
     all: &'static [&'static str],
     mends: &'static [&'static str],
 }
@@ -27,7 +28,7 @@ const NOT_GLSL: &str = "write the shader in GLSL ES 3.00, with \
     `void mainImage(out vec4 fragColor, in vec2 fragCoord)` as its entry point";
 const SLIDER: &str = "for other inputs use a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`";
 
-/// The more certain first. A word with other signs than letters is looked for as it stands.
+/// The more certain ones first. A word with characters other than letters is searched for literally.
 const DIALECTS: &[Dialect] = &[
     Dialect {
         is: "an ISF shader, whose inputs are in the JSON header",
@@ -196,7 +197,7 @@ const DIALECTS: &[Dialect] = &[
              and iResolution.xy for r",
         ],
     },
-    // The last: others have a version and a `main` as well.
+    // Last, because shaders of other tools have a `#version` and a `main` as well.
     Dialect {
         is: "a plain fragment shader, with a version and a `main` of its own",
         any: &["#version"],
@@ -214,7 +215,7 @@ const ISF: &[&str] = &[
 const GODOT: &str = "UV is fragCoord / iResolution.xy, TIME is iTime, COLOR is fragColor";
 const PICTURE: &str = "its input is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)";
 
-/// Uniforms of Ghostty's custom shaders, which are the site's programs but for these.
+/// Uniforms of Ghostty's custom shaders, which are Shadertoy programs apart from these.
 const GHOSTTY: [&str; 20] = [
     "iCurrentCursor",
     "iPreviousCursor",
@@ -238,7 +239,8 @@ const GHOSTTY: [&str; 20] = [
     "CURSORSTYLE_UNDERLINE",
 ];
 
-/// Returns one message for a text that did not compile because it is another tool's; `None` for any other.
+/// Returns one message for a text that did not compile because it was written for another tool; `None` for any other
+/// text.
 pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
     let entry = match source.kind {
         PassKind::Image | PassKind::Buffer => "mainImage",
@@ -252,7 +254,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     let named = |is: &str, span: Span, mends: &[&str]| {
         let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
         diagnostic.hints.extend(mends.iter().map(|&mend| mend.to_owned()));
-        // What the compiler stumbled on first.
+        // The first error that the compiler reported.
         if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
             diagnostic = diagnostic.label(at, first.message.clone());
         }
@@ -282,7 +284,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
     });
     let (dialect, (at, len)) = dialect?;
-    // WGSL and the like are known by one word, and so is what needs a slider.
+    // Shaders that are ported by their entry point also need sliders for their inputs; WGSL and the like get one hint.
     let mut named = named(dialect.is, span(at, len), dialect.mends);
     if dialect.mends.contains(&ENTRY) {
         named = named.hint(SLIDER);
@@ -290,7 +292,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     Some(named)
 }
 
-/// The first line of the JSON of an ISF shader, the comment that its text begins with.
+/// Returns the range of the first line of an ISF shader's JSON header, the comment at the start of its text.
 fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
     let text = code.text.trim_start_matches('\u{feff}').trim_start();
     let json = text.strip_prefix("/*")?;
@@ -301,7 +303,7 @@ fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
     is_isf.then(|| begin..begin + text.lines().next().map_or(0, str::len))
 }
 
-/// Returns the first `//!HOOK` line, which every shader of mpv has: the names of its functions come from it.
+/// Returns the range of the first `//!HOOK` line, which every mpv shader has: its function names come from it.
 fn mpv_hook(text: &str) -> Option<std::ops::Range<usize>> {
     let mut start = 0;
     text.split_inclusive('\n').find_map(|line| {
@@ -311,13 +313,13 @@ fn mpv_hook(text: &str) -> Option<std::ops::Range<usize>> {
     })
 }
 
-/// A text without its comments.
+/// A text with its comments removed.
 struct StrippedText {
     text: String,
 }
 
 impl StrippedText {
-    /// Comments become blanks, so that places stay.
+    /// Replaces comments with blanks, so that byte positions do not change.
     fn of(text: &str) -> StrippedText {
         let mut out = text.as_bytes().to_vec();
         let mut at = 0;
@@ -337,7 +339,7 @@ impl StrippedText {
         StrippedText { text: String::from_utf8(out).unwrap_or_default() }
     }
 
-    /// Returns where a word stands first, or a part of the text that is no word.
+    /// Returns the position of the first occurrence of a word, or of a literal that is not a word.
     fn place(&self, word: &str) -> Option<usize> {
         let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
         let bytes = self.text.as_bytes();

@@ -18,7 +18,7 @@ fn text<'j>(pass: &'j serde_json::Value, key: &str) -> &'j str {
     pass.get(key).and_then(|v| v.as_str()).unwrap_or("")
 }
 
-/// Returns what fails in one file: the pass and its messages.
+/// Returns the failures in one file: the pass and its messages.
 fn failures(json: &serde_json::Value, passes_seen: &mut u32) -> Vec<(String, String)> {
     let json = json.get(0).unwrap_or(json);
     let json = json.get("Shader").unwrap_or(json);

@@ -1,4 +1,4 @@
-//! Texts for other programs: what they may say beyond GLSL ES 3.00, and what they may not name.
+//! Texts for other programs: the extensions of GLSL ES 3.00 they may use, and the names they may not.
 
 use crate::{Dialect, PassKind, PassSource, Text, compile, diagnose};
 use eddy_diag::SourceId;
@@ -16,7 +16,7 @@ fn body(statements: &str) -> String {
     format!("float half_of(float x) {{ return x / 2; }}\nvoid mainImage(out vec4 c, in vec2 p) {{ {statements} }}\n")
 }
 
-/// Statements that GLSL 4.30 takes (sections 4.1.10, 5.4 and 6.1) and GLSL ES 3.00 does not.
+/// Statements that are valid in GLSL 4.30 (sections 4.1.10, 5.4 and 6.1) but not in GLSL ES 3.00.
 const CONVERTED: [&str; 13] = [
     "float x = 1; c = vec4(x);",
     "c = vec4(2 * p, p + 1);",
@@ -57,7 +57,7 @@ fn nothing_converts_to_less() {
     ] {
         assert!(!errors(Dialect::Ghostty, &body(statements)).is_empty(), "{statements}");
     }
-    // What a function gives back must fit as it is.
+    // `inout` arguments are not converted.
     let text = "void f(inout float x) { x = 1; }\nvoid mainImage(out vec4 c, in vec2 p) { int i; f(i); c = vec4(i); }";
     assert!(!errors(Dialect::Ghostty, text).is_empty());
 }
@@ -84,7 +84,7 @@ fn lists_in_braces_are_constructors() {
     }
     let text = "struct S { vec2 at; int n; };\nconst S ALL[2] = { {{1, 2}, 3}, {{4, 5}, 6} };\n\
                 void mainImage(out vec4 c, in vec2 p) { c = vec4(0); }";
-    // Lists in lists are those of an array's elements alone.
+    // Nested lists are only allowed for an array's elements.
     assert!(!errors(Dialect::Ghostty, text).is_empty());
     for wrong in
         ["float a[3] = {1, 2}; c = vec4(a[0]);", "float x = {}; c = vec4(x);", "float a[2] = {1, 2; c = vec4(a[0]);"]
@@ -151,7 +151,7 @@ fn a_text_may_replace_functions_of_the_language() {
 
 #[test]
 fn a_function_that_takes_the_arguments_as_they_are_comes_before_conversions() {
-    // The built-in has an `int` overload, which is called though the text has one for `float`.
+    // The built-in has an `int` overload, which is called although the text has one for `float`.
     let text = "vec2 max(float a, float b) { return vec2(a, b); }\n\
                 void mainImage(out vec4 c, in vec2 p) { int of_ints = max(1, 2); vec2 own = max(1.0, 2.0); c = vec4(own, of_ints, 1); }";
     assert_eq!(errors(Dialect::Ghostty, text), [""; 0]);
@@ -179,7 +179,7 @@ fn messages_name_the_program_whose_header_it_is() {
         (Dialect::Isf, "the ISF host's header"),
     ] {
         let said = said(dialect);
-        // A version means nothing in ISF.
+        // ISF ignores versions.
         let count = if dialect == Dialect::Isf { 1 } else { 2 };
         assert_eq!(said.matches(header).count(), count, "{said}");
         assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");

@@ -1,4 +1,4 @@
-//! Declarations of what the header gives.
+//! Redeclarations of names that the header declares.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};

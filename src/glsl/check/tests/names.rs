@@ -1,4 +1,4 @@
-//! Tests what editors are told: every use of a name and what it refers to.
+//! Tests the side table for editors: every use of a name and its target.
 
 use super::checked;
 use crate::hir::{BuiltinVar, DeclRef, Uniform};

@@ -1,6 +1,5 @@
-//! Tests what the specification allows and forbids, section by section: `spec/*.glsl` hold small programs, each behind
-//! a line `//ok title` or `//error title | part of the message`. A program that defines no entry point gets an empty
-//! one.
+//! Tests the rules of the specification, section by section: `spec/*.glsl` contain small programs, each after a line
+//! `//ok title` or `//error title | part of the message`. A program without an entry point gets an empty one.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};
