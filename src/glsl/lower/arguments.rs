@@ -113,8 +113,8 @@ impl Arguments {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
     }
 
-    /// Returns whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what
-    /// the caller has, or that itself, and not a copy that each call fills anew, element by element.
+    /// Returns whether a parameter is only read, but indexed in a way that values cannot be: it is then a pointer to
+    /// the caller's argument, or the argument itself, instead of a copy that each call fills element by element.
     pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
         let declared = &module[param];
         !declared.kind.copies_out()
