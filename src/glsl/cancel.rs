@@ -45,7 +45,7 @@ mod tests {
     use crate::{PassSource, services::Analysis};
 
     #[test]
-    fn a_cancelled_reading_ends_without_a_result() {
+    fn cancelled_work_returns_none() {
         let text = "#define A\nvoid mainImage(out vec4 color, in vec2 at) { color = vec4(1.0); }";
         let flag = AtomicBool::new(false);
         let source = PassSource { cancel: Cancel::by(&flag), ..PassSource::image(text) };

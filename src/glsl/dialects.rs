@@ -19,7 +19,7 @@ struct Dialect {
     any: &'static [&'static str],
     /// All of these are in the text as well.
     all: &'static [&'static str],
-    mends: &'static [&'static str],
+    hints: &'static [&'static str],
 }
 
 const ENTRY: &str = "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `void main()`, with \
@@ -34,26 +34,26 @@ const DIALECTS: &[Dialect] = &[
         is: "an ISF shader, whose inputs are in the JSON header",
         any: &["isf_FragNormCoord", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL", "IMG_THIS_NORM_PIXEL", "IMG_PIXEL", "IMG_SIZE"],
         all: &[],
-        mends: ISF,
+        hints: ISF,
     },
     Dialect {
         is: "WGSL, not GLSL",
         any: &["@fragment", "@vertex", "@compute", "@group(", "var<uniform>", "-> @location", "vec4<f32>", "vec2<f32>"],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
-    Dialect { is: "a shader of Godot", any: &["shader_type"], all: &[], mends: &[NOT_GLSL, GODOT] },
+    Dialect { is: "a shader of Godot", any: &["shader_type"], all: &[], hints: &[NOT_GLSL, GODOT] },
     Dialect {
         is: "Metal, not GLSL",
         any: &["metal_stdlib", "[[stage_in]]", "[[position]]", "[[buffer("],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "an effect of ReShade, in HLSL",
         any: &["ReShade.fxh", "ReShade::BackBuffer", "ReShade::GetLinearizedDepth"],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "a shader of Unity, in HLSL",
@@ -67,7 +67,7 @@ const DIALECTS: &[Dialect] = &[
             "UnityObjectToClipPos",
         ],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "HLSL, not GLSL",
@@ -83,7 +83,7 @@ const DIALECTS: &[Dialect] = &[
             "Texture2D",
         ],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "a shader of RetroArch",
@@ -99,44 +99,44 @@ const DIALECTS: &[Dialect] = &[
             "push_constant",
         ],
         all: &[],
-        mends: &[ENTRY, "its Source is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)"],
+        hints: &[ENTRY, "its Source is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)"],
     },
     Dialect {
         is: "a shader of mpv",
         any: &["HOOKED_tex", "HOOKED_pos", "HOOKED_texOff", "HOOKED_raw"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a shader of TouchDesigner",
         any: &["sTD2DInputs", "TDOutputSwizzle", "TDInstanceID", "uTD2DInfos"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
-    Dialect { is: "a shader of OBS Studio, in HLSL", any: &["ViewProj"], all: &["technique"], mends: &[NOT_GLSL] },
+    Dialect { is: "a shader of OBS Studio, in HLSL", any: &["ViewProj"], all: &["technique"], hints: &[NOT_GLSL] },
     Dialect {
         is: "a shader of Bonzomatic",
         any: &["v2Resolution", "fGlobalTime", "texFFTSmoothed", "texFFTIntegrated", "texPreviousFrame"],
         all: &[],
-        mends: &[ENTRY, "fGlobalTime is iTime, v2Resolution is iResolution.xy; there is no FFT of a sound yet"],
+        hints: &[ENTRY, "fGlobalTime is iTime, v2Resolution is iResolution.xy; there is no FFT of a sound yet"],
     },
     Dialect {
         is: "a shader of KodeLife",
         any: &["VertexData", "inData", "v_texcoord"],
         all: &["spectrum"],
-        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse; there is no spectrum yet"],
+        hints: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse; there is no spectrum yet"],
     },
     Dialect {
         is: "a shader of Kodi's interface",
         any: &["m_unicol", "m_cord0", "m_samp0", "m_attrpos"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a window shader of picom",
         any: &["window_shader"],
         all: &[],
-        mends: &[
+        hints: &[
             "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 window_shader()`",
             PICTURE,
         ],
@@ -145,7 +145,7 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of LÖVE",
         any: &["texture_coords", "screen_coords", "love_ScreenSize", "VaryingTexCoord"],
         all: &["effect"],
-        mends: &[
+        hints: &[
             "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 effect(..)`",
             PICTURE,
         ],
@@ -154,7 +154,7 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of GameMaker",
         any: &["gm_BaseTexture", "v_vTexcoord", "v_vColour"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a shader of three.js",
@@ -171,7 +171,7 @@ const DIALECTS: &[Dialect] = &[
             "diffuseColor",
         ],
         all: &["main"],
-        mends: &[
+        hints: &[
             ENTRY,
             "vUv is fragCoord / iResolution.xy, its time iTime; varyings of a mesh need a pass that draws one",
         ],
@@ -180,19 +180,19 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of glslViewer or The Book of Shaders",
         any: &["u_resolution", "u_time", "u_mouse"],
         all: &[],
-        mends: &[ENTRY, "u_time is iTime, u_resolution is iResolution.xy, u_mouse is iMouse.xy"],
+        hints: &[ENTRY, "u_time is iTime, u_resolution is iResolution.xy, u_mouse is iMouse.xy"],
     },
     Dialect {
         is: "a shader of GLSL Sandbox",
         any: &["resolution", "surfacePosition", "backbuffer"],
         all: &["main", "time"],
-        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse.xy / iResolution.xy"],
+        hints: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse.xy / iResolution.xy"],
     },
     Dialect {
         is: "a shader of twigl",
         any: &["FC"],
         all: &["r", "t"],
-        mends: &[
+        hints: &[
             "wrap it in `void mainImage(out vec4 o, in vec2 fragCoord) { .. }`, with fragCoord for FC, iTime for t \
              and iResolution.xy for r",
         ],
@@ -202,7 +202,7 @@ const DIALECTS: &[Dialect] = &[
         is: "a plain fragment shader, with a version and a `main` of its own",
         any: &["#version"],
         all: &["main"],
-        mends: &[ENTRY, "delete the lines of `#version`, `in` and `out`"],
+        hints: &[ENTRY, "delete the lines of `#version`, `in` and `out`"],
     },
 ];
 
@@ -251,9 +251,9 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     let first = found.iter().find(|d| d.is_error())?;
     let words = StrippedText::of(source.code.text);
     let span = |at: usize, len: usize| Span::new(source.code.id, at..at + len);
-    let named = |is: &str, span: Span, mends: &[&str]| {
+    let named = |is: &str, span: Span, hints: &[&str]| {
         let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
-        diagnostic.hints.extend(mends.iter().map(|&mend| mend.to_owned()));
+        diagnostic.hints.extend(hints.iter().map(|&hint| hint.to_owned()));
         // The first error that the compiler reported.
         if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
             diagnostic = diagnostic.label(at, first.message.clone());
@@ -264,13 +264,13 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         let unknown = |name: &&str| found.iter().any(|d| d.is_error() && d.message.contains(&format!("`{name}`")));
         let name = GHOSTTY.iter().copied().filter(unknown).min_by_key(|name| words.place(name))?;
         let place = words.place(name)?;
-        let mends = [
+        let hints = [
             "open it with a stand-in terminal: eddy --as ghostty FILE",
             "or give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
              `#iUniform float iTimeCursorChange = 0.0` another",
         ];
         let is = format!("a custom shader of Ghostty: `{name}` is a uniform set by the terminal");
-        return Some(named(&is, span(place, name.len()), &mends));
+        return Some(named(&is, span(place, name.len()), &hints));
     }
     if let Some(range) = isf_header(source.code) {
         let is = DIALECTS.first().map_or("an ISF shader", |isf| isf.is);
@@ -285,8 +285,8 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     });
     let (dialect, (at, len)) = dialect?;
     // Shaders that are ported by their entry point also need sliders for their inputs; WGSL and the like get one hint.
-    let mut named = named(dialect.is, span(at, len), dialect.mends);
-    if dialect.mends.contains(&ENTRY) {
+    let mut named = named(dialect.is, span(at, len), dialect.hints);
+    if dialect.hints.contains(&ENTRY) {
         named = named.hint(SLIDER);
     }
     Some(named)
@@ -299,8 +299,8 @@ fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
     let json = &json[..json.find("*/")?];
     let keys = ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\""];
     let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
-    let begin = code.text.len() - text.len();
-    is_isf.then(|| begin..begin + text.lines().next().map_or(0, str::len))
+    let start = code.text.len() - text.len();
+    is_isf.then(|| start..start + text.lines().next().map_or(0, str::len))
 }
 
 /// Returns the range of the first `//!HOOK` line, which every mpv shader has: its function names come from it.
@@ -344,10 +344,10 @@ impl StrippedText {
         let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
         let bytes = self.text.as_bytes();
         memchr::memmem::find_iter(bytes, word).find(|&at| {
-            let (before, behind) = (at.checked_sub(1).and_then(|i| bytes.get(i)), bytes.get(at + word.len()));
-            let begins = !is_letter(word.as_bytes().first()) || !is_letter(before);
-            let ends = !is_letter(word.as_bytes().last()) || !is_letter(behind);
-            begins && ends
+            let (before, after) = (at.checked_sub(1).and_then(|i| bytes.get(i)), bytes.get(at + word.len()));
+            let starts = !is_letter(word.as_bytes().first()) || !is_letter(before);
+            let ends = !is_letter(word.as_bytes().last()) || !is_letter(after);
+            starts && ends
         })
     }
 }
@@ -357,7 +357,7 @@ mod tests {
     use crate::{self as glsl, PassKind, PassSource, Text};
     use eddy_diag::SourceId;
 
-    fn said(code: &str) -> Vec<String> {
+    fn messages(code: &str) -> Vec<String> {
         let source = PassSource::new(PassKind::Image, Text { id: SourceId(0), text: code });
         glsl::diagnose(&source).into_iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect()
     }
@@ -405,35 +405,35 @@ mod tests {
     ];
 
     #[test]
-    fn a_text_of_another_tool_is_named_in_one_message() {
+    fn shaders_of_other_tools_get_one_message() {
         for (tool, code) in OTHERS {
-            let found = said(code);
+            let found = messages(code);
             assert_eq!(found.len(), 1, "{tool}: {found:?}");
             assert!(found[0].starts_with("error: this is ") && found[0].contains(tool), "{tool}: {found:?}");
         }
     }
 
     #[test]
-    fn what_compiles_or_is_the_sites_is_left_alone() {
+    fn shadertoy_shaders_keep_their_own_messages() {
         let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 0.0, 1.0); }\n";
         for (_, code) in OTHERS {
             let commented = format!("/* {} */\n{main}", code.replace("*/", ""));
-            assert_eq!(said(&commented), [""; 0], "{code}");
+            assert_eq!(messages(&commented), [""; 0], "{code}");
         }
         let typo = "uniform vec2 u_resolution;\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(qq); }";
-        assert!(said(typo).iter().any(|d| d.contains("`qq`")), "{:?}", said(typo));
-        let plain = said("void main() { gl_FragColor = vec4(1.0); }");
+        assert!(messages(typo).iter().any(|d| d.contains("`qq`")), "{:?}", messages(typo));
+        let plain = messages("void main() { gl_FragColor = vec4(1.0); }");
         assert!(plain.len() == 1 && !plain[0].contains("this is "), "{plain:?}");
     }
 
     #[test]
-    fn ghostty_is_named_where_its_uniforms_are_missing() {
+    fn missing_ghostty_uniforms_name_ghostty() {
         let code = "void mainImage(out vec4 o, in vec2 p) { o = iCurrentCursor + iPreviousCursor; }";
-        let found = said(code);
+        let found = messages(code);
         assert!(found.len() == 1 && found[0].contains("Ghostty") && found[0].contains("iCurrentCursor"), "{found:?}");
         let given = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\n{code}");
-        assert!(!said(&given).iter().any(|d| d.contains("Ghostty")));
+        assert!(!messages(&given).iter().any(|d| d.contains("Ghostty")));
         let typo = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\nfloat f() {{ return qq; }}\n{code}");
-        assert!(said(&typo).iter().any(|d| d.contains("`qq`")));
+        assert!(messages(&typo).iter().any(|d| d.contains("`qq`")));
     }
 }

@@ -2,8 +2,8 @@
 
 use super::opt::PassSet;
 
-/// What the driver that runs a pass requires of its code. None of this changes a picture, unless a loop is cut short
-/// ([`Driver::most_rounds`]).
+/// The requirements of the driver that runs a pass on its code. None of this changes a picture, unless a loop is cut
+/// short ([`Driver::most_rounds`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Driver {
     /// The device cannot read storage buffers in a fragment shader: large constant tables are then in the memory of

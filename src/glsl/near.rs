@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_slips_and_leaves_strangers() {
+    fn only_likely_misspellings_are_suggested() {
         let words = ["normalize", "smoothstep", "mix", "return"];
         assert_eq!(nearest_identifier("normalise", words), Some("normalize"));
         assert_eq!(nearest_identifier("smoothStep", words), Some("smoothstep"));
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bounded_distance_equals_the_full_one() {
+    fn bounded_distance_equals_the_full_distance() {
         let mut state = 1u32;
         let mut random = |below: u32| {
             state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn the_work_of_a_budget_is_bounded_whatever_the_names_are() {
+    fn work_never_exceeds_the_budget() {
         let names: Vec<String> = (0..5_000).map(|i| format!("a_name_of_a_function_{i}")).collect();
         let mut budget = Budget::default();
         assert_eq!(

@@ -32,9 +32,9 @@ pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<
 }
 
 fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) {
-    let begin = lines.partition_point(|i| i.line.source < text.id);
+    let start = lines.partition_point(|i| i.line.source < text.id);
     let (mut done, mut missing) = (0, None);
-    for include in lines[begin..].iter().take_while(|i| i.line.source == text.id) {
+    for include in lines[start..].iter().take_while(|i| i.line.source == text.id) {
         pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false, missing });
         missing = include.text.err();
         if let Ok(included) = include.text {

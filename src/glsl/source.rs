@@ -227,7 +227,7 @@ pub struct PassSource<'a> {
     /// The pass is drawn in tiles, each into its own target: a pixel's position is that in the whole picture, offset by
     /// the uniform block's `tile_origin`. Only in Image and buffers.
     pub tiled: bool,
-    /// How a plain shader maps to WebGPU; ignored for the other kinds of pass.
+    /// The mapping of a plain shader to WebGPU; ignored for the other kinds of pass.
     pub plain: PlainOptions,
     /// A value that is drawn instead of the picture; only in passes that draw one.
     pub probe: Option<Probe>,

@@ -1,7 +1,7 @@
 //! Stack space for functions that recurse as deep as a text nests, so that the compiler runs on threads of any stack
 //! size.
 
-/// When fewer bytes than this are left, more are allocated. In debug builds a level of an expression takes some
+/// The number of bytes of stack left below which more is allocated. In debug builds a level of an expression takes some
 /// kilobytes.
 pub(super) const STACK_LEFT: usize = 256 << 10;
 /// The number of bytes allocated at a time.

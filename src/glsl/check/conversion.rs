@@ -93,13 +93,13 @@ impl Checker<'_> {
     fn edits(&self, mend: &Mend, written: ast::ExprId) -> Vec<Edit> {
         let Some(span) = self.written_at(self.ast[written].loc) else { return Vec::new() };
         let before = |text: &str| Edit { span: Span { end: span.start, ..span }, text: text.to_owned() };
-        let behind = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
+        let after = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
         match mend.text.split_once("..") {
-            None if mend.text.is_empty() => vec![behind("u")],
+            None if mend.text.is_empty() => vec![after("u")],
             None => vec![Edit { span, text: mend.text.clone() }],
             // A component of a whole expression is selected after parentheses around it.
-            Some(("", part)) => vec![before("("), behind(&format!("){part}"))],
-            Some((head, tail)) => vec![before(head), behind(tail)],
+            Some(("", part)) => vec![before("("), after(&format!("){part}"))],
+            Some((head, tail)) => vec![before(head), after(tail)],
         }
     }
 

@@ -25,7 +25,7 @@ pub(super) struct Block {
     pub variable: Handle<GlobalVariable>,
     /// The index in the type of each member of the block.
     places: Vec<u32>,
-    /// Whether each member of the block is read.
+    /// The members of the block that are read.
     read: Vec<bool>,
 }
 

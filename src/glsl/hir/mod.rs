@@ -389,7 +389,8 @@ pub enum BinaryOp {
     LogicalXor,
 }
 
-/// How the operand types of a [`BinaryOp`] combine. Relational operators, equality and `^^` are always `Same`.
+/// The way in which the operand types of a [`BinaryOp`] combine. Relational operators, equality and `^^` are always
+/// `Same`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// Equal types, component by component (for shifts: equal sizes). Never `Mul` of two matrices.

@@ -56,8 +56,8 @@ impl Builder<'_, '_> {
     /// that is a chain of members, swizzles and indices stays one, with its indices evaluated, until its operator is
     /// applied; only then is it read. So `g * f()` multiplies by the value of `g` after `f`, and the same holds for
     /// arguments and constructors. Any other operand is evaluated immediately: `(g + 1.0) * f()` adds before.
-    pub fn read_late(&mut self, operand: ExprId, has_effects_behind: bool) -> Option<Place> {
-        if !has_effects_behind {
+    pub fn read_late(&mut self, operand: ExprId, has_later_effects: bool) -> Option<Place> {
+        if !has_later_effects {
             return None;
         }
         let (root, links) = self.chain(operand);

@@ -183,7 +183,7 @@ impl<'a> Search<'a> {
             if self.arrays.iter().all(|array| !array.is_open) {
                 return true;
             }
-            let goes_on = match module[stmt].kind {
+            let continues = match module[stmt].kind {
                 StmtKind::Block(inner) => self.statements(inner, calls),
                 StmtKind::Expr(expr) => {
                     self.statement(stmt, expr, calls);
@@ -194,7 +194,7 @@ impl<'a> Search<'a> {
                     calls == 0 || !may_leave(module, stmt)
                 }
             };
-            if !goes_on {
+            if !continues {
                 self.close(&module[list][i + 1..], &[]);
                 return false;
             }

@@ -84,7 +84,7 @@ pub(crate) fn lower(
     marks: Marks,
 ) -> Lowered {
     let (reachable, arguments) = Reachable::new(module, options.table);
-    let mut out = begin(module);
+    let mut out = module_without_functions(module);
     let Resources { textures, blocks, struct_names, .. } = &interface.resources;
     (out.textures, out.blocks, out.struct_names) = (textures.clone(), blocks.clone(), struct_names.clone());
     let probed = probe.map(|(expr, visit)| Probed::new(&mut out, (expr, module[expr].ty), visit));
@@ -122,7 +122,7 @@ pub(crate) fn lower(
 }
 
 /// Returns a program without functions: types and constants.
-fn begin(module: &hir::Module) -> ir::Module {
+fn module_without_functions(module: &hir::Module) -> ir::Module {
     let members = |structure: &hir::Struct| module[structure.members].iter().map(|member| member.ty).collect();
     let constant = |constant: &hir::Const| ir::Const { ty: constant.ty, words: module[constant.words].to_vec() };
     ir::Module {

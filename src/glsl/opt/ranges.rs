@@ -19,7 +19,7 @@ use crate::{
 
 /// An upper bound for the number of pixels on a side of any target (`maxImageDimension2D` is 32,768 at most today). No
 /// target is empty.
-const LARGEST_CANVAS: u32 = 1 << 20;
+const MAX_TARGET_SIZE: u32 = 1 << 20;
 
 pub(super) fn run(module: &mut Module) {
     for index in 0..module.functions.len() {
@@ -40,7 +40,7 @@ pub(super) fn run(module: &mut Module) {
                 current: vec![None; vars],
                 from_test: vec![None; vars],
                 loops: Vec::new(),
-                begun_loops: 0,
+                entered_loops: 0,
                 tested: None,
             };
             rewrite::function(module, index, &mut ranges);
@@ -61,7 +61,7 @@ struct Ranges {
     /// The loops around the current code, by their numbers.
     loops: Vec<usize>,
     /// The number of loops entered so far.
-    begun_loops: usize,
+    entered_loops: usize,
     /// A loop whose test comes next.
     tested: Option<usize>,
 }
@@ -116,7 +116,7 @@ impl Ranges {
             Op::Global(id) => r.module[id].kind == GlobalKind::Uniform(Uniform::Resolution),
             _ => false,
         };
-        let canvas = Some(Interval::between(1.0, LARGEST_CANVAS.into()));
+        let canvas = Some(Interval::between(1.0, MAX_TARGET_SIZE.into()));
         match r.f[value] {
             Op::Load { place } => match r.f[place] {
                 Op::Var(var) => self.current[var.index()],
@@ -177,15 +177,15 @@ impl Rule for Ranges {
     }
 
     fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
-        self.loops.push(self.begun_loops);
-        self.tested = Some(self.begun_loops);
+        self.loops.push(self.entered_loops);
+        self.tested = Some(self.entered_loops);
         // Nothing is known about it in later iterations before their test.
         for (var, written) in self.current.iter_mut().zip(&self.counters.vars) {
-            if matches!(written, Definition::Counted { number, .. } if *number == self.begun_loops) {
+            if matches!(written, Definition::Counted { number, .. } if *number == self.entered_loops) {
                 *var = None;
             }
         }
-        self.begun_loops += 1;
+        self.entered_loops += 1;
     }
 
     fn after_if(&mut self, r: &Rewriter<'_>) {

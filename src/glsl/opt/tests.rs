@@ -31,7 +31,7 @@ fn products_with_one_are_dropped() {
 }
 
 #[test]
-fn the_page_shows_the_example() {
+fn docs_show_the_example() {
     // A packaged crate has no documentation page.
     let Ok(page) = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/compiler.md")) else {
         return;
@@ -73,7 +73,7 @@ fn inlined(code: &str) -> (usize, u64) {
 
 /// A driver that inlines everything keeps all of these statements: for a chain half the square of its length.
 #[test]
-fn what_drivers_copy_of_a_chain_grows_as_its_length() {
+fn inlined_size_of_a_chain_grows_linearly() {
     let chain = |length: usize, link: &str| {
         let links: String = (1..length)
             .map(|i| format!("float f{i}(float x) {{ {} }}", link.replace("f(", &format!("f{}(", i - 1))))

@@ -53,7 +53,7 @@ fn failures(json: &serde_json::Value, passes_seen: &mut u32) -> Vec<(String, Str
 
 #[test]
 #[ignore = "needs folders of Shadertoy's JSON"]
-fn every_real_shader_checks() {
+fn real_shaders_check_without_errors() {
     let folders = env::var_os("EDDY_GLSL_CORPUS").expect("EDDY_GLSL_CORPUS names the folders");
     let mut files: Vec<PathBuf> = env::split_paths(&folders)
         .flat_map(|folder| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()))

@@ -15,7 +15,7 @@ fn within(open: &str, value: &str, close: &str, depth: usize) -> String {
 }
 
 #[test]
-fn parentheses_and_constants_nest_as_deep_as_the_parser_reads() {
+fn parentheses_and_constants_nest_up_to_the_parser_limit() {
     for (open, value, close) in [
         ("(", "p.x", ")"),
         ("- ", "1.0", ""),
@@ -30,7 +30,7 @@ fn parentheses_and_constants_nest_as_deep_as_the_parser_reads() {
 }
 
 #[test]
-fn a_tree_that_is_too_deep_is_refused_once() {
+fn too_deep_expressions_are_reported_once() {
     for (open, close) in
         [("- ", ""), ("g(", ")"), ("(p.y + ", ")"), ("(p.x > 0.0 ? ", " : 0.0)"), ("float(", ")"), ("sin(", ")")]
     {

@@ -12,7 +12,7 @@ fn image(code: &str) -> (bool, String) {
 }
 
 #[test]
-fn long_programs() {
+fn long_programs_do_not_overflow_the_stack() {
     let mut chain = String::from("void mainImage(out vec4 c, in vec2 f) { float x = f.x; c = vec4(x");
     for i in 0..20_000 {
         let _ = write!(chain, " + x * {i}.0");
@@ -46,7 +46,7 @@ impl Random {
 }
 
 #[test]
-fn torn_programs() {
+fn damaged_programs_do_not_panic() {
     let texts = [4, 5, 6, 7, 8].map(|i| {
         std::fs::read_to_string(format!("{}/check/tests/spec/section_{i}.glsl", env!("CARGO_MANIFEST_DIR"))).unwrap()
     });

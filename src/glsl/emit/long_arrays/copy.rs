@@ -68,7 +68,7 @@ impl Writer<'_> {
             self.fill(pointer, ty, block);
             return true;
         }
-        if !self.is_dear(ty, value, loads) {
+        if !self.should_use_loops(ty, value, loads) {
             return false;
         }
         if let Expression::Load { pointer: from } = self.function.expressions[value] {
@@ -84,7 +84,7 @@ impl Writer<'_> {
     }
 
     /// Returns whether storing this value by loops is possible and better.
-    fn is_dear(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
+    fn should_use_loops(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
         let is_long = self.sizes.longest(ty) >= LEAST_COPY;
         is_long
             && match self.function.expressions[value] {
@@ -117,11 +117,11 @@ impl Writer<'_> {
 
     /// Stores a constructor's parts.
     fn construct(&mut self, pointer: Value, ty: Handle<Type>, value: Value, loads: &Loads, block: &mut Block) {
-        let dear = self.is_dear(ty, value, loads);
+        let use_loops = self.should_use_loops(ty, value, loads);
         let components = match self.function.expressions[value] {
-            Expression::Load { pointer: from } if dear => return self.copy(pointer, from, ty, block),
+            Expression::Load { pointer: from } if use_loops => return self.copy(pointer, from, ty, block),
             Expression::ZeroValue(_) => return self.fill(pointer, ty, block),
-            Expression::Compose { ref components, .. } if dear => components.clone(),
+            Expression::Compose { ref components, .. } if use_loops => components.clone(),
             _ => return block.push(Statement::Store { pointer, value }, Span::UNDEFINED),
         };
         let parts: Vec<_> = match self.types[ty].inner {

@@ -29,8 +29,8 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Adds `for (uint i = 0; i < len; i++) { turn(i) }`.
-    pub fn count(&mut self, len: Value, block: &mut Block, turn: impl FnOnce(&mut Self, Value, &mut Block)) {
+    /// Adds `for (uint i = 0; i < len; i++) { iteration(i) }`.
+    pub fn count(&mut self, len: Value, block: &mut Block, iteration: impl FnOnce(&mut Self, Value, &mut Block)) {
         let counter = LocalVariable { name: None, ty: self.uint, init: None };
         let counter = self.function.local_variables.append(counter, Span::UNDEFINED);
         let counter = self.expression(Expression::LocalVariable(counter));
@@ -42,7 +42,7 @@ impl Writer<'_> {
         let condition = self.emit(binary(BinaryOperator::Less, len), &mut body);
         let leave = Block::from_vec(vec![Statement::Break]);
         body.push(Statement::If { condition, accept: Block::new(), reject: leave }, Span::UNDEFINED);
-        turn(self, index, &mut body);
+        iteration(self, index, &mut body);
         let next = self.emit(binary(BinaryOperator::Add, one), &mut body);
         body.push(Statement::Store { pointer: counter, value: next }, Span::UNDEFINED);
         block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);

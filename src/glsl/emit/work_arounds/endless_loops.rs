@@ -59,7 +59,7 @@ mod tests {
     use crate::{Driver, PassSource};
 
     #[test]
-    fn loops_that_no_counter_ends_are_bounded() {
+    fn loops_without_a_counter_are_bounded() {
         let module = |body: &str, bounded: bool| {
             let code = format!(
                 "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \

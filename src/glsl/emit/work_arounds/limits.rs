@@ -53,7 +53,7 @@ impl Limits {
     fn block(&mut self, f: &Function, block: &Block, loops: &[&Written]) {
         for stmt in block {
             if let (Some(innermost), Stmt::If { condition, accept, reject }) = (loops.last(), stmt) {
-                for (jump, goes_on) in [(accept.last(), false), (reject.last(), true)] {
+                for (jump, continues) in [(accept.last(), false), (reject.last(), true)] {
                     let left = match jump {
                         Some(Stmt::Break) => innermost,
                         // It leaves all of them.
@@ -61,7 +61,7 @@ impl Limits {
                         _ => continue,
                     };
                     self.followed.clear();
-                    self.compared(f, *condition, goes_on, left);
+                    self.compared(f, *condition, continues, left);
                 }
             }
             if let Stmt::Loop { body, continuing, break_if } = stmt {
@@ -80,24 +80,24 @@ impl Limits {
         }
     }
 
-    /// Records the limits in a condition of a loop; `goes_on` is whether the loop continues if it holds.
-    fn compared(&mut self, f: &Function, condition: Value, goes_on: bool, written: &Written) {
+    /// Records the limits in a condition of a loop; `continues` is whether the loop continues if it holds.
+    fn compared(&mut self, f: &Function, condition: Value, continues: bool, written: &Written) {
         match f[condition] {
-            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on, written),
+            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !continues, written),
             // For `&&` and `||`, whose sides are stored one after the other, or a test in a variable of the author.
             Op::Load { place } => {
                 let Op::Var(var) = f[place] else { return };
                 // A variable may be computed from itself.
-                if self.followed.insert((var, goes_on)) {
+                if self.followed.insert((var, continues)) {
                     for value in self.stores.get(&var).cloned().unwrap_or_default() {
-                        self.compared(f, value, goes_on, written);
+                        self.compared(f, value, continues, written);
                     }
                 }
             }
             Op::Binary { op, left, right } if op.is_comparison() => {
                 let is_greater = match op {
-                    Binary::Greater | Binary::GreaterEqual => goes_on,
-                    Binary::Less | Binary::LessEqual => !goes_on,
+                    Binary::Greater | Binary::GreaterEqual => continues,
+                    Binary::Less | Binary::LessEqual => !continues,
                     _ => return,
                 };
                 let (counter, limit) = if is_greater { (left, right) } else { (right, left) };

@@ -17,14 +17,14 @@ struct LoopExits;
 
 impl Rule for LoopExits {
     fn begin_body(&mut self, r: &mut Rewriter<'_>, body: &Block) {
-        if !begins_with_exit(&r.f, body) {
+        if !starts_with_exit(&r.f, body) {
             r.seem_to(Stmt::Break);
         }
     }
 }
 
 /// Returns whether nothing is written before the first exit.
-fn begins_with_exit(f: &Function, body: &Block) -> bool {
+fn starts_with_exit(f: &Function, body: &Block) -> bool {
     let leaves = |block: &Block| matches!(block.first(), Some(Stmt::Break));
     let first = body.iter().find(|stmt| match stmt {
         Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),

@@ -13,7 +13,7 @@ const SECTIONS: [(&str, &str); 5] = [
 ];
 
 #[test]
-fn every_section_allows_and_forbids_what_it_says() {
+fn spec_examples_are_accepted_or_rejected() {
     let mut wrong = String::new();
     let mut count = 0;
     for (section, text) in SECTIONS {

@@ -59,7 +59,7 @@ impl Constants {
         let first = exposed(program).into_iter().zip(&program.globals);
         let first = first.map(|(is_exposed, global)| match global.kind {
             GlobalKind::Private(_) if !is_exposed => Unseen,
-            _ => begin(program, global),
+            _ => initial_state(program, global),
         });
         let mut constants = Constants {
             values: program.functions.iter().map(|f| vec![Unseen; f.len()]).collect(),
@@ -394,12 +394,12 @@ impl Walk<'_> {
     /// Analyses a block that may also be entered after others, whose changes are `changes`. Returns its changes, and
     /// reverts them.
     fn branch(&mut self, changes: &Changes, is_known: bool, block: &Block) -> Changes {
-        let begin = self.trail.len();
+        let start = self.trail.len();
         for &(var, state) in changes {
             self.set(var, state.join(self.held[var], is_known));
         }
         self.block(block);
-        let trail: Vec<_> = self.trail.drain(begin..).rev().collect();
+        let trail: Vec<_> = self.trail.drain(start..).rev().collect();
         let mut changes: Changes =
             trail.into_iter().map(|(var, before)| (var, std::mem::replace(&mut self.held[var], before))).collect();
         // The first entry of a variable is its newest.
@@ -526,7 +526,7 @@ fn mark(functions: &[usize], stale: &mut [bool]) {
 }
 
 /// Returns the initial state of a global.
-fn begin(program: &Module, global: &Global) -> State {
+fn initial_state(program: &Module, global: &Global) -> State {
     match global.kind {
         GlobalKind::Private(Some(init)) | GlobalKind::Table(init) => of_const(program, init),
         GlobalKind::Private(None) => State::ZERO,
