@@ -1,8 +1,8 @@
 //! Stack space for functions that recurse as deep as a text nests, so that the compiler runs on threads of any stack
 //! size.
 
-/// The number of bytes of stack left below which more is allocated. In debug builds a level of an expression takes some
-/// kilobytes.
+/// The minimum number of free bytes: if there are fewer, more are allocated. In debug builds a level of an expression
+/// takes some kilobytes.
 pub(super) const STACK_LEFT: usize = 256 << 10;
 /// The number of bytes allocated at a time.
 pub(super) const STACK_MORE: usize = 4 << 20;

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// The number of arguments that no built-in exceeds.
-const MOST_ARGS: usize = 8;
+const MAX_ARGS: usize = 8;
 
 impl Checker<'_> {
     pub(super) fn call(&mut self, name: Symbol, args: List<ast::ExprId>, loc: Loc) -> ExprId {
@@ -258,7 +258,7 @@ impl Checker<'_> {
         }
         let ast = self.ast;
         let base = self.expr_stack.len();
-        let mut types = [TypeId::ERROR; MOST_ARGS];
+        let mut types = [TypeId::ERROR; MAX_ARGS];
         let mut known = true;
         for (i, &arg) in ast[args].iter().enumerate() {
             let id = self.done(arg);
@@ -269,7 +269,7 @@ impl Checker<'_> {
             }
             self.expr_stack.push(id);
         }
-        let given = &types[..args.len().min(MOST_ARGS)];
+        let given = &types[..args.len().min(MAX_ARGS)];
         let mut result = self.builtin_result(builtin, given);
         if result.is_none()
             && self.settings.dialect.converts()
@@ -281,9 +281,9 @@ impl Checker<'_> {
             types[..converted.len()].copy_from_slice(&converted);
             result = Some(of);
         }
-        let given = &types[..args.len().min(MOST_ARGS)];
+        let given = &types[..args.len().min(MAX_ARGS)];
         let id = match result {
-            Some(result) if args.len() <= MOST_ARGS => {
+            Some(result) if args.len() <= MAX_ARGS => {
                 self.plain_texture_call(builtin, &types[..args.len()], loc);
                 self.resolved_builtin(builtin, result, args, base, loc)
             }

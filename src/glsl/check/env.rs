@@ -42,7 +42,7 @@ impl Env {
         matches!(self, Env::Pass(kind) if kind.is_stage())
     }
 
-    /// Returns whether the text is called once for each vertex.
+    /// Returns whether the entry point is called once per vertex.
     pub(crate) fn is_vertex(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_vertex())
     }

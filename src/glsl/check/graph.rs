@@ -9,7 +9,7 @@ use super::{
 use crate::hir::FuncId;
 
 /// The maximum number of functions that are listed for a cycle.
-const SHOWN: usize = 8;
+const MAX_LISTED: usize = 8;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mark {
@@ -149,9 +149,9 @@ impl Checker<'_> {
         let message = if names.len() == 1 {
             format!("`{head}` calls itself; GLSL has no recursion")
         } else {
-            let mut shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-            if names.len() > SHOWN {
-                shown.push(format!("{} others", names.len() - SHOWN));
+            let mut shown: Vec<String> = names.iter().take(MAX_LISTED).map(|n| format!("`{n}`")).collect();
+            if names.len() > MAX_LISTED {
+                shown.push(format!("{} others", names.len() - MAX_LISTED));
             }
             shown.push(format!("`{head}`"));
             format!("these functions call each other recursively, which GLSL does not allow: {}", shown.join(" calls "))

@@ -110,7 +110,7 @@ impl Checker<'_> {
         children.iter().fold(ExprFlags::default(), |sum, &child| sum.with(self.module[child].flags.inherited()))
     }
 
-    /// Clears the place flag of the operand of a constructor or operator that has no node of its own.
+    /// Returns an expression as a value, no longer a place: for constructors and operators without a node of their own.
     pub(super) fn as_value(&mut self, expr: ExprId) -> ExprId {
         let flags = &mut self.module[expr].flags;
         flags.0 &= !ExprFlags::PLACE.0;

@@ -4,8 +4,8 @@
 //! work-arounds for drivers on the emitted module ([`long_arrays`]; each names the driver and the fault). Adds the
 //! declarations of the module to the reflection.
 //!
-//! naga's modules have no bounds checks of indices, and its guards of divisions are function calls: both are handled
-//! earlier ([`super::ir`]), so that modules need none.
+//! naga does not know the bounds of indices, and guards divisions with its own functions: both are handled earlier
+//! ([`super::ir`]), so that modules need neither.
 
 mod blocks;
 mod consts;

@@ -9,7 +9,7 @@ use crate::{
 
 /// The maximum number of globals that are visited to determine which each function writes. A chain of ten thousand
 /// functions that write one each would use all memory.
-const MOST_WRITES: usize = 1 << 22;
+const MAX_WRITES: usize = 1 << 22;
 
 /// A user function with its specializations for samplers and for arrays that it only reads, in order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -66,7 +66,7 @@ impl Arguments {
             for callee in &module[func].calls {
                 let of_callee = written[callee.index()].as_ref();
                 work += of_callee.map_or(0, FxHashSet::len);
-                match (&mut all, of_callee.filter(|_| work <= MOST_WRITES)) {
+                match (&mut all, of_callee.filter(|_| work <= MAX_WRITES)) {
                     (Some(all), Some(of_callee)) => all.extend(of_callee),
                     _ => all = None,
                 }

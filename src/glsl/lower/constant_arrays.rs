@@ -18,13 +18,13 @@ use crate::{
 };
 
 /// The maximum number of arrays considered in one program: one bit each.
-const MOST: usize = 64;
+const MAX_ARRAYS: usize = 64;
 
 /// The maximum number of members of a structure, which are counted for each store.
-const MOST_MEMBERS: usize = 64;
+const MAX_MEMBERS: usize = 64;
 
 /// The maximum call depth at which an array may be filled.
-const MOST_CALLS: u32 = 16;
+const MAX_CALL_DEPTH: u32 = 16;
 
 /// Turns arrays of at least `least` scalars that are filled with constants before anything else into constants, and
 /// removes the statements that fill them.
@@ -67,12 +67,12 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
             || varies
             || !global.flags.contains(VarFlags::WRITTEN)
             || !global.flags.contains(VarFlags::INDEXED)
-            || found.len() == MOST
+            || found.len() == MAX_ARRAYS
         {
             continue;
         }
         let size = words(module, global.ty);
-        if size < least || members(module, global.ty) > MOST_MEMBERS {
+        if size < least || members(module, global.ty) > MAX_MEMBERS {
             continue;
         }
         let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());
@@ -206,7 +206,7 @@ impl<'a> Search<'a> {
         let module = self.module;
         if let ExprKind::Call { func, args } = module[expr].kind
             && self.calls[func.index()] == 1
-            && calls < MOST_CALLS
+            && calls < MAX_CALL_DEPTH
         {
             self.close(&[], &module[args]);
             self.statements(module[func].body.unwrap_or(List::EMPTY), calls + 1);

@@ -116,15 +116,15 @@ impl Ranges {
             Op::Global(id) => r.module[id].kind == GlobalKind::Uniform(Uniform::Resolution),
             _ => false,
         };
-        let canvas = Some(Interval::between(1.0, MAX_TARGET_SIZE.into()));
+        let size = Some(Interval::between(1.0, MAX_TARGET_SIZE.into()));
         match r.f[value] {
             Op::Load { place } => match r.f[place] {
                 Op::Var(var) => self.current[var.index()],
-                Op::Part { base, index: 0 | 1 } if is_resolution(base) => canvas,
+                Op::Part { base, index: 0 | 1 } if is_resolution(base) => size,
                 _ => None,
             },
             Op::Part { base, index: 0 | 1 } => match r.f[base] {
-                Op::Load { place } if is_resolution(place) => canvas,
+                Op::Load { place } if is_resolution(place) => size,
                 _ => None,
             },
             _ => None,

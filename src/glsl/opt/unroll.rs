@@ -15,10 +15,10 @@ use crate::{
 };
 
 /// The maximum number of iterations that are unrolled.
-const MOST_ROUNDS: usize = 8;
+const MAX_ITERATIONS: usize = 8;
 
 /// The maximum number of statements of an unrolled loop.
-const MOST_STATEMENTS: usize = 512;
+const MAX_STATEMENTS: usize = 512;
 
 pub(super) fn run(module: &mut Module) {
     for index in 0..module.functions.len() {
@@ -126,12 +126,12 @@ impl Unroller<'_> {
         while compare(op, count, bound)? == goes_on_if {
             rounds += 1;
             count = count.checked_add(by)?;
-            if rounds > MOST_ROUNDS {
+            if rounds > MAX_ITERATIONS {
                 return None;
             }
         }
         let statements = size(body) + size(continuing);
-        (statements * rounds <= MOST_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
+        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
     }
 
     /// Returns the increment of a counter per iteration, if nothing else is written to it.

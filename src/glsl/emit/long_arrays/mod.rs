@@ -28,12 +28,12 @@ use writer::{LEAST_ARRAY, Writer};
 
 /// The total number of scalars in a program's uninitialised arrays from which on the program is changed at all. 100
 /// zeros take lavapipe 0.4 s, 160 take 1.5 s, 256 take 6 s.
-const FEWEST_SCALARS: u32 = 128;
+const MIN_SCALARS: u32 = 128;
 
 /// The number of scalars up to which a program's arrays are zeroed by blocks of a few known elements, each of them a
 /// loop of one iteration that drivers cannot recognise as such. 500 take lavapipe 3 s, 800 take 7 s, and a second by
 /// loops; frames are then as fast as with initialisers, and take up to twice as long with loops.
-const MOST_IN_BLOCKS: u32 = 512;
+const MAX_IN_BLOCKS: u32 = 512;
 
 /// Rewrites all long arrays to these forms. `filled` are globals that are stored as a whole before anything else,
 /// `written_first` variables of each function, the entry point last, that are written before they are read.
@@ -57,7 +57,7 @@ pub(super) fn write(
     let locals = functions.flat_map(|f| f.local_variables.iter().filter(|(_, v)| v.init.is_none()).map(|(_, v)| v.ty));
     let long = globals.iter().map(|(_, ty)| *ty).chain(locals.filter(|ty| sizes.longest(*ty) >= LEAST_ARRAY));
     let scalars = long.fold(0u32, |sum, ty| sum.saturating_add(sizes.scalars(ty)));
-    if scalars < FEWEST_SCALARS {
+    if scalars < MIN_SCALARS {
         return None;
     }
     let uint = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
@@ -68,7 +68,7 @@ pub(super) fn write(
     });
     let Module { types, global_variables, functions, entry_points, .. } = module;
     let variables: Vec<_> = global_variables.iter().map(|(_, v)| (v.ty, v.space)).collect();
-    let in_blocks = scalars <= MOST_IN_BLOCKS;
+    let in_blocks = scalars <= MAX_IN_BLOCKS;
     let mut written_first = written_first.iter();
     let mut write = |function, opaque_bit, filled: &[_]| {
         let written_first = written_first.next().expect("a set for each function");

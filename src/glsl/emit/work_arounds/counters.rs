@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// The number of loop bodies that may be unrolled: more than for a matrix, or for an eight by eight kernel.
-const BODIES: u32 = 64;
+const MAX_BODIES: u32 = 64;
 
 pub(super) fn run(program: &mut Module) {
     rewrite::each_function(program, Counters::default);
@@ -29,7 +29,7 @@ impl Rule for Counters {
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
         let Op::Element { base, index } = *op else { return None };
         let Type::Array { len, .. } = r.module.types.get(r.f.ty(base)) else { return None };
-        let mesa_unrolls = self.depth > 1 && len.saturating_pow(self.depth) > BODIES;
+        let mesa_unrolls = self.depth > 1 && len.saturating_pow(self.depth) > MAX_BODIES;
         if !mesa_unrolls || !r.f.is_place(base) || !matches!(r.f[index], Op::Load { .. }) {
             return None;
         }

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use crate::ir::{Block, Function, Module, Op, Stmt, Value, analysis::leaves};
 
 /// The maximum number of statements of a step that is repeated.
-const LONGEST: usize = 16;
+const MAX_STATEMENTS: usize = 16;
 
 pub(super) fn run(program: &mut Module) {
     for f in &mut program.functions {
@@ -50,7 +50,7 @@ fn is_short(f: &Function, step: &Block) -> bool {
         Stmt::Store { .. } => true,
         _ => false,
     };
-    step.len() <= LONGEST && step.iter().all(is_simple)
+    step.len() <= MAX_STATEMENTS && step.iter().all(is_simple)
 }
 
 /// Repeats a step before each `Continue` of the enclosing loop.

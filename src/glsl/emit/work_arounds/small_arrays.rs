@@ -17,10 +17,10 @@ use crate::{
 };
 
 /// The maximum number of elements of such an array.
-const MOST_ELEMENTS: usize = 8;
+const MAX_ELEMENTS: usize = 8;
 
 /// The maximum number of selects for all reads of an array together, so that the code does not grow out of proportion.
-const MOST_CHOICES: usize = 64;
+const MAX_SELECTS: usize = 64;
 
 pub(super) fn run(program: &mut Module) {
     for index in 0..program.functions.len() {
@@ -56,7 +56,7 @@ impl Arrays<'_> {
     fn of(program: &Module, f: &Function) -> FxHashMap<VarId, Box<[Value]>> {
         let is_array = |ty| match program.types.get(ty) {
             Type::Array { element, len } => {
-                len as usize <= MOST_ELEMENTS
+                len as usize <= MAX_ELEMENTS
                     && matches!(program.types.get(element), Type::Scalar(_) | Type::Vector { .. })
             }
             _ => false,
@@ -69,7 +69,7 @@ impl Arrays<'_> {
         let mut walk = Arrays { f, arrays, filled: Vec::new() };
         walk.block(&f.body);
         let is_worth =
-            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MOST_CHOICES;
+            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MAX_SELECTS;
         let arrays = walk.arrays.into_iter();
         arrays
             .filter_map(|(var, array)| {

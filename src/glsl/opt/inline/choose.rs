@@ -11,10 +11,10 @@ use crate::{
 const FEW_COPIES: u64 = 1 << 17;
 
 /// The maximum number of functions that are merged: a part is copied once for each function that contains it.
-const LONGEST_CHAIN: usize = 128;
+const MAX_CHAIN: usize = 128;
 
 /// The maximum nesting depth of blocks. Mesa's CPU compilers support up to 80 (`LP_MAX_TGSI_NESTING`).
-const DEEPEST: usize = 64;
+const MAX_DEPTH: usize = 64;
 
 /// Properties of a function's body.
 #[derive(Default)]
@@ -81,7 +81,7 @@ pub(super) fn inlined(module: &Module) -> Vec<bool> {
             }
         }
         inlined[index] =
-            places[index] == 1 && !facts.discards && depths[index] <= DEEPEST && lengths[index] < LONGEST_CHAIN;
+            places[index] == 1 && !facts.discards && depths[index] <= MAX_DEPTH && lengths[index] < MAX_CHAIN;
     }
     inlined
 }

@@ -26,10 +26,10 @@ use crate::{
 /// The maximum number of times that the functions are analysed, on average, and that the statements of a loop are. One
 /// more iteration is needed for each step by which a constant propagates between variables against the order of the
 /// program, so a chain of ten thousand would take as many.
-const MOST_ROUNDS: usize = 64;
+const MAX_ROUNDS: usize = 64;
 
 /// The maximum number of calls of a function that are analysed individually.
-const MOST_CALLS: usize = 16;
+const MAX_CALLS: usize = 16;
 
 /// The known state of every value of a program.
 pub(super) struct Constants {
@@ -45,7 +45,7 @@ pub(super) struct Constants {
     readers: Vec<Vec<usize>>,
     /// By function: the inputs of its values have changed since they were computed.
     stale: Vec<bool>,
-    /// `MOST_ROUNDS` through a loop were not enough.
+    /// `MAX_ROUNDS` through a loop were not enough.
     gave_up: bool,
     /// The analysis is complete: analysing a function again does not affect others.
     is_found: bool,
@@ -77,7 +77,7 @@ impl Constants {
         // Callers come after their callees, and pass known arguments to them.
         (0..count).rev().for_each(|index| constants.function(program, index));
         // A caller that reads several results is analysed again when all of them are known.
-        for _ in 0..MOST_ROUNDS * count {
+        for _ in 0..MAX_ROUNDS * count {
             match constants.stale.iter().position(|&is_stale| is_stale) {
                 _ if constants.gave_up => break,
                 Some(index) => constants.function(program, index),
@@ -123,7 +123,7 @@ impl Constants {
             return;
         }
         let calls = self.calls(program, function);
-        if calls.len() < 2 || calls.len() > MOST_CALLS {
+        if calls.len() < 2 || calls.len() > MAX_CALLS {
             return;
         }
         let f = &program.functions[function];
@@ -344,7 +344,7 @@ impl Walk<'_> {
                     if self.growths == growths {
                         break;
                     }
-                    if round == MOST_ROUNDS {
+                    if round == MAX_ROUNDS {
                         self.constants.gave_up = true;
                         break;
                     }

@@ -3,12 +3,12 @@
 use crate::ir::{Function, Op, Value};
 
 /// The maximum depth to which two expressions are compared.
-const MOST_LEVELS: u32 = 8;
+const MAX_DEPTH: u32 = 8;
 
 /// Returns whether two values are the same expression of the same variables, so that a driver may fold their difference
 /// to zero.
 pub(super) fn is_same(f: &Function, left: Value, right: Value) -> bool {
-    is_same_to(f, left, right, MOST_LEVELS)
+    is_same_to(f, left, right, MAX_DEPTH)
 }
 
 fn is_same_to(f: &Function, left: Value, right: Value, levels: u32) -> bool {

@@ -68,7 +68,7 @@ pub(super) struct Merged {
 impl Merged {
     /// The number of times that an interval grows by no more than necessary. Values that calls count up would grow
     /// forever.
-    const MOST_GROWN: u8 = 3;
+    const MAX_GROWN: u8 = 3;
 
     /// Returns the known state where it is read.
     pub fn state(&self) -> State {
@@ -80,7 +80,7 @@ impl Merged {
 
     /// Adds a stored value; returns whether that changes the state.
     pub fn add(&mut self, state: State) -> bool {
-        self.add_growing(state, Self::MOST_GROWN)
+        self.add_growing(state, Self::MAX_GROWN)
     }
 
     /// Adds a value that an iteration of a loop stores. A value that grows in one most likely grows in each, so it is
