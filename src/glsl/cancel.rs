@@ -1,7 +1,7 @@
-//! Reading a text that is given up from outside, as an editor has a newer one.
+//! Cancelling a compile from another thread, for example when an editor has a newer text.
 //!
-//! A compile asks its [`Cancel`] at each statement and directive, and unwinds if it is set, which calls no panic hook. Such work is
-//! done inside of [`cancellable`].
+//! A compile checks its [`Cancel`] at each statement and directive, and unwinds if it is set, without calling the panic
+//! hook. Such work runs inside [`cancellable`].
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
@@ -20,7 +20,7 @@ impl<'a> Cancel<'a> {
         Self(Some(flag))
     }
 
-    /// Unwinds to [`cancellable`] where the flag is set.
+    /// Unwinds to [`cancellable`] if the flag is set.
     #[inline]
     pub(crate) fn check(self) {
         if self.0.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
@@ -29,7 +29,8 @@ impl<'a> Cancel<'a> {
     }
 }
 
-/// Does work that a [`Cancel`] may end. Returns `None` if one did. What the work has changed until then is unspecified.
+/// Runs work that a [`Cancel`] may end. Returns `None` if it was cancelled; what the work had changed by then is
+/// unspecified.
 pub fn cancellable<T>(work: impl FnOnce() -> T) -> Option<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(value) => Some(value),
@@ -44,7 +45,7 @@ mod tests {
     use crate::{PassSource, services::Analysis};
 
     #[test]
-    fn a_cancelled_reading_ends_without_a_result() {
+    fn cancelled_work_returns_none() {
         let text = "#define A\nvoid mainImage(out vec4 color, in vec2 at) { color = vec4(1.0); }";
         let flag = AtomicBool::new(false);
         let source = PassSource { cancel: Cancel::by(&flag), ..PassSource::image(text) };

@@ -1,4 +1,4 @@
-//! A pass from its texts to a module, through every room of the compiler, and what comes of it.
+//! The pipeline that compiles a pass from its texts to a module, and its results.
 
 use super::{
     check,
@@ -15,13 +15,13 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
-/// Holds errors exactly where [`compile`] would fail.
+/// Returns the diagnostics of a pass without generating a program: an editor requests them after each pause in typing.
+/// There are errors exactly where [`compile`] would fail.
 pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
     check_pass(source, &Link::default(), None).0.diagnostics
 }
 
-/// Returns the name of the function that most of a pass without errors lies in, with all calls written out.
+/// Returns the name of the function that makes up the largest part of an error-free pass, with all calls inlined.
 pub fn bulk(source: &PassSource<'_>) -> Option<Span> {
     check_pass(source, &Link::default(), None).0.bulk
 }
@@ -29,7 +29,7 @@ pub fn bulk(source: &PassSource<'_>) -> Option<Span> {
 /// The expression that is probed, and the visit.
 type Probed = Option<(hir::ExprId, u32)>;
 
-/// Checks a pass, and finds what is probed in it.
+/// Checks a pass, and finds the probed expression in it.
 fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> (FrontEnd, Probed) {
     let mut pass = FrontEnd::run(source, link, preamble);
     let Some(wanted) = source.probe else { return (pass, None) };
@@ -41,14 +41,14 @@ fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamb
     (pass, Some((expr, wanted.visit)))
 }
 
-/// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
+/// Compiles one pass. On failure the list contains at least one error, and possibly warnings.
 pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Diagnostics> {
     compile_linked(source, &Link::default(), None)
 }
 
-/// Compiles a pass, or one stage of a program that draws meshes. There the vertex stage comes first: what it gives
-/// ([`super::Reflection::varyings`]) is part of the fragment stage's [`Link`]. The `preamble` is of the pass's own
-/// Common; it saves time and changes nothing.
+/// Compiles a pass, or one stage of a program that draws meshes. Compile the vertex stage first: its outputs
+/// ([`super::Reflection::varyings`]) are part of the fragment stage's [`Link`]. The `preamble` is that of the pass's
+/// own Common; it saves time and does not change the result.
 pub fn compile_linked(
     source: &PassSource<'_>,
     link: &Link<'_>,
@@ -57,8 +57,8 @@ pub fn compile_linked(
     Ok(on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))?)
 }
 
-/// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or
-/// before and after the one of this name alone.
+/// Returns the text of the intermediate representation of a pass after lowering and after each pass of the optimiser;
+/// with `pass`, only before and after the optimiser pass of that name.
 pub fn dump_ir(
     source: &PassSource<'_>,
     link: &Link<'_>,
@@ -85,7 +85,7 @@ pub fn dump_ir(
     Ok(out)
 }
 
-/// Compiles; `seen` gets the program under the name of each pass that made it.
+/// Compiles a pass; `seen` is called with the program after each compiler pass, and the name of that pass.
 pub(super) fn compile_seen(
     source: &PassSource<'_>,
     link: &Link<'_>,
@@ -122,7 +122,7 @@ pub(super) fn compile_seen(
         inlined_size,
         diagnostics,
     };
-    // wgpu validates each module that it is given.
+    // wgpu validates every module that it receives.
     if cfg!(debug_assertions)
         && let Err(bug) = compiled.validate()
     {
@@ -132,8 +132,8 @@ pub(super) fn compile_seen(
 }
 
 impl Compiled {
-    /// Asks naga whether the module is valid, as wgpu does where a device gets it. An error is a bug of this compiler,
-    /// never the author's.
+    /// Validates the module with naga, as wgpu does when it creates a shader. An error is a bug of this compiler, never
+    /// the author's.
     pub fn validate(&self) -> Result<(), Diagnostic> {
         on_deep_stack(|| emit::validate(&self.module)).map(drop).map_err(|reason| {
             let bug = format!("this is a bug in Eddy: the generated program is not valid: {reason}");
@@ -142,16 +142,16 @@ impl Compiled {
     }
 }
 
-/// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that
-/// the site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the
-/// same. `custom_uniforms` are those Common declares.
+/// Checks Common as Shadertoy does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that
+/// Shadertoy would accept it; what it would reject is returned as warnings, because Eddy runs such a project anyway.
+/// `custom_uniforms` are those that Common declares.
 pub fn check_common(
     common: Text<'_>,
     includes: &[Include<'_>],
     custom_uniforms: &[CustomUniform<'_>],
 ) -> Vec<Diagnostic> {
     let parsed = parse::parse_common(&pieces::of(&[common], includes));
-    // A Common that cannot be read is reported with each pass; only what is wrong with it alone is said here.
+    // A Common that does not parse is reported with each pass; only errors of Common alone are reported here.
     if parsed.report.has_errors() {
         return Vec::new();
     }
@@ -161,22 +161,22 @@ pub fn check_common(
 /// A pass that compiled.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Valid ([`Compiled::validate`]); one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader
-    /// but for [`super::PassKind::Vertex`].
+    /// Valid ([`Compiled::validate`]). It has one entry point, named [`super::interface::ENTRY_POINT`]: a fragment
+    /// shader, except for [`super::PassKind::Vertex`].
     pub module: naga::Module,
     pub reflection: Reflection,
-    /// Says what the storage buffer at [`super::interface::TABLE_BINDING`] holds; empty: the module declares none.
+    /// The contents of the storage buffer at [`super::interface::TABLE_BINDING`]; if empty, the module declares none.
     pub tables: Vec<u8>,
-    /// Says what the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares
+    /// The contents of the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`]; if empty, the module declares
     /// none.
     pub uniform_tables: Vec<u8>,
-    /// Bytes that the module reads at [`super::interface::CUSTOM_UNIFORM_BINDING`]; 0: it declares nothing there.
+    /// Bytes that the module reads at [`super::interface::CUSTOM_UNIFORM_BINDING`]; if 0, it declares nothing there.
     pub custom_uniform_bytes: u64,
-    /// An array of at least so many scalars that has no initialiser is written before anything reads it, so that it
-    /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that
-    /// long.
+    /// Arrays of at least this many scalars that have no initialiser are written before they are read, so that they
+    /// need not be zeroed first. `None` if this was not requested ([`super::Driver::array_loops`]), or if no array is
+    /// that long.
     pub initialized_arrays: Option<u32>,
-    /// Statements of the program with all calls written out, as drivers compile it.
+    /// Statements of the program with all calls inlined, which is what drivers compile.
     pub inlined_size: u64,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,

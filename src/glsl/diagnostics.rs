@@ -1,15 +1,15 @@
-//! Holds all that is wrong with a program, as an error type.
+//! The diagnostics of a program that does not compile, as an error type.
 
 use eddy_diag::Diagnostic;
 use std::{fmt, ops::Deref};
 
-/// Everything that was found in a program that does not compile: at least one error, warnings and notes among them.
-/// [`render_all`](crate::render_all) shows each with the line that it is about.
+/// All diagnostics of a program that does not compile: at least one error, and possibly warnings and notes.
+/// [`render_all`](crate::render_all) shows each with its source line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl fmt::Display for Diagnostics {
-    /// Writes the messages alone, a line each: the texts that they are about are not here.
+    /// Writes only the messages, one per line: the source texts are not available here.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (n, diagnostic) in self.0.iter().enumerate() {
             let end = if n == 0 { "" } else { "\n" };

@@ -1,8 +1,9 @@
-//! Shaders of other tools, known by what only they have, so that one message says what a text is in place of many
-//! about its words.
+//! Recognises shaders written for other tools by identifiers that only those tools use, so that one message names the
+//! tool instead of many about unknown identifiers.
 //!
-//! Owns the table of tools and [`name`], which is asked of texts that do not compile alone: what compiles is right,
-//! whoever wrote it. A text that defines the entry point of its pass is the site's, whatever else it names.
+//! Contains the table of tools and [`name`], which is called only for texts that do not compile: a text that compiles
+//! is accepted whatever tool it was written for. A text that defines the entry point of its pass is taken for a
+//! Shadertoy shader, whatever other names it uses.
 
 use super::{
     PassKind,
@@ -10,15 +11,15 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// A tool, the words by which its texts are known, and what to do with one.
+/// A tool, the identifiers that its shaders are recognised by, and hints for porting one.
 struct Dialect {
     /// Completes "this is ...".
     is: &'static str,
-    /// Any of these words of the text, outside of comments.
+    /// At least one of these words is in the text, outside comments.
     any: &'static [&'static str],
-    /// All of these as well.
+    /// All of these are in the text as well.
     all: &'static [&'static str],
-    mends: &'static [&'static str],
+    hints: &'static [&'static str],
 }
 
 const ENTRY: &str = "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `void main()`, with \
@@ -27,32 +28,32 @@ const NOT_GLSL: &str = "write the shader in GLSL ES 3.00, with \
     `void mainImage(out vec4 fragColor, in vec2 fragCoord)` as its entry point";
 const SLIDER: &str = "for other inputs use a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`";
 
-/// The more certain first. A word with other signs than letters is looked for as it stands.
+/// The more certain ones first. A word with characters other than letters is searched for literally.
 const DIALECTS: &[Dialect] = &[
     Dialect {
         is: "an ISF shader, whose inputs are in the JSON header",
         any: &["isf_FragNormCoord", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL", "IMG_THIS_NORM_PIXEL", "IMG_PIXEL", "IMG_SIZE"],
         all: &[],
-        mends: ISF,
+        hints: ISF,
     },
     Dialect {
         is: "WGSL, not GLSL",
         any: &["@fragment", "@vertex", "@compute", "@group(", "var<uniform>", "-> @location", "vec4<f32>", "vec2<f32>"],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
-    Dialect { is: "a shader of Godot", any: &["shader_type"], all: &[], mends: &[NOT_GLSL, GODOT] },
+    Dialect { is: "a shader of Godot", any: &["shader_type"], all: &[], hints: &[NOT_GLSL, GODOT] },
     Dialect {
         is: "Metal, not GLSL",
         any: &["metal_stdlib", "[[stage_in]]", "[[position]]", "[[buffer("],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "an effect of ReShade, in HLSL",
         any: &["ReShade.fxh", "ReShade::BackBuffer", "ReShade::GetLinearizedDepth"],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "a shader of Unity, in HLSL",
@@ -66,7 +67,7 @@ const DIALECTS: &[Dialect] = &[
             "UnityObjectToClipPos",
         ],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "HLSL, not GLSL",
@@ -82,7 +83,7 @@ const DIALECTS: &[Dialect] = &[
             "Texture2D",
         ],
         all: &[],
-        mends: &[NOT_GLSL],
+        hints: &[NOT_GLSL],
     },
     Dialect {
         is: "a shader of RetroArch",
@@ -98,44 +99,44 @@ const DIALECTS: &[Dialect] = &[
             "push_constant",
         ],
         all: &[],
-        mends: &[ENTRY, "its Source is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)"],
+        hints: &[ENTRY, "its Source is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)"],
     },
     Dialect {
         is: "a shader of mpv",
         any: &["HOOKED_tex", "HOOKED_pos", "HOOKED_texOff", "HOOKED_raw"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a shader of TouchDesigner",
         any: &["sTD2DInputs", "TDOutputSwizzle", "TDInstanceID", "uTD2DInfos"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
-    Dialect { is: "a shader of OBS Studio, in HLSL", any: &["ViewProj"], all: &["technique"], mends: &[NOT_GLSL] },
+    Dialect { is: "a shader of OBS Studio, in HLSL", any: &["ViewProj"], all: &["technique"], hints: &[NOT_GLSL] },
     Dialect {
         is: "a shader of Bonzomatic",
         any: &["v2Resolution", "fGlobalTime", "texFFTSmoothed", "texFFTIntegrated", "texPreviousFrame"],
         all: &[],
-        mends: &[ENTRY, "fGlobalTime is iTime, v2Resolution is iResolution.xy; there is no FFT of a sound yet"],
+        hints: &[ENTRY, "fGlobalTime is iTime, v2Resolution is iResolution.xy; there is no FFT of a sound yet"],
     },
     Dialect {
         is: "a shader of KodeLife",
         any: &["VertexData", "inData", "v_texcoord"],
         all: &["spectrum"],
-        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse; there is no spectrum yet"],
+        hints: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse; there is no spectrum yet"],
     },
     Dialect {
         is: "a shader of Kodi's interface",
         any: &["m_unicol", "m_cord0", "m_samp0", "m_attrpos"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a window shader of picom",
         any: &["window_shader"],
         all: &[],
-        mends: &[
+        hints: &[
             "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 window_shader()`",
             PICTURE,
         ],
@@ -144,7 +145,7 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of LÖVE",
         any: &["texture_coords", "screen_coords", "love_ScreenSize", "VaryingTexCoord"],
         all: &["effect"],
-        mends: &[
+        hints: &[
             "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 effect(..)`",
             PICTURE,
         ],
@@ -153,7 +154,7 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of GameMaker",
         any: &["gm_BaseTexture", "v_vTexcoord", "v_vColour"],
         all: &[],
-        mends: &[ENTRY, PICTURE],
+        hints: &[ENTRY, PICTURE],
     },
     Dialect {
         is: "a shader of three.js",
@@ -170,7 +171,7 @@ const DIALECTS: &[Dialect] = &[
             "diffuseColor",
         ],
         all: &["main"],
-        mends: &[
+        hints: &[
             ENTRY,
             "vUv is fragCoord / iResolution.xy, its time iTime; varyings of a mesh need a pass that draws one",
         ],
@@ -179,29 +180,29 @@ const DIALECTS: &[Dialect] = &[
         is: "a shader of glslViewer or The Book of Shaders",
         any: &["u_resolution", "u_time", "u_mouse"],
         all: &[],
-        mends: &[ENTRY, "u_time is iTime, u_resolution is iResolution.xy, u_mouse is iMouse.xy"],
+        hints: &[ENTRY, "u_time is iTime, u_resolution is iResolution.xy, u_mouse is iMouse.xy"],
     },
     Dialect {
         is: "a shader of GLSL Sandbox",
         any: &["resolution", "surfacePosition", "backbuffer"],
         all: &["main", "time"],
-        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse.xy / iResolution.xy"],
+        hints: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse.xy / iResolution.xy"],
     },
     Dialect {
         is: "a shader of twigl",
         any: &["FC"],
         all: &["r", "t"],
-        mends: &[
+        hints: &[
             "wrap it in `void mainImage(out vec4 o, in vec2 fragCoord) { .. }`, with fragCoord for FC, iTime for t \
              and iResolution.xy for r",
         ],
     },
-    // The last: others have a version and a `main` as well.
+    // Last, because shaders of other tools have a `#version` and a `main` as well.
     Dialect {
         is: "a plain fragment shader, with a version and a `main` of its own",
         any: &["#version"],
         all: &["main"],
-        mends: &[ENTRY, "delete the lines of `#version`, `in` and `out`"],
+        hints: &[ENTRY, "delete the lines of `#version`, `in` and `out`"],
     },
 ];
 
@@ -214,7 +215,7 @@ const ISF: &[&str] = &[
 const GODOT: &str = "UV is fragCoord / iResolution.xy, TIME is iTime, COLOR is fragColor";
 const PICTURE: &str = "its input is an image: `#iChannel0 \"file://pic.png\"`, read with texture(iChannel0, uv)";
 
-/// Uniforms of Ghostty's custom shaders, which are the site's programs but for these.
+/// Uniforms of Ghostty's custom shaders, which are Shadertoy programs apart from these.
 const GHOSTTY: [&str; 20] = [
     "iCurrentCursor",
     "iPreviousCursor",
@@ -238,7 +239,8 @@ const GHOSTTY: [&str; 20] = [
     "CURSORSTYLE_UNDERLINE",
 ];
 
-/// Returns one message for a text that did not compile because it is another tool's; `None` for any other.
+/// Returns one message for a text that did not compile because it was written for another tool; `None` for any other
+/// text.
 pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
     let entry = match source.kind {
         PassKind::Image | PassKind::Buffer => "mainImage",
@@ -249,10 +251,10 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     let first = found.iter().find(|d| d.is_error())?;
     let words = StrippedText::of(source.code.text);
     let span = |at: usize, len: usize| Span::new(source.code.id, at..at + len);
-    let named = |is: &str, span: Span, mends: &[&str]| {
+    let named = |is: &str, span: Span, hints: &[&str]| {
         let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
-        diagnostic.hints.extend(mends.iter().map(|&mend| mend.to_owned()));
-        // What the compiler stumbled on first.
+        diagnostic.hints.extend(hints.iter().map(|&hint| hint.to_owned()));
+        // The first error that the compiler reported.
         if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
             diagnostic = diagnostic.label(at, first.message.clone());
         }
@@ -262,13 +264,13 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         let unknown = |name: &&str| found.iter().any(|d| d.is_error() && d.message.contains(&format!("`{name}`")));
         let name = GHOSTTY.iter().copied().filter(unknown).min_by_key(|name| words.place(name))?;
         let place = words.place(name)?;
-        let mends = [
+        let hints = [
             "open it with a stand-in terminal: eddy --as ghostty FILE",
             "or give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
              `#iUniform float iTimeCursorChange = 0.0` another",
         ];
         let is = format!("a custom shader of Ghostty: `{name}` is a uniform set by the terminal");
-        return Some(named(&is, span(place, name.len()), &mends));
+        return Some(named(&is, span(place, name.len()), &hints));
     }
     if let Some(range) = isf_header(source.code) {
         let is = DIALECTS.first().map_or("an ISF shader", |isf| isf.is);
@@ -282,26 +284,26 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
     });
     let (dialect, (at, len)) = dialect?;
-    // WGSL and the like are known by one word, and so is what needs a slider.
-    let mut named = named(dialect.is, span(at, len), dialect.mends);
-    if dialect.mends.contains(&ENTRY) {
+    // Shaders that are ported by their entry point also need sliders for their inputs; WGSL and the like get one hint.
+    let mut named = named(dialect.is, span(at, len), dialect.hints);
+    if dialect.hints.contains(&ENTRY) {
         named = named.hint(SLIDER);
     }
     Some(named)
 }
 
-/// The first line of the JSON of an ISF shader, the comment that its text begins with.
+/// Returns the range of the first line of an ISF shader's JSON header, the comment at the start of its text.
 fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
     let text = code.text.trim_start_matches('\u{feff}').trim_start();
     let json = text.strip_prefix("/*")?;
     let json = &json[..json.find("*/")?];
     let keys = ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\""];
     let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
-    let begin = code.text.len() - text.len();
-    is_isf.then(|| begin..begin + text.lines().next().map_or(0, str::len))
+    let start = code.text.len() - text.len();
+    is_isf.then(|| start..start + text.lines().next().map_or(0, str::len))
 }
 
-/// Returns the first `//!HOOK` line, which every shader of mpv has: the names of its functions come from it.
+/// Returns the range of the first `//!HOOK` line, which every mpv shader has: its function names come from it.
 fn mpv_hook(text: &str) -> Option<std::ops::Range<usize>> {
     let mut start = 0;
     text.split_inclusive('\n').find_map(|line| {
@@ -311,13 +313,13 @@ fn mpv_hook(text: &str) -> Option<std::ops::Range<usize>> {
     })
 }
 
-/// A text without its comments.
+/// A text with its comments removed.
 struct StrippedText {
     text: String,
 }
 
 impl StrippedText {
-    /// Comments become blanks, so that places stay.
+    /// Replaces comments with blanks, so that byte positions do not change.
     fn of(text: &str) -> StrippedText {
         let mut out = text.as_bytes().to_vec();
         let mut at = 0;
@@ -337,15 +339,15 @@ impl StrippedText {
         StrippedText { text: String::from_utf8(out).unwrap_or_default() }
     }
 
-    /// Returns where a word stands first, or a part of the text that is no word.
+    /// Returns the position of the first occurrence of a word, or of a literal that is not a word.
     fn place(&self, word: &str) -> Option<usize> {
         let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
         let bytes = self.text.as_bytes();
         memchr::memmem::find_iter(bytes, word).find(|&at| {
-            let (before, behind) = (at.checked_sub(1).and_then(|i| bytes.get(i)), bytes.get(at + word.len()));
-            let begins = !is_letter(word.as_bytes().first()) || !is_letter(before);
-            let ends = !is_letter(word.as_bytes().last()) || !is_letter(behind);
-            begins && ends
+            let (before, after) = (at.checked_sub(1).and_then(|i| bytes.get(i)), bytes.get(at + word.len()));
+            let starts = !is_letter(word.as_bytes().first()) || !is_letter(before);
+            let ends = !is_letter(word.as_bytes().last()) || !is_letter(after);
+            starts && ends
         })
     }
 }
@@ -355,7 +357,7 @@ mod tests {
     use crate::{self as glsl, PassKind, PassSource, Text};
     use eddy_diag::SourceId;
 
-    fn said(code: &str) -> Vec<String> {
+    fn messages(code: &str) -> Vec<String> {
         let source = PassSource::new(PassKind::Image, Text { id: SourceId(0), text: code });
         glsl::diagnose(&source).into_iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect()
     }
@@ -403,35 +405,35 @@ mod tests {
     ];
 
     #[test]
-    fn a_text_of_another_tool_is_named_in_one_message() {
+    fn shaders_of_other_tools_get_one_message() {
         for (tool, code) in OTHERS {
-            let found = said(code);
+            let found = messages(code);
             assert_eq!(found.len(), 1, "{tool}: {found:?}");
             assert!(found[0].starts_with("error: this is ") && found[0].contains(tool), "{tool}: {found:?}");
         }
     }
 
     #[test]
-    fn what_compiles_or_is_the_sites_is_left_alone() {
+    fn shadertoy_shaders_keep_their_own_messages() {
         let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 0.0, 1.0); }\n";
         for (_, code) in OTHERS {
             let commented = format!("/* {} */\n{main}", code.replace("*/", ""));
-            assert_eq!(said(&commented), [""; 0], "{code}");
+            assert_eq!(messages(&commented), [""; 0], "{code}");
         }
         let typo = "uniform vec2 u_resolution;\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(qq); }";
-        assert!(said(typo).iter().any(|d| d.contains("`qq`")), "{:?}", said(typo));
-        let plain = said("void main() { gl_FragColor = vec4(1.0); }");
+        assert!(messages(typo).iter().any(|d| d.contains("`qq`")), "{:?}", messages(typo));
+        let plain = messages("void main() { gl_FragColor = vec4(1.0); }");
         assert!(plain.len() == 1 && !plain[0].contains("this is "), "{plain:?}");
     }
 
     #[test]
-    fn ghostty_is_named_where_its_uniforms_are_missing() {
+    fn missing_ghostty_uniforms_name_ghostty() {
         let code = "void mainImage(out vec4 o, in vec2 p) { o = iCurrentCursor + iPreviousCursor; }";
-        let found = said(code);
+        let found = messages(code);
         assert!(found.len() == 1 && found[0].contains("Ghostty") && found[0].contains("iCurrentCursor"), "{found:?}");
         let given = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\n{code}");
-        assert!(!said(&given).iter().any(|d| d.contains("Ghostty")));
+        assert!(!messages(&given).iter().any(|d| d.contains("Ghostty")));
         let typo = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\nfloat f() {{ return qq; }}\n{code}");
-        assert!(said(&typo).iter().any(|d| d.contains("`qq`")));
+        assert!(messages(&typo).iter().any(|d| d.contains("`qq`")));
     }
 }

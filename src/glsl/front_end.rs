@@ -1,4 +1,4 @@
-//! The front end: a pass from its texts to a checked program, for whoever asks for one.
+//! The front end: reads and checks the texts of a pass, for all callers that need a checked program.
 
 use super::{
     ast::{Interner, Origins},
@@ -10,13 +10,13 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// A pass that was read and checked, with everything that is wrong with it.
+/// A pass that was read and checked, with its diagnostics.
 pub(super) struct FrontEnd {
     pub module: hir::Module,
     pub interface: Interface,
     pub origins: Origins,
     pub names: Interner,
-    /// As the author reads the text.
+    /// In the order of the text.
     pub diagnostics: Vec<Diagnostic>,
     pub faults: Vec<check::Fault>,
     /// See [`check::Checked::bulk`].
@@ -24,7 +24,7 @@ pub(super) struct FrontEnd {
 }
 
 impl FrontEnd {
-    /// Reads and checks a pass. The `preamble` is of its own Common; it saves time and changes nothing.
+    /// Reads and checks a pass. The `preamble` is that of its own Common; it saves time and does not change the result.
     pub fn run(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Self {
         let preamble = preamble.filter(|_| source.common.is_some());
         let parsed = parse::parse(source, preamble.map(Preamble::parsed));

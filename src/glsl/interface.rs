@@ -1,28 +1,25 @@
-//! Says what a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
+//! The external interface of a generated module: entry point, bind groups, the bytes of the uniform block.
 //!
-//! - Vertex stage: none, but for programs that draw meshes (below). The caller draws a full-screen triangle with its
-//!   own; `gl_FragCoord` is `@builtin(position)`, and because row 0 of every target is the bottom of the picture, its y
-//!   needs no flip.
+//! - There is no vertex stage, except in programs that draw meshes (below): the caller draws a full-screen triangle
+//!   with its own. `gl_FragCoord` is `@builtin(position)`; because row 0 of every target is the bottom of the picture,
+//!   its y needs no flip.
 //! - Fragment entry point [`ENTRY_POINT`], one `@location(0) vec4<f32>` result.
-//! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is
-//!   read.
-//! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with
-//!   the module ([`crate::Compiled::tables`]). Absent when there are none.
-//! - Group 0, binding 3: a uniform buffer with those constant tables that fit into [`UNIFORM_TABLE_BYTES`] together
+//! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when none of it is read.
+//! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with the
+//!   module ([`crate::Compiled::tables`]). Absent when there are none.
+//! - Group 0, binding 3: a uniform buffer with those constant tables that together fit into [`UNIFORM_TABLE_BYTES`]
 //!   ([`crate::Compiled::uniform_tables`]). Absent when there are none.
-//! - Group 0, binding 2: the author's own uniforms ([`crate::CustomUniform`]), an array of `vec4<u32>`: each
-//!   has a slot of 16 bytes whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is
-//!   read.
-//! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is
-//!   reached from the entry point ([`crate::Reflection::channels`] says which), so the bind group layout follows
-//!   the reflection.
+//! - Group 0, binding 2: the custom uniforms ([`crate::CustomUniform`]), an array of `vec4<u32>`: each has a slot of 16
+//!   bytes whose first words are its components, bit for bit (a bool as 0 or 1). Absent when none is read.
+//! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only if it is
+//!   reachable from the entry point (see [`crate::Reflection::channels`]), so the bind group layout follows the
+//!   reflection.
 //!
-//! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
-//! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in
-//! a storage buffer. Attributes lie at the locations of [`crate::Attribute`], a fragment's outputs at those of
-//! the targets, as `vec4<f32>` each. Clip space is GL's on the inside; the vertex stage turns y, as row 0 is the
-//! bottom, and moves depth from -w..w to 0..w. A triangle that is counter-clockwise in GL's terms is so clockwise in
-//! WebGPU's.
+//! Programs that draw meshes have one module per stage. Both read the groups above, and in group 0 at binding 4 the
+//! [`GeometryBlock`]; the vertex stage has its constant tables in its own uniform buffer at binding 5, and none in a
+//! storage buffer. Attributes are at the locations of [`crate::Attribute`], a fragment's outputs at those of the
+//! targets, each a `vec4<f32>`. The source uses GL's clip space; the vertex stage flips y, as row 0 is the bottom, and
+//! maps depth from -w..w to 0..w. A triangle that is counter-clockwise in GL is clockwise in WebGPU.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -34,9 +31,9 @@ pub const UNIFORM_GROUP: u32 = 0;
 pub const TABLE_BINDING: u32 = 1;
 /// Binding of the uniform buffer with constant tables in [`UNIFORM_GROUP`].
 pub const UNIFORM_TABLE_BINDING: u32 = 3;
-/// Most bytes there: what every device has (OpenGL ES 3.0, table 6.31, `MAX_UNIFORM_BLOCK_SIZE`).
+/// The maximum size of that buffer, which every device supports (OpenGL ES 3.0, table 6.31, `MAX_UNIFORM_BLOCK_SIZE`).
 pub const UNIFORM_TABLE_BYTES: usize = 16384;
-/// Binding of the author's own uniforms in [`UNIFORM_GROUP`].
+/// Binding of the custom uniforms in [`UNIFORM_GROUP`].
 pub const CUSTOM_UNIFORM_BINDING: u32 = 2;
 /// Bytes of a slot there.
 pub const CUSTOM_UNIFORM_BYTES: u64 = 16;
@@ -44,7 +41,7 @@ pub const CUSTOM_UNIFORM_BYTES: u64 = 16;
 pub const GEOMETRY_BINDING: u32 = 4;
 /// Binding of the uniform buffer with constant tables of a vertex stage in [`UNIFORM_GROUP`].
 pub const VERTEX_TABLE_BINDING: u32 = 5;
-/// Targets a fragment stage can write at once.
+/// The number of targets that a fragment stage can write at once.
 pub const MAX_TARGETS: usize = 4;
 /// Bind group of channel textures and samplers.
 pub const CHANNEL_GROUP: u32 = 1;
@@ -59,7 +56,7 @@ pub const fn sampler_binding(channel: usize) -> u32 {
     channel as u32 * 2 + 1
 }
 
-/// Holds what a mesh is drawn with, as bytes; matrices column by column.
+/// The matrices and the camera that a mesh is drawn with, as bytes; matrices column by column.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct GeometryBlock {
@@ -69,7 +66,8 @@ pub struct GeometryBlock {
     pub view: [[f32; 4]; 4],
     /// `mat4 iProjection` at 128: from the camera to GL's clip space.
     pub projection: [[f32; 4]; 4],
-    /// `mat3 iNormalMatrix` at 192, columns 16 bytes apart: from the mesh's normals to the world's, not normalised.
+    /// `mat3 iNormalMatrix` at 192, columns 16 bytes apart: from the mesh's normals to those of the world, not
+    /// normalised.
     pub normal: [[f32; 4]; 3],
     /// `vec3 iCameraPosition` at 240, in the world.
     pub camera: [f32; 4],
@@ -77,7 +75,7 @@ pub struct GeometryBlock {
 
 const _: () = assert!(size_of::<GeometryBlock>() == 256);
 
-/// The uniform block as bytes. Field order, offsets and names are what the lowered module declares.
+/// The uniform block as bytes, with the field order, offsets and names that the lowered module declares.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct UniformBlock {
@@ -85,19 +83,19 @@ pub struct UniformBlock {
     pub resolution: [f32; 3],
     /// `float iTime` at 12, seconds.
     pub time: f32,
-    /// `vec4 iMouse` at 16, canvas pixels.
+    /// `vec4 iMouse` at 16, in pixels of the picture.
     pub mouse: [f32; 4],
     /// `vec4 iDate` at 32: year, month 0-11, day, seconds since midnight.
     pub date: [f32; 4],
     /// `float iTimeDelta` at 48, seconds.
     pub time_delta: f32,
-    /// `float iFrameRate` at 52, frames a second.
+    /// `float iFrameRate` at 52, frames per second.
     pub frame_rate: f32,
     /// `float iSampleRate` at 56, Hz.
     pub sample_rate: f32,
     /// `int iFrame` at 60.
     pub frame: i32,
-    /// `float iChannelTime[4]` at 64, array stride 16: x holds the value.
+    /// `float iChannelTime[4]` at 64, array stride 16: x is the value.
     pub channel_time: [[f32; 4]; 4],
     /// `vec3 iChannelResolution[4]` at 128, array stride 16.
     pub channel_resolution: [[f32; 4]; 4],
@@ -105,13 +103,13 @@ pub struct UniformBlock {
     pub time_offset: f32,
     /// `int iSampleOffset` at 196 (sound), samples.
     pub sample_offset: i32,
-    /// The face that a cubemap pass draws, in the order of OpenGL ES 3.0, table 3.21, at 200; the second is a pad, so
-    /// that what follows lies at a multiple of 16.
+    /// The face that a cubemap pass draws, in the order of OpenGL ES 3.0, table 3.21, at 200; the second is padding, so
+    /// that the next field is at a multiple of 16.
     pub cube_face: [i32; 2],
     /// `int loaded` of `iCh0` to `iCh3` at 208: 1 where the channel has a texture.
     pub channel_loaded: [i32; 4],
-    /// The column and the row of the picture's pixel that the target's first texel is, at 224, in a pass that is drawn in
-    /// tiles ([`crate::PassSource::tiled`]); the others are a pad.
+    /// The column and row in the picture of the target's first texel, at 224, in a pass that is drawn in tiles
+    /// ([`crate::PassSource::tiled`]); the other two are padding.
     pub tile_origin: [i32; 4],
 }
 

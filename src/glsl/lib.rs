@@ -1,12 +1,12 @@
-//! A compiler from GLSL ES 3.00 to [`naga`] modules, for wgpu and whatever else reads them, with diagnostics that a
-//! person can act on and the services that an editor needs.
+//! A compiler from GLSL ES 3.00 to [`naga`] modules, for wgpu and other users of naga, with actionable diagnostics and
+//! the services that an editor needs.
 //!
-//! It takes Shadertoy's programs as they are (`mainImage`, `mainCubemap`, `mainSound`, Common, the `i...` uniforms), and
-//! plain vertex and fragment shaders of WebGL 2 with uniforms, samplers, inputs and outputs of their own. It judges as
-//! WebGL's compiler (ANGLE) does, and gives the same meaning to what GLSL leaves undefined: variables begin as zeros,
-//! indices are clamped.
+//! It compiles Shadertoy programs as they are (`mainImage`, `mainCubemap`, `mainSound`, Common, the `i...` uniforms),
+//! and plain vertex and fragment shaders of WebGL 2 with their own uniforms, samplers, inputs and outputs. It accepts
+//! what WebGL's compiler (ANGLE) accepts, and gives the same meaning to what GLSL leaves undefined: variables are
+//! initialised to zero, indices are clamped.
 //!
-//! # An image shader of Shadertoy's
+//! # A Shadertoy image shader
 //!
 //! ```
 //! use eddy_glsl::{PassSource, compile, naga};
@@ -25,7 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`interface`] says which bind groups the module of a Shadertoy program has, and what lies in them.
+//! See [`interface`] for the bind groups of the module of a Shadertoy program, and their contents.
 //!
 //! # A plain shader
 //!
@@ -51,9 +51,9 @@
 //! # Ok::<(), eddy_glsl::Diagnostics>(())
 //! ```
 //!
-//! [`plain`] says where uniforms, samplers, inputs and outputs lie.
+//! See [`plain`] for the bindings and locations of uniforms, samplers, inputs and outputs.
 //!
-//! # What is wrong with a text
+//! # Diagnostics
 //!
 //! ```
 //! use eddy_glsl::{PassSource, SourceMap, diagnose, render_all};
@@ -67,7 +67,7 @@
 //! assert!(render_all(&found, &sources).contains("image.glsl:2:18"));
 //! ```
 //!
-//! # What could stand at the caret
+//! # Completions
 //!
 //! ```
 //! use eddy_glsl::{PassSource, SourceId, services::Analysis};
@@ -80,11 +80,11 @@
 //!
 //! # Features
 //!
-//! `wgsl-out`, `spv-out`, `msl-out`, `hlsl-out` and `glsl-out` turn on naga's writers of these names.
+//! `wgsl-out`, `spv-out`, `msl-out`, `hlsl-out` and `glsl-out` enable naga's writers of these names.
 //!
-//! The crate needs no device, no file and no clock.
+//! The crate uses no device, no files and no clock.
 
-// What has a length here is never empty: a table of types has those of the language, a swizzle a component.
+// Types with a length are never empty here: a type table contains the types of the language, a swizzle has a component.
 #![allow(clippy::len_without_is_empty)]
 
 pub mod cancel;
@@ -116,8 +116,8 @@ pub mod reflection;
 pub mod services;
 pub mod stages;
 
-// Eddy's debugger walks through programs in their intermediate representation, and shows their statements and types:
-// these modules are public for it alone, and change with it.
+// Eddy's debugger steps through programs in their intermediate representation, and shows their statements and types:
+// these modules are public only for it, and change with it.
 #[doc(hidden)]
 pub mod ast;
 #[doc(hidden)]

@@ -1,7 +1,7 @@
-//! "Did you mean": the known word that is nearest to one that is not known.
+//! "Did you mean": the known identifier that is nearest to an unknown one.
 
-/// Letters and cells of distances that one compile may look at to find nearest names, all its unknown names together:
-/// some tens of milliseconds. Names that come after it are reported without a suggestion.
+/// The number of characters and distance cells that one compile may process to find nearest names, for all its unknown
+/// names together: some tens of milliseconds. Names after that are reported without a suggestion.
 pub(super) const BUDGET: u64 = 8_000_000;
 
 /// The work that is left for suggestions.
@@ -17,35 +17,36 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Takes some work out. Returns false where that much is not left, and nothing is from then on.
+    /// Takes work from the budget. Returns false if less than that is left; the budget is then empty.
     fn take(&mut self, work: usize) -> bool {
         let left = self.left.checked_sub(work as u64);
         self.left = left.unwrap_or(0);
         left.is_some()
     }
 
-    /// Returns how much was used.
+    /// Returns the amount of work used.
     #[cfg(test)]
     pub fn used(&self) -> u64 {
         BUDGET - self.left
     }
 }
 
-/// Returns the candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped (the
-/// optimal string alignment distance), with case that counts unless nothing else differs. `None` where nothing is near
-/// enough to be worth saying. Names of files and settings are measured by `project::nearest`, for which case and `-`,
-/// `_` and spaces count for nothing.
+/// Returns the candidate that `word` is most likely a misspelling of: few characters changed, added, left out or
+/// swapped (the optimal string alignment distance). Case counts, unless nothing else differs. `None` if no candidate is
+/// near enough to suggest. For names of files and settings see `project::nearest`, which ignores case, `-`, `_` and
+/// spaces.
 pub(super) fn nearest_identifier<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     nearest_within(&mut Budget::default(), word, candidates)
 }
 
-/// As [`nearest_identifier`], with what is left of a budget. Candidates after its end are not looked at.
+/// As [`nearest_identifier`], with the rest of a budget. Candidates after its end are ignored.
 pub(super) fn nearest_within<'c>(
     budget: &mut Budget,
     word: &str,
     candidates: impl IntoIterator<Item = &'c str>,
 ) -> Option<&'c str> {
-    // One slip in a short word, two in a long one. Two letters may lack a third; any other two are another name.
+    // One error is allowed in a short word, two in a long one. A word of two characters may lack a third; any other two
+    // are a different name.
     let letters: Vec<char> = word.chars().collect();
     let is_pair = letters.len() == 2;
     let allowed = match letters.len() {
@@ -61,7 +62,7 @@ pub(super) fn nearest_within<'c>(
         if !budget.take(1) {
             break;
         }
-        // Characters have up to four bytes; `distance` counts them, which this only bounds.
+        // Characters take up to four bytes in UTF-8; `distance` counts characters, and this only bounds their number.
         if candidate.len() > 4 * (letters.len() + allowed) || 4 * candidate.len() + 4 * allowed < letters.len() {
             continue;
         }
@@ -74,11 +75,11 @@ pub(super) fn nearest_within<'c>(
         if candidate == word {
             continue;
         }
-        // Letter case counts for nothing when it is all that differs.
+        // Case is ignored if nothing else differs.
         let found = if candidate.eq_ignore_ascii_case(word) {
             Some(0)
         } else if (letter_mask(candidate) ^ mask).count_ones() as usize > 2 * allowed {
-            // A slip takes at most one kind of letter out and puts one in.
+            // An edit removes at most one kind of character and adds at most one.
             None
         } else {
             other.clear();
@@ -97,14 +98,14 @@ pub(super) fn nearest_within<'c>(
     best.map(|(_, candidate)| candidate)
 }
 
-/// Returns which kinds of letters a word has, each a bit.
+/// Returns the set of characters in a word as a bit mask.
 fn letter_mask(word: &str) -> u64 {
     word.bytes().fold(0, |mask, byte| if byte.is_ascii() { mask | 1 << (byte & 63) } else { mask })
 }
 
-/// Returns the optimal string alignment distance (Boytsov 2011, "Indexing methods for approximate dictionary searching",
-/// section 2.1) of two words, or `None` where it is larger than `most`. Only the cells within `most` of the diagonal are
-/// computed, as Ukkonen (1985, "Algorithms for approximate string matching") does.
+/// Returns the optimal string alignment distance (Boytsov 2011, "Indexing methods for approximate dictionary
+/// searching", section 2.1) of two words, or `None` where it is larger than `most`. Only the cells within `most` of the
+/// diagonal are computed, as Ukkonen (1985, "Algorithms for approximate string matching") does.
 fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
     /// Cells of a row: `most` is at most 3.
     const BAND: usize = 7;
@@ -113,7 +114,7 @@ fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
         return None;
     }
     let far = most + 1;
-    // Cell `k` of row `i` is the distance of the first `i` of `a` and the first `i + k - most` of `b`.
+    // Cell `k` of row `i` is the distance between the first `i` characters of `a` and the first `i + k - most` of `b`.
     let (mut before, mut last, mut row) = ([far; BAND], [far; BAND], [far; BAND]);
     for i in 0..=a.len() {
         for k in 0..=2 * most {
@@ -123,7 +124,7 @@ fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
                 row[k] = (i + j).min(far);
                 continue;
             }
-            // In the row before it, the same place of `b` is one cell further on.
+            // In the previous row the same position in `b` is one cell further on.
             let above = if k < 2 * most { last[k + 1] } else { far };
             let left = if k > 0 { row[k - 1] } else { far };
             let mut cell = (last[k] + usize::from(a[i - 1] != b[j - 1])).min(above + 1).min(left + 1);
@@ -145,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_slips_and_leaves_strangers() {
+    fn only_likely_misspellings_are_suggested() {
         let words = ["normalize", "smoothstep", "mix", "return"];
         assert_eq!(nearest_identifier("normalise", words), Some("normalize"));
         assert_eq!(nearest_identifier("smoothStep", words), Some("smoothstep"));
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bounded_distance_equals_the_full_one() {
+    fn bounded_distance_equals_the_full_distance() {
         let mut state = 1u32;
         let mut random = |below: u32| {
             state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -180,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn the_work_of_a_budget_is_bounded_whatever_the_names_are() {
+    fn work_never_exceeds_the_budget() {
         let names: Vec<String> = (0..5_000).map(|i| format!("a_name_of_a_function_{i}")).collect();
         let mut budget = Budget::default();
         assert_eq!(

@@ -1,4 +1,4 @@
-//! A pass's texts in the order they are read: what stands before an include, the included text, what stands behind.
+//! A pass's texts in the order they are read: the text before an include, the included text, the text after it.
 
 use super::{
     Include, Text,
@@ -7,18 +7,18 @@ use super::{
 use eddy_diag::Diagnostic;
 use std::ops::Range;
 
-/// A stretch of a text.
+/// A range of a text.
 #[derive(Clone, Debug)]
 pub(super) struct Piece<'a> {
     pub text: Text<'a>,
     pub range: Range<usize>,
-    /// A text of its own begins here, and no include: the site puts a line's end before it.
+    /// The piece is the start of a text of the pass, not of an include: Shadertoy puts a line break before it.
     pub begins_text: bool,
     /// The reason why the `#include` line before the piece has no text.
     pub missing: Option<&'a Diagnostic>,
 }
 
-/// The pieces of texts that follow each other.
+/// Returns the pieces of texts that follow each other.
 pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<'a>> {
     let mut lines: Vec<&Include<'a>> = includes.iter().collect();
     lines.sort_by_key(|i| (i.line.source, i.line.start));
@@ -32,13 +32,13 @@ pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<
 }
 
 fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) {
-    let begin = lines.partition_point(|i| i.line.source < text.id);
+    let start = lines.partition_point(|i| i.line.source < text.id);
     let (mut done, mut missing) = (0, None);
-    for include in lines[begin..].iter().take_while(|i| i.line.source == text.id) {
+    for include in lines[start..].iter().take_while(|i| i.line.source == text.id) {
         pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false, missing });
         missing = include.text.err();
         if let Ok(included) = include.text {
-            // Files include files as far as their number goes.
+            // Includes may be nested as deep as there are files.
             stacker::maybe_grow(STACK_LEFT, STACK_MORE, || add(included, lines, pieces));
         }
         done = include.line.range().end;

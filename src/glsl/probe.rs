@@ -1,4 +1,4 @@
-//! A probe: the expression at a place of the text, and the meaning of its picture.
+//! Probes: the expression at a position in the text, and how to read the picture of its value.
 
 use super::{
     ast::Origins,
@@ -11,14 +11,14 @@ use super::{
 };
 use eddy_diag::{SourceId, Span};
 
-/// A value that Image draws instead of its picture, and a buffer beside its own, into its second target.
+/// A value that Image draws instead of its picture; a buffer draws it into a second target, next to its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Probe {
     pub source: SourceId,
-    /// A byte of the text: the innermost expression there is meant; at the name of a variable that is declared, its
-    /// first value.
+    /// A byte offset in the text: the innermost expression there is probed; at the name in a declaration, the initial
+    /// value of the variable.
     pub at: u32,
-    /// The value when it is computed for the time after so many, counted for each pixel.
+    /// The number of times that the value is computed, per pixel, before the one that is drawn.
     pub visit: u32,
 }
 
@@ -28,13 +28,13 @@ pub struct ProbedExpression {
     pub span: Span,
     /// As GLSL writes it.
     pub type_text: String,
-    /// Numbers of the value that are drawn, 1 to 4.
+    /// The number of components of the value that are drawn, 1 to 4.
     pub components: u8,
-    /// They are ints, uints or bools.
+    /// The components are ints, uints or bools.
     pub is_whole: bool,
 }
 
-/// Says what a probe means in a text without errors; `None` where there is no value.
+/// Returns what a probe shows in a text without errors; `None` if there is no value.
 pub fn probed(source: &PassSource<'_>, preamble: Option<&Preamble>, probe: &Probe) -> Option<ProbedExpression> {
     let pass = FrontEnd::run(source, &Link::default(), preamble);
     let (expr, span) = find(&pass.module, &pass.origins, probe)?;
@@ -51,21 +51,21 @@ pub fn probed(source: &PassSource<'_>, preamble: Option<&Preamble>, probe: &Prob
     })
 }
 
-/// Returns for each of these parts of the texts a byte at which a probe means the expression there, and how many numbers
-/// its value has; `None` where no probe can tell it from another.
+/// Returns for each of these spans a byte offset at which a probe shows the expression there, and the number of
+/// components of its value; `None` if no probe can distinguish it from another expression.
 pub fn probe_places(source: &PassSource<'_>, preamble: Option<&Preamble>, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
     let pass = FrontEnd::run(source, &Link::default(), preamble);
     places(&pass.module, &pass.origins, spans)
 }
 
-/// The expression that a probe means, and its part of the text.
+/// Returns the expression that a probe shows, and its span.
 pub(super) fn find(module: &Module, origins: &Origins, probe: &Probe) -> Option<(ExprId, Span)> {
     Places::new(module, origins).find(module, origins, probe)
 }
 
-/// A byte for each of these parts of the texts at which a probe means the one expression that stands there, and how many
-/// numbers its value has; `None` where there is no such expression or several, as in what a macro brings in. What `++`
-/// and `--` leave in a variable is not their value.
+/// Returns for each of these spans a byte offset at which a probe shows the only expression there, and the number of
+/// components of its value; `None` if there is no such expression or several, as in a macro expansion. The value of
+/// `++` and `--` is not what they leave in the variable.
 fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
     let places = Places::new(module, origins);
     let place = |span: &Span| {
@@ -84,7 +84,7 @@ fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<Option<(u32
     spans.iter().map(place).collect()
 }
 
-/// The places of the expressions of a module that have a value.
+/// The spans of the expressions of a module that have a value.
 struct Places {
     exprs: Vec<(ExprId, Span)>,
 }
@@ -93,7 +93,7 @@ impl Places {
     fn new(module: &Module, origins: &Origins) -> Self {
         let mut places = vec![false; module.exprs.len()];
         for expr in &module.exprs {
-            // What is assigned to is a place; its value is that of the assignment.
+            // The target of an assignment is a place; its value is that of the assignment.
             if let ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } =
                 expr.kind
             {

@@ -1,7 +1,7 @@
-//! Says what a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
+//! The resources that a pass reads from its entry point. `graph` plans with it: what is not read need not be produced.
 
 bitflags::bitflags! {
-    /// A set of the site's uniforms, in the order of the uniform block.
+    /// A set of Shadertoy's uniforms, in the order of the uniform block.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct UniformSet: u16 {
         const RESOLUTION = 1 << 0;
@@ -20,7 +20,7 @@ bitflags::bitflags! {
     }
 }
 
-/// The author's own uniforms as a set of their slots.
+/// The custom uniforms as a set of their slots.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct CustomUniformSet(std::collections::BTreeSet<u16>);
 
@@ -37,22 +37,22 @@ impl CustomUniformSet {
         self.0.is_empty()
     }
 
-    /// Slots, rising.
+    /// Returns the slots in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = u16> {
         self.0.iter().copied()
     }
 }
 
-/// The ways in which a pass reads one channel.
+/// The ways in which a pass reads a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ChannelUse {
-    /// The texture is declared in the module: it is fetched, sampled or its size is asked for.
+    /// The texture is declared in the module: it is fetched or sampled, or its size is queried.
     pub texture: bool,
     /// The sampler is declared in the module.
     pub sampler: bool,
     /// Some read could reach a mip level other than 0: an implicit-derivative, biased, gradient or explicit-level read,
-    /// or a fetch or size query of a level not known to be 0. False lets the planner leave out the mips though the
-    /// sampler asks.
+    /// or a fetch or size query of a level not known to be 0. If false, the planner may leave out the mips even if the
+    /// sampler requests them.
     pub mips: bool,
 }
 
@@ -62,22 +62,23 @@ impl ChannelUse {
     }
 }
 
-/// Holds what a pass reads, as reached from its entry point after preprocessing. Conservative: a read that may happen
-/// is listed.
+/// The resources that a pass reads, reachable from its entry point after preprocessing. Conservative: a read that may
+/// happen is listed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reflection {
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
     pub channels: [ChannelUse; 4],
-    /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
+    /// `discard` is reachable: texels may keep their old value, so the planner must not assume that the target is
+    /// overwritten.
     pub discards: bool,
-    /// Something of the [`super::interface::GeometryBlock`] is read.
+    /// Some member of the [`super::interface::GeometryBlock`] is read.
     pub geometry: bool,
-    /// The attributes of a vertex that a vertex stage reads.
+    /// The vertex attributes that a vertex stage reads.
     pub attributes: Vec<super::Attribute>,
-    /// The values that a vertex stage hands on.
+    /// The outputs of a vertex stage.
     pub varyings: Vec<super::Varying>,
-    /// The targets that a fragment has an output for.
+    /// The targets for which a fragment stage has an output.
     pub outputs: [bool; super::interface::MAX_TARGETS],
     /// The resources, inputs and outputs of a plain shader ([`super::plain`]); empty for other passes.
     pub shader: super::ShaderInterface,

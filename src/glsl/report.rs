@@ -1,20 +1,20 @@
-//! Collects the diagnostics of one compile: a limit to how many, and one message a place.
+//! Collects the diagnostics of one compile: limits their number, and keeps one message per place.
 
 use eddy_diag::{Diagnostic, Span};
 
-/// Errors shown for one text; the rest is most likely a consequence.
+/// The maximum number of errors per text; further ones are most likely consequences.
 pub(super) const MAX_ERRORS: usize = 100;
 
 #[derive(Clone, Default)]
 pub(super) struct Report {
     pub diagnostics: Vec<Diagnostic>,
     errors: usize,
-    /// Places in macro definitions that were reported: a mistake there shows once, not at every use.
+    /// Reported places in macro definitions: a mistake there is shown once, not at every use.
     in_macros: Vec<Span>,
 }
 
 impl Report {
-    /// Takes a diagnostic, unless there are too many already.
+    /// Adds a diagnostic, unless there are already too many.
     pub fn add(&mut self, diagnostic: Diagnostic) {
         if diagnostic.is_error() {
             self.errors += 1;
@@ -27,9 +27,9 @@ impl Report {
         self.diagnostics.push(diagnostic);
     }
 
-    /// As [`Report::add`]; where the mistake stands in a macro's definition, only its first use counts.
+    /// As [`Report::add`]; if the mistake is in a macro's definition, only its first use is reported.
     pub fn add_in_macro(&mut self, definition: Option<Span>, diagnostic: Diagnostic) {
-        // What is left out need not be told apart, which takes a look at each place so far.
+        // Once the report is full, duplicates need not be detected, which would search all earlier places.
         if let Some(span) = definition.filter(|_| !self.is_full()) {
             if self.in_macros.contains(&span) {
                 return;
@@ -43,7 +43,7 @@ impl Report {
         self.errors > 0
     }
 
-    /// More errors than are kept: nobody need look for further ones.
+    /// Returns whether there are more errors than are kept, so that no further ones need be searched for.
     pub fn is_full(&self) -> bool {
         self.errors > MAX_ERRORS
     }

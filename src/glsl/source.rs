@@ -1,9 +1,9 @@
-//! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
+//! The input of the front end for a pass: its texts, its channels, the values of its uniforms.
 
 use super::{cancel::Cancel, driver::Driver, plain::PlainOptions, probe::Probe};
 use eddy_diag::{Diagnostic, SourceId, Span};
 
-/// The entry point that a pass defines, and with it the uniforms that it may name.
+/// The entry point that a pass defines, which also determines the uniforms it may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PassKind {
     /// `void mainImage(out vec4, in vec2)`; alpha is forced to 1; may call `st_assert`.
@@ -18,104 +18,107 @@ pub enum PassKind {
     Vertex,
     /// `void main()` that sets `out` variables, once for each fragment of a mesh.
     Fragment,
-    /// A vertex shader of GLSL ES 3.00 with uniforms and attributes of its own; see [`super::plain`].
+    /// A vertex shader of GLSL ES 3.00 with its own uniforms and attributes; see [`super::plain`].
     PlainVertex,
-    /// A fragment shader of GLSL ES 3.00 with uniforms of its own; see [`super::plain`].
+    /// A fragment shader of GLSL ES 3.00 with its own uniforms; see [`super::plain`].
     PlainFragment,
 }
 
 impl PassKind {
-    /// Its entry point is `void main()`, of a vertex or a fragment stage.
+    /// Returns whether the entry point is `void main()`, of a vertex or a fragment stage.
     pub fn is_stage(self) -> bool {
         self.is_vertex() || matches!(self, PassKind::Fragment | PassKind::PlainFragment)
     }
 
-    /// It is called once for each vertex.
+    /// Returns whether the entry point is called once per vertex.
     pub fn is_vertex(self) -> bool {
         matches!(self, PassKind::Vertex | PassKind::PlainVertex)
     }
 
-    /// It has the uniforms, samplers and attributes that it declares, and none of Shadertoy's.
+    /// Returns whether the pass has the uniforms, samplers and attributes that it declares, and none of Shadertoy's.
     pub fn is_plain(self) -> bool {
         matches!(self, PassKind::PlainVertex | PassKind::PlainFragment)
     }
 
-    /// Its entry point is called once for each pixel.
+    /// Returns whether the entry point is called once per pixel.
     pub fn draws_pixels(self) -> bool {
         matches!(self, PassKind::Image | PassKind::Buffer | PassKind::Cubemap)
     }
 }
 
-/// The program that a text is written for: it says which version of GLSL the text is in, and what is there before its
-/// first line.
+/// The program that a text is written for, which determines the version of GLSL and the declarations before its first
+/// line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Dialect {
     /// GLSL ES 3.00, as WebGL 2 has it.
     #[default]
     Shadertoy,
-    /// Custom shaders of the terminal Ghostty: GLSL 4.30 by glslang's rules for Vulkan, with one channel. What the terminal
-    /// adds to the uniforms comes as [`PassSource::custom_uniforms`].
+    /// Custom shaders of the terminal Ghostty: GLSL 4.30 by glslang's rules for Vulkan, with one channel. The uniforms
+    /// that the terminal adds are in [`PassSource::custom_uniforms`].
     Ghostty,
     /// Interactive Shader Format: desktop GLSL from version 1.20 on.
     Isf,
 }
 
 impl Dialect {
-    /// `int` becomes `float` where one is wanted (GLSL 1.20 and 4.30, section 4.1.10); so do `uint` to `float` and `int`
-    /// to `uint`.
+    /// Returns whether `int` is converted to `float` implicitly (GLSL 1.20 and 4.30, section 4.1.10), as well as `uint`
+    /// to `float` and `int` to `uint`.
     pub(crate) fn converts(self) -> bool {
         self != Dialect::Shadertoy
     }
 
-    /// Globals may begin with any value (GLSL 1.20 and 4.30, section 4.3); in GLSL ES it is a constant expression.
+    /// Returns whether globals may be initialised with any expression (GLSL 1.20 and 4.30, section 4.3); GLSL ES
+    /// requires a constant expression.
     pub(crate) fn has_dynamic_globals(self) -> bool {
         self != Dialect::Shadertoy
     }
 
-    /// Texts of a vertex and of a fragment shader follow each other, in which both declare what goes from the one to the
-    /// other.
+    /// Returns whether the texts of a vertex and a fragment shader follow each other, both of which declare the
+    /// variables that pass from one to the other.
     pub(crate) fn joins_stages(self) -> bool {
         self == Dialect::Isf
     }
 
-    /// Lists in braces initialise variables (GLSL 4.30, section 4.1.11).
+    /// Returns whether lists in braces initialise variables (GLSL 4.30, section 4.1.11).
     pub(crate) fn has_lists(self) -> bool {
         self == Dialect::Ghostty
     }
 
-    /// The number of `iChannelN`.
+    /// Returns the number of `iChannelN`.
     pub(crate) fn channels(self) -> usize {
         if self == Dialect::Ghostty { 1 } else { 4 }
     }
 
-    /// A text may declare uniforms outside of blocks. For Vulkan it may not (`GL_KHR_vulkan_glsl`).
+    /// Returns whether a text may declare uniforms outside blocks. For Vulkan it may not (`GL_KHR_vulkan_glsl`).
     pub(crate) fn has_loose_uniforms(self) -> bool {
         self != Dialect::Ghostty
     }
 
-    /// A text may define a built-in function with its own parameters again, which replaces it (GLSL 1.20 and 4.30, section 8);
-    /// in GLSL ES 3.00 it may not (section 6.1).
+    /// Returns whether a text may redefine a built-in function with the same parameters, which replaces it (GLSL 1.20
+    /// and 4.30, section 8); in GLSL ES 3.00 it may not (section 6.1).
     pub(crate) fn replaces_builtins(self) -> bool {
         self != Dialect::Shadertoy
     }
 
-    /// A text may declare its own variables by the names of Shadertoy's uniforms, which its program does not have.
+    /// Returns whether a text may declare its own variables with the names of Shadertoy's uniforms, which its program
+    /// does not have.
     pub(crate) fn frees_uniforms(self) -> bool {
         self == Dialect::Isf
     }
 
-    /// `#version` and `#extension` may come after what the host puts before a text, and mean nothing there. GLSL ES 1.00
-    /// wants extensions first (section 3.4), and browsers warn where they are not.
+    /// Returns whether `#version` and `#extension` may come after the text that the host prepends, and are ignored
+    /// there. GLSL ES 1.00 requires extensions first (section 3.4), and browsers warn otherwise.
     pub(crate) fn ignores_late_directives(self) -> bool {
         self == Dialect::Isf
     }
 
-    /// `#extension` may come after declarations: GLSL 4.30 (section 3.3) wants it first only where the extension says so.
+    /// Returns whether `#extension` may come after declarations: GLSL 4.30 (section 3.3) requires it first only where
+    /// the extension says so.
     pub(crate) fn has_late_extensions(self) -> bool {
         self == Dialect::Ghostty
     }
 
-    /// Returns what stands before the text, for messages.
+    /// Returns the name of the declarations before the text, for messages.
     pub(crate) fn header(self) -> &'static str {
         match self {
             Dialect::Shadertoy => "Shadertoy's header",
@@ -133,13 +136,13 @@ impl Dialect {
         }
     }
 
-    /// Shadertoy's names beside its uniforms are there: `iCh0`, `iGlobalTime`, `st_assert`.
+    /// Returns whether Shadertoy's names other than its uniforms exist: `iCh0`, `iGlobalTime`, `st_assert`.
     pub(crate) fn has_extras(self) -> bool {
         self != Dialect::Ghostty
     }
 }
 
-/// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.
+/// The type of `iChannelN`. A channel without an input is a `sampler2D`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ChannelKind {
     #[default]
@@ -148,34 +151,34 @@ pub enum ChannelKind {
     SamplerCube,
 }
 
-/// One text, and the id by which diagnostics shall point into it.
+/// A text, and the id that its diagnostics refer to it by.
 #[derive(Clone, Copy, Debug)]
 pub struct Text<'a> {
     pub id: SourceId,
     pub text: &'a str,
 }
 
-/// A line of a text in whose place another text stands.
+/// A line of a text that is replaced by another text.
 #[derive(Clone, Copy, Debug)]
 pub struct Include<'a> {
     pub line: Span,
-    /// The text, or the reason why there is none. The reason is reported only where the line is compiled, so a missing file
-    /// in a group of an `#if` that is left out is no error.
+    /// The text, or the reason why there is none. The reason is reported only if the line is compiled, so a missing
+    /// file in an excluded group of an `#if` is not an error.
     pub text: Result<Text<'a>, &'a Diagnostic>,
 }
 
-/// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the
-/// texts of the pass, as the site's own uniforms are.
+/// A uniform that the author declares in an `#iUniform` line, outside the language. It is in scope everywhere in the
+/// texts of the pass, as Shadertoy's own uniforms are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CustomUniform<'a> {
     pub name: &'a str,
     pub kind: CustomUniformKind,
-    /// Says where its value lies in the block at [`super::interface::CUSTOM_UNIFORM_BINDING`], in slots of
+    /// The position of its value in the block at [`super::interface::CUSTOM_UNIFORM_BINDING`], in slots of
     /// [`super::interface::CUSTOM_UNIFORM_BYTES`].
     pub slot: u16,
 }
 
-/// Says what a [`CustomUniform`] is in GLSL.
+/// The GLSL type of a [`CustomUniform`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CustomUniformKind {
     Bool,
@@ -193,47 +196,48 @@ pub struct UniformValue {
     pub value: UntypedValue,
 }
 
-/// A value whose type only the declaration knows: lists are vectors, columns of matrices, matrices and arrays.
+/// A value whose type is determined by the declaration: lists are vectors, columns of matrices, matrices and arrays.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UntypedValue {
     Bool(bool),
-    /// Holds every `int`, `uint` and `float`.
+    /// Any `int`, `uint` or `float`.
     Number(f64),
     List(Vec<UntypedValue>),
 }
 
-/// Everything the front end needs to know of a pass.
+/// The complete input of the front end for a pass.
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
     pub kind: PassKind,
     pub dialect: Dialect,
     pub common: Option<Text<'a>>,
     pub code: Text<'a>,
-    /// The includes of all texts of the pass, those in includes among them; no text includes itself.
+    /// The includes of all texts of the pass, including nested ones; no text includes itself.
     pub includes: &'a [Include<'a>],
     pub channels: [ChannelKind; 4],
     /// The custom uniforms of all texts of the pass, each name once.
     pub custom_uniforms: &'a [CustomUniform<'a>],
-    /// The values of uniforms that a text of the pass may declare, each name once; those it does not declare mean
-    /// nothing.
+    /// The values of uniforms that a text of the pass may declare, each name once; values of undeclared uniforms are
+    /// ignored.
     pub values: &'a [UniformValue],
-    /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
-    /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
+    /// Channels whose texture this device cannot filter although the project requests it: every filtered read of them
+    /// is written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification defines the weights).
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
-    /// The pass is drawn in tiles, each into a target of its own: a pixel's position is that in the whole picture, by the
-    /// uniform block's `tile_origin`. Only in Image and buffers.
+    /// The pass is drawn in tiles, each into its own target: a pixel's position is that in the whole picture, offset by
+    /// the uniform block's `tile_origin`. Only in Image and buffers.
     pub tiled: bool,
-    /// Says how a plain shader meets WebGPU; the other kinds of pass do not read it.
+    /// The mapping of a plain shader to WebGPU; ignored for the other kinds of pass.
     pub plain: PlainOptions,
     /// A value that is drawn instead of the picture; only in passes that draw one.
     pub probe: Option<Probe>,
-    /// Ends the front end before it is done; see [`super::cancel`].
+    /// Cancels the front end; see [`super::cancel`].
     pub cancel: Cancel<'a>,
 }
 
 impl<'a> PassSource<'a> {
-    /// Returns a pass that is one text alone, with four `sampler2D` channels, for a driver that wants nothing special.
+    /// Returns a pass that consists of one text, with four `sampler2D` channels, for a driver without special
+    /// requirements.
     pub fn new(kind: PassKind, code: Text<'a>) -> Self {
         PassSource {
             kind,
@@ -253,7 +257,7 @@ impl<'a> PassSource<'a> {
         }
     }
 
-    /// Returns an Image pass that is this text alone. Diagnostics point into `SourceId(0)`.
+    /// Returns an Image pass that consists of this text. Diagnostics refer to `SourceId(0)`.
     pub fn image(text: &'a str) -> Self {
         Self::alone(PassKind::Image, text)
     }

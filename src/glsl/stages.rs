@@ -1,7 +1,7 @@
-//! The two stages of a program that draws meshes, and what passes between them.
+//! The two stages of a program that draws meshes, and their interface.
 //!
-//! Owns the names of attributes, where each `in` and `out` of a stage lies, and what must agree between the stages
-//! (section 4.3.9 of the GLSL ES 3.00 specification, which calls the rest a link error).
+//! Contains the names of attributes, the locations of the `in` and `out` variables of a stage, and the rules for
+//! matching stages (section 4.3.9 of the GLSL ES 3.00 specification, where violations are link errors).
 
 use super::{
     ChannelKind, PassKind, PassSource,
@@ -14,13 +14,13 @@ use super::{
 };
 use eddy_diag::Diagnostic;
 
-/// Slots of four components between the stages that every device has.
+/// The number of four-component slots between the stages that every device supports.
 const MAX_SLOTS: u32 = 15;
 
-/// Attributes of a vertex that every device has (`gl_MaxVertexAttribs`).
+/// The number of vertex attributes that every device supports (`gl_MaxVertexAttribs`).
 const MAX_ATTRIBUTES: u32 = 16;
 
-/// Names what a vertex has. A stage declares those it reads, by these names and types: `in vec3 aPosition;`.
+/// The attributes of a vertex. A stage declares those it reads, with these names and types: `in vec3 aPosition;`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Attribute {
     Position,
@@ -31,11 +31,11 @@ pub enum Attribute {
 }
 
 impl Attribute {
-    /// In the order of their locations.
+    /// All attributes, in the order of their locations.
     pub const ALL: [Attribute; 5] =
         [Attribute::Position, Attribute::Normal, Attribute::Tangent, Attribute::Uv, Attribute::Color];
 
-    /// As GLSL spells it.
+    /// Returns the name in GLSL.
     pub fn name(self) -> &'static str {
         match self {
             Attribute::Position => "aPosition",
@@ -46,7 +46,8 @@ impl Attribute {
         }
     }
 
-    /// Floats in it. The tangent's fourth is the sign that the bitangent `cross(normal, tangent)` is multiplied by.
+    /// Returns the number of floats. The fourth component of the tangent is the sign by which the bitangent
+    /// `cross(normal, tangent)` is multiplied.
     pub fn components(self) -> u8 {
         match self {
             Attribute::Position | Attribute::Normal => 3,
@@ -60,39 +61,39 @@ impl Attribute {
     }
 }
 
-/// Something a vertex stage hands on: an `out` there, an `in` of the same name and type in the fragment stage.
+/// An output of a vertex stage: an `out` there, an `in` of the same name and type in the fragment stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Varying {
     pub name: String,
-    /// As GLSL spells it.
+    /// The type in GLSL.
     pub ty: String,
     pub flat: bool,
-    /// The location of the first of its slots.
+    /// The location of its first slot.
     pub location: u32,
 }
 
-/// Holds what a stage must know of the rest of the program.
+/// The information that a stage needs about the rest of the program.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Link<'a> {
-    /// Says what the vertex stage gives; `None`: not known, as while that stage has errors.
+    /// The outputs of the vertex stage; `None` if unknown, for example while that stage has errors.
     pub varyings: Option<&'a [Varying]>,
-    /// Targets the fragment stage draws into; `None`: not known.
+    /// The number of targets that the fragment stage draws into; `None` if unknown.
     pub targets: Option<usize>,
 }
 
-/// Says where the `in` and `out` variables of a stage lie: of each the location of its first slot.
+/// The `in` and `out` variables of a stage, each with the location of its first slot.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interface {
     pub inputs: Vec<(GlobalId, u32)>,
     pub outputs: Vec<(GlobalId, u32)>,
     pub varyings: Vec<Varying>,
-    /// Uniforms and samplers of a plain shader, else the channels.
+    /// The uniforms and samplers of a plain shader; for other passes, the channels.
     pub resources: Resources,
-    /// The inputs and outputs of a plain shader for its users, in the order of `inputs` and `outputs`.
+    /// The inputs and outputs of a plain shader for users of the crate, in the order of `inputs` and `outputs`.
     pub variables: [Vec<ShaderVariable>; 2],
 }
 
-/// Sorts out the interface of a stage, and reports what is wrong with it. Passes that are no stages have none.
+/// Assigns the locations of a stage's interface, and reports errors in it. Passes that are not stages have none.
 pub(crate) fn interface(
     module: &Module,
     names: &Interner,
@@ -134,7 +135,7 @@ pub(crate) fn interface(
     made
 }
 
-/// The textures of the channels.
+/// Returns the textures of the channels.
 fn channels(source: &PassSource<'_>) -> Vec<Texture> {
     let texture = |(i, kind): (usize, ChannelKind)| Texture {
         name: String::new(),
@@ -151,7 +152,8 @@ fn channels(source: &PassSource<'_>) -> Vec<Texture> {
     source.channels.into_iter().enumerate().map(texture).collect()
 }
 
-/// The slots a value takes, in order, each a scalar or vector; `None` for what cannot pass between stages.
+/// Returns the slots that a value takes, in order, each a scalar or vector; `None` for types that cannot pass between
+/// stages.
 pub(crate) fn slots(module: &Module, ty: TypeId) -> Option<Vec<TypeId>> {
     match module.types.get(ty) {
         Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => None,
@@ -159,7 +161,7 @@ pub(crate) fn slots(module: &Module, ty: TypeId) -> Option<Vec<TypeId>> {
         Type::Matrix { columns, rows } => Some(vec![TypeId::vector(Scalar::Float, rows); usize::from(columns)]),
         Type::Array { element, len } => {
             let one = slots(module, element)?;
-            // More than there is room for is refused later; its slots need not all be listed.
+            // More slots than are available are reported later, so not all need be listed.
             let count = (len as usize).min(MAX_SLOTS as usize + 1);
             Some(one.iter().copied().cycle().take(one.len() * count).collect())
         }
@@ -210,14 +212,14 @@ impl Linker<'_> {
         self.made.inputs.push((id, attribute.location()));
     }
 
-    /// Gives attributes of any name the locations that they say, and the others the first that are free.
+    /// Assigns to attributes of any name their explicit locations, and to the others the first free ones.
     fn located(&mut self, all: &[GlobalId], most: u32) {
         let mut taken: Vec<(std::ops::Range<u32>, GlobalId)> = Vec::new();
         let (said, free): (Vec<_>, Vec<_>) = all.iter().partition(|id| self.module[**id].location.is_some());
         for &id in said.into_iter().chain(free) {
             let global = self.module[id];
             let name = self.name(&global).to_owned();
-            // Arrays of attributes are refused by the checker.
+            // The checker rejects arrays of attributes.
             let Some(size) = slots(self.module, global.ty).map(|slots| slots.len() as u32) else { continue };
             let overlapping = |from: u32| taken.iter().find(|(other, _)| from < other.end && other.start < from + size);
             let location = match global.location {
@@ -283,7 +285,7 @@ impl Linker<'_> {
                 continue;
             };
             let Some(varyings) = self.link.varyings else {
-                // Somewhere: a program without a vertex stage is never drawn.
+                // Any location will do: a program without a vertex stage is never drawn.
                 self.made.inputs.push((id, next));
                 next += slots.len() as u32;
                 continue;

@@ -1,5 +1,4 @@
-//! The statements of a pass for who steps through it: where each stands, what it lies in, and which variables can be
-//! named there.
+//! The statements of a pass for the debugger: the span of each, its parent, and the variables in scope there.
 
 use super::{
     ast::{Interner, List, Loc, Origins},
@@ -8,25 +7,25 @@ use super::{
 };
 use eddy_diag::Span;
 
-/// A statement, by its place in [`Statements::list`].
+/// A statement, identified by its index in [`Statements::list`].
 #[derive(Clone, Debug)]
 pub struct Statement {
-    /// Its text; of a branch or a loop the head alone.
+    /// The span of the statement; for a branch or a loop, only of its head.
     pub head: Span,
-    /// The test of a loop, and the step between two turns.
+    /// The test of a loop, and the step between two iterations.
     pub test: Option<Span>,
     pub step: Option<Span>,
-    /// The statement that it lies in.
+    /// The enclosing statement.
     pub parent: Option<u32>,
-    /// The test stands before the body.
+    /// The test comes before the body.
     pub tests_first: bool,
-    /// It begins a `for`, and belongs to its head.
+    /// The statement is the initialiser of a `for`, and belongs to its head.
     pub is_init: bool,
-    /// The variables that can be named before it, within its head and its body, and behind it.
+    /// The variables in scope before the statement, within its head and its body, and after it.
     before: Option<u32>,
     within: Option<u32>,
     after: Option<u32>,
-    /// The whole text of it.
+    /// The span of the whole statement.
     pub whole: Span,
     function: u32,
 }
@@ -38,11 +37,11 @@ pub struct LocalVariable {
     pub ty: TypeId,
     /// The value of a `const`.
     pub constant: Option<Vec<u32>>,
-    /// The place of its name.
+    /// The span of its name.
     declared: Option<Span>,
 }
 
-/// The time for which a variable is asked for: before a statement, in its head, or behind it.
+/// The point at which variables are queried: before a statement, within it, or after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StatementPoint {
     Before,
@@ -53,14 +52,14 @@ pub enum StatementPoint {
 /// The statements and variables of a pass.
 #[derive(Debug, Default)]
 pub struct Statements {
-    /// By the ids of the checked program; none of what is no statement of a function's body.
+    /// Indexed by the ids of the checked program; `None` for what is not a statement of a function's body.
     pub list: Vec<Option<Statement>>,
     pub locals: Vec<LocalVariable>,
-    /// The whole text of each function.
+    /// The span of each function.
     pub functions: Vec<Span>,
     /// The `const` variables of each function.
     constants: Vec<Vec<u32>>,
-    /// Each variable that can be named, and those that could be before it.
+    /// Each entry is a variable in scope and the next outer entry.
     scopes: Vec<(Option<u32>, u32)>,
 }
 
@@ -72,7 +71,7 @@ struct Finder<'m> {
 }
 
 impl Statement {
-    /// The function that it is in.
+    /// Returns the index of the function that contains the statement.
     pub fn function(&self) -> u32 {
         self.function
     }
@@ -112,7 +111,8 @@ impl Statements {
         self.list.get(index as usize)?.as_ref()
     }
 
-    /// The variables that can be named at a statement, the outermost first: of those of one name the last is meant.
+    /// Returns the variables in scope at a statement, the outermost first: of several of one name the last one is
+    /// visible.
     pub fn visible(&self, index: u32, when: StatementPoint) -> Vec<u32> {
         let Some(statement) = self.get(index) else { return Vec::new() };
         let mut scope = match when {
@@ -126,7 +126,7 @@ impl Statements {
             scope = outer;
         }
         found.reverse();
-        // They are folded away where they are declared, and no statement does that.
+        // Constants are folded at their declaration, for which there is no statement.
         let is_before = |id: &&u32| {
             let declared = self.locals[**id as usize].declared;
             declared.is_some_and(|at| at.source == statement.head.source && at.start < statement.head.start)
@@ -135,7 +135,7 @@ impl Statements {
         constants.copied().chain(found).collect()
     }
 
-    /// Returns whether a statement is or lies in another.
+    /// Returns whether a statement is another one, or nested in it.
     pub fn lies_in(&self, index: u32, outer: u32) -> bool {
         std::iter::successors(Some(index), |&at| self.get(at)?.parent).any(|at| at == outer)
     }
@@ -147,7 +147,7 @@ impl Finder<'_> {
         self.out.scopes.len() as u32 - 1
     }
 
-    /// The scope behind the list.
+    /// Adds the statements of a list, and returns the scope after it.
     fn statements(
         &mut self,
         list: List<StmtId>,

@@ -1,4 +1,4 @@
-//! Types of the language, interned: the vocabulary that the checked program and the intermediate representation share.
+//! The interned types of the language, shared by the checked program and the intermediate representation.
 
 use super::ast::{self, BasicType};
 use rustc_hash::FxHashMap;
@@ -8,13 +8,12 @@ ast::ids! {
     StructId;
 }
 
-/// A type, interned: equal types have equal ids. The keyword types have fixed ids, for matching without a look-up.
+/// An interned type: equal types have equal ids. The keyword types have fixed ids, for matching without a look-up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TypeId(pub u32);
 
 impl TypeId {
-    /// The type of an expression that was not understood. Silences every check it takes part in; never reaches
-    /// lowering.
+    /// The type of an invalid expression. It silences every check it takes part in, and never reaches lowering.
     pub const ERROR: TypeId = TypeId(0);
     pub const VOID: TypeId = TypeId::basic(BasicType::Void);
     pub const BOOL: TypeId = TypeId::basic(BasicType::Bool);
@@ -25,17 +24,17 @@ impl TypeId {
     pub const VEC3: TypeId = TypeId::basic(BasicType::Vec3);
     pub const VEC4: TypeId = TypeId::basic(BasicType::Vec4);
 
-    /// The id of a keyword type.
+    /// Returns the id of a keyword type.
     pub const fn basic(ty: BasicType) -> Self {
         TypeId(ty as u32 + 1)
     }
 
-    /// The keyword of this type, `None` for error, arrays and structs.
+    /// Returns the keyword of this type; `None` for error, arrays and structs.
     pub fn as_basic(self) -> Option<BasicType> {
         BasicType::ALL.get((self.0 as usize).checked_sub(1)?).copied()
     }
 
-    /// `bool`, `int`... for size 1, else the vector of 2, 3 or 4.
+    /// Returns `bool`, `int`... for size 1, otherwise the vector of 2, 3 or 4.
     pub const fn vector(scalar: Scalar, size: u8) -> Self {
         debug_assert!(size >= 1 && size <= 4);
         let base = match scalar {
@@ -47,14 +46,14 @@ impl TypeId {
         TypeId(base as u32 + size as u32)
     }
 
-    /// `matCxR`, both 2 to 4.
+    /// Returns `matCxR`, both 2 to 4.
     pub const fn matrix(columns: u8, rows: u8) -> Self {
         debug_assert!(columns >= 2 && columns <= 4 && rows >= 2 && rows <= 4);
         TypeId(BasicType::Mat2x2 as u32 + 1 + (columns as u32 - 2) * 3 + (rows as u32 - 2))
     }
 }
 
-/// Component types. All are 32 bits wide here: precision qualifiers change nothing.
+/// Component types. All are 32 bits wide here: precision qualifiers have no effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scalar {
     Bool,
@@ -63,7 +62,7 @@ pub enum Scalar {
     Float,
 }
 
-/// Shape of a sampler's texture.
+/// The dimensionality of a sampler's texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SamplerDim {
     D2,
@@ -73,7 +72,7 @@ pub enum SamplerDim {
 }
 
 impl SamplerDim {
-    /// Returns what follows `sampler` in the names of such types.
+    /// Returns the part after `sampler` in the names of such types.
     pub fn name(self) -> &'static str {
         match self {
             SamplerDim::D2 => "2D",
@@ -84,10 +83,10 @@ impl SamplerDim {
     }
 }
 
-/// Says what a [`TypeId`] stands for.
+/// The type that a [`TypeId`] identifies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
-    /// The type of what was not understood.
+    /// The type of an invalid expression.
     Error,
     /// No value.
     Void,
@@ -97,16 +96,17 @@ pub enum Type {
     Vector { scalar: Scalar, size: u8 },
     /// A matrix of floats, column-major; `matCxR` has C columns of R rows.
     Matrix { columns: u8, rows: u8 },
-    /// `len` at least 1. ESSL 3.00 has no arrays of arrays, so `element` is no array (but may be a struct holding one).
+    /// `len` at least 1. ESSL 3.00 has no arrays of arrays, so `element` is not an array (but may be a struct that
+    /// contains one).
     Array { element: TypeId, len: u32 },
     /// A type that the program defines.
     Struct(StructId),
-    /// `scalar` is what a read gives: float, int or uint. Lowering meets only float 2D, 3D and cube without `shadow`:
-    /// there is no other channel, so no call can pass one.
+    /// `scalar` is the component type of a read: float, int or uint. Lowering encounters only float 2D, 3D and cube
+    /// without `shadow`: there are no other channels, so no call can pass one.
     Sampler { dim: SamplerDim, scalar: Scalar, shadow: bool },
 }
 
-/// All types of a module by [`TypeId`].
+/// All types of a module, by [`TypeId`].
 #[derive(Clone, Debug)]
 pub struct TypeTable {
     types: Vec<Type>,
@@ -128,7 +128,7 @@ impl TypeTable {
         self.types[id.0 as usize]
     }
 
-    /// Number of types; ids are 0 to this, a type's element or members always before it.
+    /// Returns the number of types; ids are 0 to this, and a type's element or members always come before it.
     pub fn len(&self) -> usize {
         self.types.len()
     }
@@ -140,13 +140,13 @@ impl TypeTable {
         })
     }
 
-    /// A new type for a new struct: structs are equal by declaration, not by structure. Call once a struct.
+    /// Adds the type of a new struct: structs are equal by declaration, not by structure. Call this once per struct.
     pub fn add_struct(&mut self, id: StructId) -> TypeId {
         self.types.push(Type::Struct(id));
         TypeId(self.types.len() as u32 - 1)
     }
 
-    /// Component type of a scalar, vector or matrix.
+    /// Returns the component type of a scalar, vector or matrix.
     pub fn scalar(&self, id: TypeId) -> Option<Scalar> {
         match self.get(id) {
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => Some(scalar),
@@ -155,7 +155,7 @@ impl TypeTable {
         }
     }
 
-    /// Number of components of a scalar, vector or matrix.
+    /// Returns the number of components of a scalar, vector or matrix.
     pub fn components(&self, id: TypeId) -> Option<u32> {
         match self.get(id) {
             Type::Scalar(_) => Some(1),
@@ -165,7 +165,7 @@ impl TypeTable {
         }
     }
 
-    /// Returns what `x[i]` gives: an array's element, a matrix's column, a vector's component.
+    /// Returns the type of `x[i]`: an array's element, a matrix's column, a vector's component.
     pub fn element(&self, id: TypeId) -> Option<TypeId> {
         match self.get(id) {
             Type::Array { element, .. } => Some(element),
@@ -226,12 +226,12 @@ fn basic_type(basic: BasicType) -> Type {
     }
 }
 
-/// One to four components of a vector, 0 to 3 each, packed. The checker guarantees they exist in the base.
+/// One to four components of a vector, 0 to 3 each, packed. The checker guarantees that they exist in the base.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Swizzle(u16);
 
 impl Swizzle {
-    /// `components` has 1 to 4 entries below 4.
+    /// Packs `components`, 1 to 4 entries below 4.
     pub fn new(components: &[u8]) -> Self {
         debug_assert!((1..=4).contains(&components.len()));
         let mut bits = (components.len() as u16) << 8;
@@ -254,7 +254,7 @@ impl Swizzle {
         (0..self.len()).map(move |i| self.get(i))
     }
 
-    /// A component occurs twice: not a place.
+    /// Returns whether a component occurs twice, so that the swizzle is not a place.
     pub fn repeats(self) -> bool {
         let seen = self.iter().fold(0u8, |seen, c| seen | 1 << c);
         seen.count_ones() as usize != self.len()

@@ -1,10 +1,10 @@
-//! Expressions whose value depends on an order of evaluation that GLSL ES 3.00 leaves open.
+//! Expressions whose value depends on an order of evaluation that GLSL ES 3.00 leaves undefined.
 //!
 //! Arguments of calls and constructors are evaluated from left to right (section 6.1.1), the left side of an assignment
-//! before the right (5.8), and what stands before a comma, `&&`, `||` or `?` before what stands behind it (5.9). No
-//! section gives an order for the operands of the other operators, and `out` arguments are written back in any (6.1.1).
-//! Eddy goes from left to right everywhere, as ANGLE does, and like ANGLE reads operands and arguments that are variables, or
-//! parts of them, when all others have been evaluated.
+//! before the right (5.8), and the left side of a comma, `&&`, `||` or `?` before the right (5.9). No section defines
+//! an order for the operands of the other operators, and `out` arguments are written back in any order (6.1.1). Eddy
+//! evaluates from left to right everywhere, as ANGLE does, and like ANGLE reads operands and arguments that are
+//! variables, or parts of them, after all others have been evaluated.
 
 use super::{
     ast::{List, Loc},
@@ -37,14 +37,14 @@ impl Effects {
         self.writes.extend(other.writes);
     }
 
-    /// One of the two changes what the other uses.
+    /// Returns whether one of the two writes a variable that the other reads or writes.
     fn meets(&self, other: &Effects) -> bool {
         let changes = |a: &Effects, b: &Effects| a.writes.iter().any(|v| b.reads.contains(v) || b.writes.contains(v));
         changes(self, other) || changes(other, self)
     }
 }
 
-/// Returns the places of such expressions in the functions that are reached, and what is open there.
+/// Returns the locations of such expressions in the reachable functions, and what is undefined there.
 pub fn find(module: &Module) -> Vec<(Loc, &'static str)> {
     let mut functions = vec![Effects::default(); module.functions.len()];
     let mut found = Vec::new();
@@ -57,7 +57,7 @@ pub fn find(module: &Module) -> Vec<(Loc, &'static str)> {
 
 struct Finder<'m> {
     module: &'m Module,
-    /// The effects on variables of the module of a call of each function that is done.
+    /// The effects on globals of a call of each function processed so far.
     functions: &'m [Effects],
     found: &'m mut Vec<(Loc, &'static str)>,
     /// The index of the function's first expression.
@@ -70,7 +70,7 @@ impl Finder<'_> {
     fn function(&mut self, func: FuncId) -> Effects {
         let exprs = self.module[func].exprs.clone();
         self.first = exprs.start as usize;
-        // A child stands before its parent.
+        // A child comes before its parent.
         for index in exprs {
             let effects = self.expression(ExprId::new(index as usize));
             self.effects.push(effects);
@@ -87,7 +87,7 @@ impl Finder<'_> {
         self.effects.get_mut(expr.index().wrapping_sub(self.first)).map(std::mem::take).unwrap_or_default()
     }
 
-    /// Takes the effects of all that an expression consists of.
+    /// Takes the effects of all operands of an expression.
     fn take_all(&mut self, expr: ExprId) -> Effects {
         let mut parts = Vec::new();
         self.module.parts(expr, &mut parts);
@@ -142,7 +142,7 @@ impl Finder<'_> {
         all
     }
 
-    /// The variable that a place lies in.
+    /// Returns the variable that contains a place.
     fn root(&self, place: ExprId) -> Option<Variable> {
         match self.module[self.module.root(place)].kind {
             ExprKind::Local(local) => Some(Variable::Local(local.index() as u32)),
@@ -151,17 +151,17 @@ impl Finder<'_> {
         }
     }
 
-    /// Returns whether two places may have a part in common.
+    /// Returns whether two places may overlap.
     fn overlaps(&self, a: ExprId, b: ExprId) -> bool {
         if self.root(a).is_none() || self.root(a) != self.root(b) {
             return false;
         }
-        // From the variable down, as far as both go.
+        // From the variable down, as far as both paths go.
         let (a, b) = (self.path(a), self.path(b));
         !a.iter().zip(&b).any(|(a, b)| a & b == 0)
     }
 
-    /// Returns the parts that each step from the variable to a place may be, as bits; all where that is not known.
+    /// Returns the parts that each step from the variable to a place may select, as bits; all bits if that is unknown.
     fn path(&self, mut place: ExprId) -> Vec<u128> {
         let mut path = Vec::new();
         let part = |index: u32| 1u128.checked_shl(index).unwrap_or(u128::MAX);

@@ -1,5 +1,5 @@
-//! A pass as the walker takes it: lowered, with no pass of the optimiser and no work-around, and with the names and
-//! places of the author's text.
+//! A pass in the form that the CPU interpreter (`walk`) runs: lowered, without optimiser passes and work-arounds, and
+//! with the names and spans of the author's text.
 
 pub use super::lower::{Precondition, StatementEvent, UnsetKind};
 
@@ -18,46 +18,46 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// A program to walk through.
+/// A program to interpret.
 pub struct Walkable {
     pub program: ir::Module,
     names: lower::Names,
     origins: Origins,
     interner: Interner,
     statements: Statements,
-    /// Expressions that lean on an order which is undefined, and what is open there.
+    /// Expressions that depend on an undefined order of evaluation, and what is undefined there.
     unsequenced: Vec<(Loc, &'static str)>,
-    /// Operations on constants whose results are open or no finite numbers.
+    /// Operations on constants whose results are undefined or not finite numbers.
     faults: Vec<check::Fault>,
-    /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
+    /// Every type as GLSL writes it, by its id; empty unless the program is lowered for stepping.
     type_texts: Vec<String>,
-    /// Holds what a stage of vertices hands on.
+    /// The outputs of a vertex stage.
     pub varyings: Vec<Varying>,
 }
 
-/// A value that GLSL leaves undefined, by the declaration that should have given it one.
+/// A value that GLSL leaves undefined, with the declaration that should have initialised it.
 #[derive(Clone, Copy, Debug)]
 pub struct Unset<'w> {
     /// The zero in its place; or a variable of the function that has no value when the function starts.
     pub value: ir::Value,
     pub kind: UnsetKind,
     pub name: &'w str,
-    /// The place of the name.
+    /// The span of the name.
     pub span: Span,
 }
 
-/// Says what a program is lowered for.
+/// The purpose that a program is lowered for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
-    /// Somebody looks at its values.
+    /// Its values are read.
     Values,
-    /// Somebody steps through it, statement by statement.
+    /// It is stepped through, statement by statement.
     Statements,
 }
 
 impl Walkable {
-    /// Lowers a pass, or a stage of a program that draws meshes. The `preamble` is as [`super::compile_linked`] has it. On
-    /// failure the list holds at least one error.
+    /// Lowers a pass, or a stage of a program that draws meshes. For `preamble` see [`super::compile_linked`]. On
+    /// failure the list contains at least one error.
     pub fn new(
         source: &PassSource<'_>,
         link: &Link<'_>,
@@ -88,41 +88,41 @@ impl Walkable {
         Ok(Self { program, names, origins, interner, statements, unsequenced, faults, type_texts, varyings })
     }
 
-    /// Returns what an expression leans on, if that is an order of evaluation which the language leaves open.
+    /// Returns what is undefined about an expression if it depends on an undefined order of evaluation.
     pub fn unsequenced(&self, loc: Loc) -> Option<&'static str> {
         self.unsequenced.iter().find(|(place, _)| *place == loc).map(|(_, what)| *what)
     }
 
-    /// The operations on constants whose results are undefined, or infinities of finite numbers: the place of each,
-    /// whether it is undefined, and what it is.
+    /// Returns the operations on constants whose results are undefined, or infinities of finite numbers: the span of
+    /// each, whether it is undefined, and its description.
     pub fn faults(&self) -> impl Iterator<Item = (Span, bool, &'static str)> {
         let span = |fault: &check::Fault| (self.origins.span(fault.loc), fault.is_undefined, fault.what);
         self.faults.iter().map(span)
     }
 
-    /// Returns what the marks of a program that is stepped through stand for.
+    /// Returns the statements that the marks of a program lowered for stepping refer to.
     pub fn statements(&self) -> &Statements {
         &self.statements
     }
 
-    /// The values of a function that say where control comes to.
+    /// Returns the values of a function that mark statement events.
     pub fn marks(&self, function: ir::FuncId) -> &[(ir::Value, StatementEvent)] {
         &self.names.functions[function.index()].marks
     }
 
-    /// The author's variables of a function: each by its place in [`Statements::locals`], with the value or place that
-    /// it is.
+    /// Returns the author's variables of a function: each with its index in [`Statements::locals`], and its value or
+    /// place.
     pub fn variables(&self, function: ir::FuncId) -> impl Iterator<Item = (u32, ir::Value)> {
         let names = &self.names.functions[function.index()];
         names.ids.iter().zip(&names.locals).map(|(id, &(_, value))| (id.index() as u32, value))
     }
 
-    /// The author's variables of the module that the program has, with their names.
+    /// Returns the author's globals that exist in the program, with their names.
     pub fn globals(&self) -> impl Iterator<Item = (&str, ir::GlobalId)> {
         self.names.globals.iter().map(|&(symbol, id, _)| (self.interner.get(symbol), id))
     }
 
-    /// The variables of the module that the device fills: the `in` variables of a stage.
+    /// Returns the globals that the device fills: the `in` variables of a stage.
     pub fn inputs(&self) -> impl Iterator<Item = ir::GlobalId> {
         let entry = self.program.functions.last();
         let filled = |stmt: &ir::Stmt, entry: &ir::Function| {
@@ -137,27 +137,27 @@ impl Walkable {
         entry.into_iter().flat_map(move |entry| entry.body.iter().filter_map(move |stmt| filled(stmt, entry)))
     }
 
-    /// A type as GLSL writes it.
+    /// Returns a type as GLSL writes it.
     pub fn type_text(&self, ty: TypeId) -> &str {
         self.type_texts.get(ty.0 as usize).map_or("", String::as_str)
     }
 
-    /// Returns where a value is written: for what a macro brought in, the use of the macro.
+    /// Returns the span of a location: for a macro expansion, that of the macro's use.
     pub fn span(&self, loc: Loc) -> Span {
         self.origins.span(loc)
     }
 
-    /// The name of a function; none of the code around the author's.
+    /// Returns the name of a function; `None` for generated code.
     pub fn function_name(&self, function: ir::FuncId) -> Option<&str> {
         self.names.functions[function.index()].name.map(|symbol| self.interner.get(symbol))
     }
 
-    /// The author's variables of a function: each with its name and the value or place that it is.
+    /// Returns the author's variables of a function: each with its name, and its value or place.
     pub fn locals(&self, function: ir::FuncId) -> impl Iterator<Item = (&str, ir::Value)> {
         self.names.functions[function.index()].locals.iter().map(|&(symbol, value)| (self.interner.get(symbol), value))
     }
 
-    /// The values of a function that stand for what GLSL leaves undefined.
+    /// Returns the values of a function that replace values which GLSL leaves undefined.
     pub fn undefined(&self, function: ir::FuncId) -> impl Iterator<Item = Unset<'_>> {
         let undefined = |unset: &lower::Unset| Unset {
             value: unset.value,
@@ -168,24 +168,24 @@ impl Walkable {
         self.names.functions[function.index()].undefined.iter().map(undefined)
     }
 
-    /// The author's variables of the module that have no value when the program starts.
+    /// Returns the author's globals that have no value when the program starts.
     pub fn undefined_globals(&self) -> impl Iterator<Item = (ir::GlobalId, &str, Span)> {
         let is_unset = |id: ir::GlobalId| matches!(self.program[id].kind, ir::GlobalKind::Private(None));
         let unset = self.names.globals.iter().filter(move |(_, id, _)| is_unset(*id));
         unset.map(|&(symbol, id, loc)| (id, self.interner.get(symbol), self.span(loc)))
     }
 
-    /// Returns what lowering keeps a device from at an operation, or what the result of a call depends on.
+    /// Returns the precondition that lowering ensures for an operation, or what the result of a call depends on.
     pub fn precondition(&self, function: ir::FuncId, value: ir::Value) -> Option<&Precondition> {
         self.names.preconditions.get(&(function, value))
     }
 
-    /// The name of a member of a structure.
+    /// Returns the name of a member of a structure.
     pub fn member_name(&self, structure: StructId, index: u32) -> &str {
         self.interner.get(self.names.members[structure.index()][index as usize])
     }
 
-    /// The author's name of a variable of the module.
+    /// Returns the author's name of a global.
     pub fn global_name(&self, global: ir::GlobalId) -> Option<&str> {
         let named = self.names.globals.iter().find(|(_, id, _)| *id == global);
         named.map(|&(symbol, ..)| self.interner.get(symbol))

@@ -6,7 +6,7 @@ use crate::{
     hir::{DeclRef, ExprFlags, ExprId, ExprKind, GlobalId, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
 };
 
-/// The three sets of component names; they must not be mixed.
+/// The three sets of component names, which must not be mixed.
 const SETS: [&str; 3] = ["xyzw", "rgba", "stpq"];
 
 impl Checker<'_> {
@@ -59,7 +59,7 @@ impl Checker<'_> {
         self.push(ExprKind::Member { base, index: at as u32 }, ty, flags, loc)
     }
 
-    /// Position of a member, and how many words precede it.
+    /// Returns the index of a member, and the number of words before it.
     fn find_member(&self, id: StructId, name: Symbol) -> Option<(usize, usize)> {
         let members = &self.module[self.module[id].members];
         if members.len() > MANY_MEMBERS {
@@ -69,7 +69,7 @@ impl Checker<'_> {
         Some((at, members[..at].iter().map(|m| self.facts(m.ty).words as usize).sum()))
     }
 
-    /// Notes where the members of a structure lie that is too large to be looked through at each use.
+    /// Stores the positions of the members of a structure that is too large to be searched at each use.
     pub(super) fn note_members(&mut self, id: StructId) {
         let members = &self.module[self.module[id].members];
         if members.len() <= MANY_MEMBERS {
@@ -103,14 +103,14 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns what a part of an expression takes over: still a place if the whole is one.
+    /// Returns the flags that a part of an expression inherits: it is a place if the whole is one.
     fn part_flags(&self, base: ExprId) -> ExprFlags {
         let flags = self.module[base].flags;
         let place = flags.contains(ExprFlags::PLACE);
         if place { flags.inherited().with(ExprFlags::PLACE) } else { flags.inherited() }
     }
 
-    /// Words `from..` of a folded value, as many as `ty` has.
+    /// Returns the words from `from` of a folded value, as many as `ty` has.
     fn part(&mut self, base: ExprId, ty: TypeId, from: usize, loc: Loc) -> ExprId {
         let count = self.facts(ty).words as usize;
         if !self.has_room(count, loc) {
@@ -225,7 +225,7 @@ impl Checker<'_> {
         self.push(ExprKind::Index { base, index }, element, flags, loc)
     }
 
-    /// A sampler inside a uniform the author declared: nobody sets it, so it reads `iChannel0`.
+    /// Returns a sampler inside a uniform the author declared: nothing sets it, so it reads `iChannel0`.
     fn sampler_of_uniform(&mut self, base: ExprId, ty: TypeId, loc: Loc) -> ExprId {
         let root = self.root_of(base);
         let ExprKind::Global(global) = self.module[root].kind else {
@@ -236,13 +236,13 @@ impl Checker<'_> {
         self.own_sampler(global, ty, loc)
     }
 
-    /// A use of a sampler the author declared: nobody sets it, so WebGL binds it to the unit of `iChannel0`.
-    /// A plain shader has a texture for each.
+    /// Returns a use of a sampler the author declared: nothing sets it, so WebGL binds it to the unit of `iChannel0`. A
+    /// plain shader has a texture for each.
     pub(super) fn own_sampler(&mut self, global: GlobalId, ty: TypeId, loc: Loc) -> ExprId {
         if self.env.is_plain() {
             return match self.module.samplers.iter().position(|sampler| *sampler == global) {
                 Some(channel) => self.push(ExprKind::Channel(channel as u8), ty, ExprFlags::default(), loc),
-                // Its declaration was refused.
+                // Its declaration was rejected.
                 None => self.error_expr(loc),
             };
         }
@@ -257,7 +257,7 @@ impl Checker<'_> {
         self.push(ExprKind::Channel(0), ty, ExprFlags::default(), loc)
     }
 
-    /// `.length()`: a constant for arrays whatever their contents.
+    /// Checks `.length()`: a constant for arrays, whatever their contents.
     pub(super) fn method(&mut self, base: ExprId, name: ast::Ident, loc: Loc) -> ExprId {
         let ty = self.ty(base);
         let text = self.name(name.symbol);
@@ -288,7 +288,7 @@ impl Checker<'_> {
         self.push(ExprKind::Comma { lhs: base, rhs: value }, TypeId::INT, flags, loc)
     }
 
-    /// `iCh0.size` and its like.
+    /// Checks `iCh0.size` and the other members.
     fn channel_member(&mut self, channel: u8, name: Symbol, loc: Loc) -> ExprId {
         let uniform = match self.name(name) {
             "sampler" => {
@@ -311,7 +311,7 @@ impl Checker<'_> {
     }
 }
 
-/// Component numbers of a swizzle that a vector of `size` has.
+/// Returns the component numbers of a swizzle, if a vector of `size` has them.
 fn components(text: &str, size: u8) -> Option<Picked> {
     let bytes = text.as_bytes();
     if bytes.is_empty() || bytes.len() > 4 {

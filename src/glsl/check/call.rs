@@ -1,4 +1,4 @@
-//! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
+//! Calls: of user functions, built-ins, and struct constructors; and the diagnostics if no overload matches.
 
 use super::{checker::Checker, env, fault, scope::Binding, words::ScalarWords};
 use crate::{
@@ -8,8 +8,8 @@ use crate::{
     parse::foreign_type,
 };
 
-/// More arguments than any built-in has.
-const MOST_ARGS: usize = 8;
+/// The number of arguments that no built-in exceeds.
+const MAX_ARGS: usize = 8;
 
 impl Checker<'_> {
     pub(super) fn call(&mut self, name: Symbol, args: List<ast::ExprId>, loc: Loc) -> ExprId {
@@ -41,7 +41,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `float3(..)`: said once, then taken for what was meant.
+    /// Reports `float3(..)` and the like once, and checks it as the type that was meant.
     #[cold]
     fn foreign_constructor(&mut self, name: Symbol, ty: BasicType, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let text = self.name(name);
@@ -63,7 +63,8 @@ impl Checker<'_> {
         {
             return self.resolved_call(id, args, loc);
         }
-        // Of functions that take the arguments as they are, a built-in comes before those to which they are converted.
+        // A built-in overload that takes the arguments unconverted has priority over user functions that need
+        // conversions.
         let builtin = Builtin::from_symbol(self.module[first].name.symbol).filter(|builtin| !builtin.is_of_image);
         let is_exact = builtin.is_some_and(|builtin| {
             let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
@@ -76,7 +77,7 @@ impl Checker<'_> {
             }
             return self.resolved_call(id, args, loc);
         }
-        // Overloads of a built-in leave its own in force.
+        // Overloads by the user do not hide those of the built-in.
         if let Some(builtin) = builtin {
             return self.builtin_call(builtin, args, loc);
         }
@@ -84,7 +85,7 @@ impl Checker<'_> {
         if !broken && !self.is_full() {
             self.no_user_overload(first, args, loc);
         }
-        // With one candidate the result's type is known all the same.
+        // If there is only one candidate, the result's type is known anyway.
         if self.funcs[first.index()].next.is_some() {
             return self.error_expr(loc);
         }
@@ -92,8 +93,8 @@ impl Checker<'_> {
         self.error_expr_of(self.module[first].result, loc)
     }
 
-    /// Returns the overload whose parameters the arguments become by the fewest conversions that the language makes by
-    /// itself (GLSL 4.30, section 6.1); what a function gives back by a parameter is not converted.
+    /// Returns the overload that the arguments can be converted to with the fewest implicit conversions (GLSL 4.30,
+    /// section 6.1); `out` arguments are not converted.
     fn converting_overload(&self, first: FuncId, args: List<ast::ExprId>) -> Option<FuncId> {
         if !self.settings.dialect.converts() {
             return None;
@@ -140,7 +141,7 @@ impl Checker<'_> {
         id
     }
 
-    /// Enters a call into the call graph.
+    /// Adds a call to the call graph.
     fn note_call(&mut self, callee: FuncId, loc: Loc) {
         let facts = &mut self.funcs[callee.index()];
         facts.first_call.get_or_insert(loc);
@@ -207,7 +208,7 @@ impl Checker<'_> {
         }
     }
 
-    /// One message for all arguments that have other types than wanted.
+    /// Reports all arguments of wrong types in one message.
     fn wrong_arguments(&mut self, name: &str, args: List<ast::ExprId>, want: &[TypeId]) {
         let ast = self.ast;
         let pairs = ast[args].iter().zip(want).map(|(&written, &want)| (self.done(written), written, want));
@@ -219,7 +220,7 @@ impl Checker<'_> {
         self.wrong_types(&wrong, &message);
     }
 
-    /// `float f(vec3, inout int)`.
+    /// Returns the signature of a function, such as `float f(vec3, inout int)`.
     pub(super) fn signature(&self, id: FuncId) -> String {
         let params: Vec<String> = self
             .module
@@ -257,7 +258,7 @@ impl Checker<'_> {
         }
         let ast = self.ast;
         let base = self.expr_stack.len();
-        let mut types = [TypeId::ERROR; MOST_ARGS];
+        let mut types = [TypeId::ERROR; MAX_ARGS];
         let mut known = true;
         for (i, &arg) in ast[args].iter().enumerate() {
             let id = self.done(arg);
@@ -268,7 +269,7 @@ impl Checker<'_> {
             }
             self.expr_stack.push(id);
         }
-        let given = &types[..args.len().min(MOST_ARGS)];
+        let given = &types[..args.len().min(MAX_ARGS)];
         let mut result = self.builtin_result(builtin, given);
         if result.is_none()
             && self.settings.dialect.converts()
@@ -280,14 +281,14 @@ impl Checker<'_> {
             types[..converted.len()].copy_from_slice(&converted);
             result = Some(of);
         }
-        let given = &types[..args.len().min(MOST_ARGS)];
+        let given = &types[..args.len().min(MAX_ARGS)];
         let id = match result {
-            Some(result) if args.len() <= MOST_ARGS => {
+            Some(result) if args.len() <= MAX_ARGS => {
                 self.plain_texture_call(builtin, &types[..args.len()], loc);
                 self.resolved_builtin(builtin, result, args, base, loc)
             }
             _ if !known => {
-                // Most results have the type of the first argument; guessing wrong would invent mistakes.
+                // Most results have the type of the first argument, but a wrong guess would cause spurious errors.
                 self.error_expr(loc)
             }
             _ => {
@@ -332,7 +333,8 @@ impl Checker<'_> {
         self.push(ExprKind::Builtin { builtin, args }, result, flags, loc)
     }
 
-    /// The value of a built-in whose arguments, on the stack above `base`, are all constants. `None` where it has none.
+    /// Returns the value of a built-in whose arguments, on the stack above `base`, are all constants; `None` if it
+    /// cannot be folded.
     fn fold_builtin(&mut self, builtin: Builtin, result: TypeId, base: usize, loc: Loc) -> Option<ExprId> {
         let types = &self.module.types;
         let given = &self.expr_stack[base..];
@@ -364,7 +366,7 @@ impl Checker<'_> {
         Some(id)
     }
 
-    /// Section 8.8: a constant expression, in the range of the implementation.
+    /// Checks that an offset is a constant expression in the range of the implementation (section 8.8).
     fn check_offset(&mut self, builtin: Builtin, offset: ExprId) -> bool {
         let loc = self.loc(offset);
         let Some(words) = self.words(offset) else {
@@ -403,7 +405,7 @@ impl Checker<'_> {
         let wanted = all.iter().filter_map(|overload| overload.params_at(size, given, &self.module.types));
         if let Some(want) = self.closest(given, wanted) {
             self.wrong_arguments(name, args, &want);
-            // Only with the first argument right it is sure what was meant.
+            // Only if the first argument is right, the intended overload is certain.
             let result = self.builtin_result(builtin, &want).filter(|_| given[0] == want[0]);
             return self.error_expr_of(result.unwrap_or(TypeId::ERROR), loc);
         }
@@ -414,13 +416,13 @@ impl Checker<'_> {
         self.error_expr(loc)
     }
 
-    /// Components of the longest argument.
+    /// Returns the number of components of the largest argument.
     fn largest(&self, given: &[TypeId]) -> u8 {
         given.iter().filter_map(|&ty| self.vector_shape(ty)).map(|(_, n)| n).max().unwrap_or(1)
     }
 
-    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than
-    /// the other way round, and a scalar may become a vector.
+    /// Returns the parameter types nearest to the given arguments, if one list is nearest: converting ints to floats is
+    /// preferred to the reverse, and a scalar may become a vector.
     fn closest(&self, given: &[TypeId], overloads: impl Iterator<Item = Vec<TypeId>>) -> Option<Vec<TypeId>> {
         let mut best: Option<(u32, Vec<TypeId>)> = None;
         let mut tie = false;
@@ -430,7 +432,7 @@ impl Checker<'_> {
             else {
                 continue;
             };
-            // Types that are equal and do not fit are matrices that disagree with each other.
+            // Types that are equal and still do not match are matrices of different shapes.
             match &best {
                 _ if cost == 0 => {}
                 Some((least, known)) if *least < cost || *known == want => {}
@@ -457,7 +459,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Coordinates that would fit a sampler of another shape.
+    /// Adds a hint if the coordinates would match a sampler of another shape.
     fn sampler_hint(&mut self, all: &[Overload], given: &[TypeId], sampler: ast::ExprId) {
         if given.first().is_none_or(|&ty| !self.is_sampler(ty)) {
             return;
@@ -480,7 +482,7 @@ impl Checker<'_> {
         self.hint(format!("{what} is a `{has}` here; these coordinates are for a `{}`", fits.join("` or `")));
     }
 
-    /// Lists overloads at the size the arguments have, those of the right number of arguments first.
+    /// Lists overloads at the size of the arguments, those with the right number of arguments first.
     fn candidates(&mut self, builtin: Builtin, given: &[TypeId]) {
         let size = self.largest(given);
         let sampler = given.first().filter(|&&ty| self.is_sampler(ty)).map(|&ty| self.type_name(ty));
@@ -502,12 +504,12 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns the types of the arguments after conversions that the language makes by itself (GLSL 4.30, section 6.1), for
-    /// which a built-in has an overload, with the result: those of as few arguments as suffice, ints to floats.
+    /// Returns the types of the arguments after implicit conversions (GLSL 4.30, section 6.1) for which a built-in has
+    /// an overload, and its result: as few arguments as possible are converted, ints to floats.
     fn converting_builtin(&self, builtin: Builtin, given: &[TypeId]) -> Option<(Vec<TypeId>, TypeId)> {
         let float = |ty: TypeId| self.vector_shape(ty).map(|(_, n)| TypeId::vector(Scalar::Float, n));
         let can = |i: usize| float(given[i]).is_some_and(|want| want != given[i] && self.converts_to(given[i], want));
-        // A bit for each argument: which are converted.
+        // Each set has a bit for each argument that is converted.
         let mut sets: Vec<u32> = (1..1u32 << given.len()).collect();
         sets.retain(|set| (0..given.len()).all(|i| set & 1 << i == 0 || can(i)));
         sets.sort_by_key(|set| set.count_ones());
@@ -519,18 +521,18 @@ impl Checker<'_> {
         })
     }
 
-    /// Result of a built-in for these argument types, if some overload takes them.
+    /// Returns the result type of a built-in for these argument types, if some overload takes them.
     fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
         builtin.overloads.iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }
 
-/// `1 is given`, `2 are given`.
+/// Formats `1 is given`, `2 are given`.
 pub(super) fn count_given(n: usize) -> String {
     format!("{n} {} given", if n == 1 { "is" } else { "are" })
 }
 
-/// `1 argument`, `2 arguments`.
+/// Formats `1 argument`, `2 arguments`.
 pub(super) fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

@@ -1,4 +1,4 @@
-//! The checker's state and what every rule of it needs: reports, places, types. The rules are in the files beside.
+//! The checker's state and shared helpers: reports, places, types. The rules are in the other files of this folder.
 
 use super::{
     checkpoint::{Checkpoint, Precisions},
@@ -20,21 +20,21 @@ use rustc_hash::FxHashMap;
 
 /// A switch whose body is being checked.
 pub(super) struct Switch {
-    /// The type of its value; the error type silences its labels.
+    /// The type of its value; the error type suppresses diagnostics about its labels.
     pub ty: TypeId,
-    /// Labels so far, and where they stand.
+    /// The labels so far, and their locations.
     pub values: FxHashMap<u32, Loc>,
     pub default: Option<Loc>,
 }
 
-/// Settings of the project beside its texts.
+/// The settings of the project apart from its texts.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Settings<'a> {
     pub dialect: Dialect,
     pub channels: [ChannelKind; 4],
     pub custom_uniforms: &'a [CustomUniform<'a>],
     pub values: &'a [UniformValue],
-    /// The text that other stages have too.
+    /// The text that is shared with other stages.
     pub common: Option<SourceId>,
     pub cancel: Cancel<'a>,
 }
@@ -45,69 +45,69 @@ pub(super) struct Checker<'a> {
     pub names: &'a Interner,
     pub env: Env,
     pub settings: Settings<'a>,
-    /// The parser reported something, so nodes may lie between others without belonging to the tree.
+    /// The parser reported errors, so nodes may exist that are not part of the tree.
     pub broken_tree: bool,
     pub module: Module,
     pub diagnostics: Vec<Diagnostic>,
-    /// Operations on constants whose results are open or no finite numbers.
+    /// Operations on constants whose results are undefined or not finite numbers.
     pub faults: Vec<Fault>,
-    /// The number of errors, those that were not kept among them.
+    /// The number of errors, including those that were not kept.
     pub errors: usize,
     pub refused_in_common: Vec<Diagnostic>,
     pub scopes: Scopes,
-    /// HIR of each checked expression of the tree.
+    /// The HIR of each checked expression of the tree.
     pub lowered: Vec<Option<hir::ExprId>>,
-    /// Says where the HIR of the full expression at hand, or of the last one, begins.
+    /// The first HIR expression of the current full expression, or of the last one.
     pub full_expr: usize,
     pub facts: Vec<TypeFacts>,
-    /// Position of each member of structs with many, and how many words precede it.
+    /// The index of each member of structs with many members, and the number of words before it.
     pub members: FxHashMap<(hir::StructId, Symbol), (usize, usize)>,
     pub funcs: Vec<FuncFacts>,
-    /// The overload that takes these types, by the first one of its name; of names with several alone.
+    /// The overload that takes these types, by the first one of its name; only for names with several.
     pub overloads: FxHashMap<(FuncId, Vec<TypeId>), FuncId>,
-    /// Scalars that folded constants hold, and that were compared.
+    /// The number of scalars in folded constants and their comparisons.
     pub folded_words: usize,
-    /// `precision` statements in force, by [`ast::BasicType`]; changed seldom, so scopes save the whole.
+    /// The `precision` statements in force, by [`ast::BasicType`]; they change rarely, so scopes save all of them.
     pub precisions: Precisions,
     pub saved_precisions: Vec<(u32, Precisions)>,
     /// The function whose body is being checked.
     pub func: Option<FuncId>,
-    /// It has a `return` with a value.
+    /// The function has a `return` with a value.
     pub returns: bool,
     pub loops: u32,
-    /// Type of the value of the enclosing switches, innermost last.
+    /// The enclosing switches, innermost last.
     pub switches: Vec<Switch>,
-    /// Functions that initialisers of globals call.
+    /// The functions that initialisers of globals call.
     pub global_calls: Vec<FuncId>,
-    /// The name of the function that most of a program without errors lies in.
+    /// The name of the function that makes up the largest part of an error-free program.
     pub bulk: Option<Loc>,
-    /// Scratch stacks: lists nest, and live above the length at which their owner found them.
+    /// Scratch stacks: lists nest, and each uses the part above the length at which it started.
     pub expr_stack: Vec<hir::ExprId>,
     pub stmt_stack: Vec<hir::StmtId>,
     pub word_stack: Vec<u32>,
-    /// `iCh0` and its like that wait for their `.member`.
+    /// `iCh0` and the like whose `.member` has not been checked yet.
     pub pending_channels: Vec<(hir::ExprId, u8)>,
-    /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is said once.
+    /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is reported once.
     pub unknown_said: Vec<u32>,
-    /// The work that is left to find what unknown names may be slips of.
+    /// The budget that is left for suggesting names.
     pub suggestions: Budget,
-    /// An expression was refused because its tree is too deep.
+    /// An expression was rejected because its tree is too deep.
     pub too_deep_told: bool,
-    /// Outputs at file scope of a pass that is no stage.
+    /// Outputs at file scope of a pass that is not a stage.
     pub outputs: Vec<hir::GlobalId>,
-    /// Struct of `gl_DepthRange` once it was named.
+    /// The struct of `gl_DepthRange`, once it was named.
     pub depth_range: Option<hir::ConstId>,
     pub entry_symbol: Option<Symbol>,
-    /// The entry point as the site's header declares it.
+    /// The entry point as Shadertoy's header declares it.
     pub header_entry: Option<FuncId>,
-    /// The `main` that stands for the entry point: its name, and which diagnostic says so.
+    /// The `main` that was written instead of the entry point: its name, and the index of the diagnostic about it.
     pub foreign_main: Option<(FuncId, usize)>,
-    /// The number of [`Ast::items`] that were checked.
+    /// The number of [`Ast::items`] checked so far.
     pub items: usize,
 }
 
 impl<'a> Checker<'a> {
-    /// Stands behind what is `begun`, or before all text where nothing is.
+    /// Creates a checker that continues from the checkpoint `begun`, or starts at the first text if there is none.
     pub fn new(
         ast: &'a Ast,
         origins: &'a Origins,
@@ -171,7 +171,7 @@ impl<'a> Checker<'a> {
         checker
     }
 
-    /// Checks the declarations that were not checked yet.
+    /// Checks the declarations that have not been checked yet.
     pub fn declarations(&mut self) {
         while let Some(&item) = self.ast.items.get(self.items) {
             self.settings.cancel.check();
@@ -180,7 +180,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The whole translation unit.
+    /// Checks the whole translation unit.
     pub fn unit(&mut self) {
         self.declare_pass();
         self.declarations();
@@ -193,11 +193,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports an error; hints and labels are added to what comes back.
+    /// Reports an error; hints and labels are added to the returned diagnostic.
     #[cold]
     pub fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = self.origins.error(self.names, loc, message);
-        // The report keeps no more errors than that: one place is enough for all others.
+        // The report keeps no more errors than that, so the slot of the last one is reused.
         if self.is_full() && self.diagnostics.last().is_some_and(Diagnostic::is_error) {
             self.diagnostics.pop();
         }
@@ -206,7 +206,8 @@ impl<'a> Checker<'a> {
         self.diagnostics.last_mut().expect("just pushed")
     }
 
-    /// More errors than are shown: what takes a search through the program to be said is not said any more.
+    /// Returns whether there are more errors than are shown: diagnostics that need a search through the program are
+    /// then skipped.
     pub fn is_full(&self) -> bool {
         self.errors > MAX_ERRORS
     }
@@ -218,7 +219,7 @@ impl<'a> Checker<'a> {
         self.diagnostics.last_mut().expect("just pushed")
     }
 
-    /// Adds a second place to the diagnostic reported last.
+    /// Adds a second location to the diagnostic reported last.
     #[cold]
     pub fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
@@ -227,7 +228,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Adds a mend to the diagnostic reported last.
+    /// Adds a hint to the diagnostic reported last.
     #[cold]
     pub fn hint(&mut self, hint: impl Into<String>) {
         if let Some(last) = self.diagnostics.last_mut() {
@@ -235,7 +236,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Adds a mend that an editor can make to the diagnostic reported last.
+    /// Adds a fix that an editor can apply to the diagnostic reported last.
     #[cold]
     pub fn fix(&mut self, fix: Option<Fix>) {
         if let Some(last) = self.diagnostics.last_mut() {
@@ -243,7 +244,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns where the author wrote something, if no macro brought it in: an edit of a macro is one of all its uses.
+    /// Returns the span that the author wrote, unless a macro produced it: an edit of a macro affects all its uses.
     pub fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
         let loc = loc.into();
         let (first, last) = (self.origins.tokens[loc.first.0 as usize], self.origins.tokens[loc.last.0 as usize]);
@@ -252,25 +253,25 @@ impl<'a> Checker<'a> {
         (is_plain && is_one).then(|| first.spelled.to(last.spelled))
     }
 
-    /// Adds the mend that puts another text in the place of what is written.
+    /// Adds the fix that replaces what is written with another text.
     pub fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
         let span = self.written_at(loc);
         self.fix(span.map(|span| Fix::replace(span, text)));
     }
 
-    /// Says that a name was probably spelled wrong.
+    /// Suggests a name as the correct spelling of another.
     pub fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
         self.hint(format!("did you mean `{near}`?"));
         self.fix_with(loc, near);
     }
 
-    /// Returns whether this stands in Common, which a vertex stage has before it though half of it may be for
-    /// fragments: what nobody calls there does no harm.
+    /// Returns whether a location is in Common, which a vertex stage includes although parts of it may be for
+    /// fragments: functions that are not called there are harmless.
     pub fn is_shared(&self, loc: Loc) -> bool {
         self.settings.common == Some(self.origins.span(loc).source)
     }
 
-    /// Remembers what a name in the text refers to, for editors.
+    /// Records the target of a name in the text, for editors.
     #[inline]
     pub fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
         self.module.uses.push(hir::Use { token, target });
@@ -292,9 +293,9 @@ impl<'a> Checker<'a> {
 }
 
 impl Checker<'_> {
-    /// Ends behind the declarations that were checked; `None` where one of them has an error.
+    /// Returns the checkpoint after the checked declarations; `None` if one of them has an error.
     pub(super) fn into_begun(self) -> Option<Checkpoint> {
-        // Whether an output does harm is known at the end of the pass.
+        // Whether an output is an error is only known at the end of the pass.
         (self.errors == 0 && !self.broken_tree && self.outputs.is_empty()).then_some(Checkpoint {
             items: self.items,
             module: self.module,

@@ -1,7 +1,6 @@
-//! State of the checker between two declarations of a file, so that others can go on from there.
+//! The state of the checker between two declarations of a file, from which checking other texts can continue.
 //!
-//! Only what is not the same everywhere at file scope is kept: no function is being read there, and no message was an
-//! error.
+//! It contains only what varies at file scope: there, no function is being checked, and no error has been reported.
 
 use super::{
     facts::{FuncFacts, TypeFacts, basic_facts},
@@ -20,7 +19,7 @@ pub(super) type Precisions = [Option<Precision>; BasicType::ALL.len()];
 
 #[derive(Clone)]
 pub(crate) struct Checkpoint {
-    /// The number of [`super::Ast::items`] that were checked.
+    /// The number of [`super::Ast::items`] checked so far.
     pub(super) items: usize,
     pub(super) module: Module,
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -38,10 +37,10 @@ pub(crate) struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Nothing is checked, and nothing in scope.
+    /// Returns the initial state: nothing is checked, and nothing is in scope.
     pub(super) fn nothing() -> Self {
         let module = Module::default();
-        // Section 4.5.4, and what the site's header says of 3D samplers.
+        // Section 4.5.4, and the precision of 3D samplers in Shadertoy's header.
         let mut precisions = [None; BasicType::ALL.len()];
         for (basic, precision) in [
             (BasicType::Float, Precision::High),

@@ -7,7 +7,7 @@ use crate::{
 };
 
 impl Checker<'_> {
-    /// A constructor spelled with a type: `vec3(..)`, `float[](..)`, `S[2](..)`.
+    /// Checks a constructor written with a type: `vec3(..)`, `float[](..)`, `S[2](..)`.
     pub(super) fn construct(&mut self, spec: TypeSpecId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let written = self.ast[spec];
         if let TypeSpecKind::Struct(_) = written.kind {
@@ -51,7 +51,7 @@ impl Checker<'_> {
         self.composite(args, ty, loc, ExprKind::Array)
     }
 
-    /// A constructor of a type without dimensions.
+    /// Checks a constructor of a type without dimensions.
     pub(super) fn construct_type(&mut self, ty: TypeId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let target = self.module.types.get(ty);
         match target {
@@ -92,7 +92,7 @@ impl Checker<'_> {
         id
     }
 
-    /// Returns whether an argument has components to give; reports what has none.
+    /// Returns whether an argument has components; reports those that have none.
     fn is_component_argument(&mut self, arg: ExprId, target: TypeId) -> bool {
         let ty = self.ty(arg);
         if ty == TypeId::ERROR {
@@ -112,7 +112,7 @@ impl Checker<'_> {
         false
     }
 
-    /// A scalar or vector from the arguments on the stack above `base`.
+    /// Makes a scalar or vector from the arguments on the stack above `base`.
     fn construct_vector(&mut self, ty: TypeId, base: usize, written: List<ast::ExprId>, loc: Loc) -> ExprId {
         let (scalar, size) = self.vector_shape(ty).expect("a scalar or vector");
         let count = self.expr_stack.len() - base;
@@ -172,8 +172,8 @@ impl Checker<'_> {
         }
     }
 
-    /// One argument of a vector constructor with components of the target's kind. Matrices stay whole where they are
-    /// floats; otherwise the components that count (all but `surplus`) become a vector first.
+    /// Converts one argument of a vector constructor to the target's component type. Float matrices stay whole;
+    /// otherwise the components that are used (all but `surplus`) become a vector first.
     fn components_of(&mut self, id: ExprId, scalar: Scalar, surplus: u32) -> ExprId {
         let (ty, loc) = (self.ty(id), self.loc(id));
         match self.module.types.get(ty) {
@@ -202,7 +202,7 @@ impl Checker<'_> {
         self.push(ExprKind::Index { base: column, index: zero }, TypeId::FLOAT, flags, loc)
     }
 
-    /// A scalar or vector with components of another kind; the same expression where they are of it already.
+    /// Converts a scalar or vector to another component type; returns the same expression if it already has that type.
     pub(super) fn convert_to(&mut self, id: ExprId, scalar: Scalar, loc: Loc) -> ExprId {
         let (from, size) = self.vector_shape(self.ty(id)).expect("a scalar or vector");
         if from == scalar {
@@ -218,7 +218,7 @@ impl Checker<'_> {
         self.push(ExprKind::Convert(id), ty, flags, loc)
     }
 
-    /// A constant whose numbers were others' before, some of them beyond its range.
+    /// Returns a converted constant; reports values that were out of range.
     fn converted(&mut self, ty: TypeId, (words, gap): (&ScalarWords, Option<&'static str>), loc: Loc) -> ExprId {
         let id = self.constant(ty, words.as_slice(), loc);
         if let Some(what) = gap {
@@ -228,7 +228,7 @@ impl Checker<'_> {
         id
     }
 
-    /// A scalar or vector from one argument.
+    /// Makes a scalar or vector from one argument.
     fn convert_whole(&mut self, ty: TypeId, arg: ExprId, loc: Loc) -> ExprId {
         let (scalar, size) = self.vector_shape(ty).expect("a scalar or vector");
         let at = self.ty(arg);
@@ -271,7 +271,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A matrix from the arguments on the stack above `base`.
+    /// Makes a matrix from the arguments on the stack above `base`.
     fn construct_matrix(&mut self, ty: TypeId, base: usize, loc: Loc) -> ExprId {
         let Type::Matrix { columns, rows } = self.module.types.get(ty) else { unreachable!("a matrix") };
         let needed = u32::from(columns) * u32::from(rows);
@@ -378,7 +378,7 @@ impl Checker<'_> {
         self.composite(args, hir.ty, loc, ExprKind::Struct)
     }
 
-    /// Returns whether each argument has the type wanted; one message, that of the first, tells of all that have not.
+    /// Returns whether each argument has the expected type; reports all that do not in one message, that of the first.
     fn each_argument(
         &mut self,
         args: List<ast::ExprId>,
@@ -407,7 +407,7 @@ impl Checker<'_> {
         fits
     }
 
-    /// A struct or array of arguments whose types were found right.
+    /// Makes a struct or array from arguments whose types are correct.
     fn composite(
         &mut self,
         args: List<ast::ExprId>,

@@ -1,6 +1,6 @@
-//! Checks values that must have a certain type, and says what is wrong when they have another. GLSL ES converts nothing
-//! by itself, so nearly every such mistake is an int where a float belongs, and the mend can be written out. GLSL 4.30
-//! converts by itself ([`Checker::implicit`], [`Checker::promote`]).
+//! Checks values that must have a certain type, and reports those that do not. GLSL ES has no implicit conversions, so
+//! nearly every such mistake is an int instead of a float, for which a fix can be offered. GLSL 4.30 has implicit
+//! conversions ([`Checker::implicit`], [`Checker::promote`]).
 
 use super::checker::Checker;
 use crate::{
@@ -10,8 +10,8 @@ use crate::{
 use eddy_diag::{Edit, Fix, Span};
 
 impl Checker<'_> {
-    /// Converts the value of an expression of the tree where the language does that by itself (GLSL 4.30, section
-    /// 4.1.10), and returns the value as it is then. Anything else stays as it is.
+    /// Converts the value of an expression of the tree where the language converts implicitly (GLSL 4.30, section
+    /// 4.1.10), and returns the converted value. Any other value is returned unchanged.
     pub(super) fn implicit(&mut self, written: ast::ExprId, want: TypeId) -> ExprId {
         let value = self.done(written);
         if self.ty(value) == want || !self.converts_to(self.ty(value), want) {
@@ -23,8 +23,8 @@ impl Checker<'_> {
         converted
     }
 
-    /// Returns whether a value of one type is one of another where that is wanted: it has the type, or the language
-    /// converts it.
+    /// Returns whether a value of one type can be used as another: the types are equal, or the language converts
+    /// implicitly.
     pub(super) fn converts_to(&self, from: TypeId, to: TypeId) -> bool {
         if from == to || !self.settings.dialect.converts() {
             return from == to;
@@ -33,8 +33,8 @@ impl Checker<'_> {
         m == n && matches!((a, b), (Scalar::Int, Scalar::Uint | Scalar::Float) | (Scalar::Uint, Scalar::Float))
     }
 
-    /// Converts the operands of an operator to the richer one's kind of component, where the language does that by itself.
-    /// With `into_left` only the right one changes, as in `a += b`.
+    /// Converts the operands of an operator to the wider component type of the two, where the language converts
+    /// implicitly. With `into_left` only the right one is converted, as in `a += b`.
     pub(super) fn promote(&mut self, left: ast::ExprId, right: ast::ExprId, into_left: bool) {
         if !self.settings.dialect.converts() {
             return;
@@ -51,7 +51,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
+    /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` is replaced by the type
+    /// found.
     pub(super) fn expect_type(
         &mut self,
         value: ExprId,
@@ -81,29 +82,29 @@ impl Checker<'_> {
         }
     }
 
-    /// Adds a mend to the diagnostic reported last.
+    /// Adds a fix to the diagnostic reported last.
     pub(super) fn mend_with(&mut self, mend: &Mend, written: ast::ExprId) {
         self.hint(mend.hint());
         let edits = self.edits(mend, written);
         self.fix((!edits.is_empty()).then(|| Fix::new(mend.title(), edits)));
     }
 
-    /// Returns what has to be written for a mend; nothing where a macro brought the value in.
+    /// Returns the edits of a fix; none if a macro produced the value.
     fn edits(&self, mend: &Mend, written: ast::ExprId) -> Vec<Edit> {
         let Some(span) = self.written_at(self.ast[written].loc) else { return Vec::new() };
         let before = |text: &str| Edit { span: Span { end: span.start, ..span }, text: text.to_owned() };
-        let behind = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
+        let after = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
         match mend.text.split_once("..") {
-            None if mend.text.is_empty() => vec![behind("u")],
+            None if mend.text.is_empty() => vec![after("u")],
             None => vec![Edit { span, text: mend.text.clone() }],
-            // What is taken of a whole expression is taken behind its brackets.
-            Some(("", part)) => vec![before("("), behind(&format!("){part}"))],
-            Some((head, tail)) => vec![before(head), behind(tail)],
+            // A component of a whole expression is selected after parentheses around it.
+            Some(("", part)) => vec![before("("), after(&format!("){part}"))],
+            Some((head, tail)) => vec![before(head), after(tail)],
         }
     }
 
-    /// One message for several values that have other types than wanted; `message` is about the first, `{}` in it
-    /// stands for the type found.
+    /// Reports several values of wrong types in one message; `message` is about the first, and `{}` in it is replaced
+    /// by the type found.
     pub(super) fn wrong_types(&mut self, wrong: &[(ExprId, ast::ExprId, TypeId)], message: &str) {
         let Some(&(first, written, want)) = wrong.first() else { return };
         let message = message.replace("{}", &format!("`{}`", self.type_name(self.ty(first))));
@@ -154,7 +155,7 @@ impl Checker<'_> {
         false
     }
 
-    /// Returns the mend that makes a value of type `want` of this one.
+    /// Returns the fix that turns this value into one of type `want`.
     pub(super) fn mend(&self, value: ExprId, written: ast::ExprId, want: TypeId) -> Option<Mend> {
         let found = self.ty(value);
         let (Some((from, n)), Some((to, m))) = (self.vector_shape(found), self.vector_shape(want)) else { return None };
@@ -168,7 +169,7 @@ impl Checker<'_> {
             if let (A::Int(value), Scalar::Uint) = (self.ast[written].kind, to)
                 && value > 9999
             {
-                // It was written in hexadecimal, most likely, so it cannot be shown as the author wrote it.
+                // It was most likely written in hexadecimal, so it cannot be shown as the author wrote it.
                 return Some(Mend::new(converts, String::new()));
             }
             let text = self.as_scalar(written, to);
@@ -191,7 +192,7 @@ impl Checker<'_> {
         Some(Mend::new(None, format!("{target}({})", text.as_deref().unwrap_or(".."))))
     }
 
-    /// A literal (or its negative) as the author would write it in another scalar type.
+    /// Returns a literal (or its negative) as the author would write it in another scalar type.
     fn as_scalar(&self, written: ast::ExprId, to: Scalar) -> Option<String> {
         let (sign, literal) = match self.ast[written].kind {
             A::Unary { op: ast::UnaryOp::Minus, operand } => ("-", operand),
@@ -212,7 +213,8 @@ impl Checker<'_> {
         })
     }
 
-    /// For two sides that should have one type: the mend that turns ints to floats, of whichever side has them.
+    /// Adds, for two sides that should have the same type, the fix that turns ints into floats on the side that has
+    /// them.
     pub(super) fn conversion_hint(&mut self, left: (ExprId, ast::ExprId), right: (ExprId, ast::ExprId)) {
         let (l, r) = (self.ty(left.0), self.ty(right.0));
         let rank = |scalar| match scalar {
@@ -225,7 +227,7 @@ impl Checker<'_> {
         if a == b {
             return self.size_hint(l, r);
         }
-        // The literal is what one rewrites, and else the poorer type; a side keeps its number of components.
+        // The literal is rewritten, or else the narrower type; a side keeps its number of components.
         let is_literal = |id: ast::ExprId| matches!(self.ast[id].kind, A::Int(_) | A::Float(_) | A::Uint(_));
         let left_changes = match (is_literal(left.1), is_literal(right.1)) {
             (true, false) if self.as_scalar(left.1, b).is_some() => true,
@@ -258,11 +260,11 @@ impl Checker<'_> {
     }
 }
 
-/// Holds what to write instead of a value.
+/// A replacement for a value.
 pub(super) struct Mend {
-    /// The conversion that GLSL ES does not make by itself, if that is the trouble.
+    /// The conversion that GLSL ES does not make implicitly, if that is the problem.
     converts: Option<(Scalar, Scalar)>,
-    /// With `..` for what it is now; empty for a literal that only needs a `u`.
+    /// The new text, with `..` in place of the old one; empty for a literal that only needs a `u`.
     text: String,
 }
 
@@ -271,12 +273,12 @@ impl Mend {
         Self { converts, text }
     }
 
-    /// Can stand in one line with others of its kind.
+    /// Returns whether it can be listed in one line with others of its kind.
     fn is_plain(&self) -> bool {
         !self.text.is_empty() && !self.text.contains("..")
     }
 
-    /// Returns what it does, in a menu.
+    /// Returns the title of the fix, for menus.
     fn title(&self) -> String {
         match self.text.strip_prefix("..") {
             _ if self.text.is_empty() => "Add `u`".to_owned(),

@@ -1,5 +1,5 @@
-//! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration
-//! can be.
+//! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and the other kinds of
+//! declarations.
 
 use rustc_hash::FxHashSet;
 
@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Type of a variable, with its checked initialiser, which `[]` takes its size from.
+    /// Returns the type of a variable, with its checked initialiser, which determines the size of `[]`.
     pub(super) fn variable_type(
         &mut self,
         base: TypeId,
@@ -114,7 +114,7 @@ impl Checker<'_> {
         (ty, init)
     }
 
-    /// Returns the initialiser if it fits, converted where the language does that by itself.
+    /// Returns the initialiser if its type matches, converted where the language converts implicitly.
     fn check_init(&mut self, name: Ident, ty: TypeId, init: ExprId, written: ast::ExprId) -> Option<ExprId> {
         let init = if self.ty(init) == ty { init } else { self.implicit(written, ty) };
         if ty == TypeId::ERROR || self.ty(init) == TypeId::ERROR || self.is_void(init) {
@@ -127,7 +127,7 @@ impl Checker<'_> {
         fits.then_some(init)
     }
 
-    /// The value of a `const` variable, or what is wrong with its initialiser.
+    /// Returns the value of a `const` variable; reports errors in its initialiser.
     fn const_value(&mut self, name: Ident, ty: TypeId, init: Option<(ExprId, ast::ExprId)>) -> Option<ConstId> {
         let text = self.name(name.symbol);
         let Some((init, written)) = init else {
@@ -154,7 +154,7 @@ impl Checker<'_> {
         self.as_const(init)
     }
 
-    /// A folded expression's value as a constant of the module.
+    /// Returns a folded expression's value as a constant of the module.
     fn as_const(&mut self, init: ExprId) -> Option<ConstId> {
         let expr = self.module[init];
         match expr.kind {
@@ -179,7 +179,7 @@ impl Checker<'_> {
         let precision = quals.precision_of(self, base);
         if quals.constant.is_some() {
             let value = self.const_value(name, ty, init);
-            // Without a value it goes on as a variable, so that its uses are not reported as well.
+            // Without a value it is treated as a variable, so that its uses are not reported as well.
             let kind = if value.is_some() { LocalKind::Const } else { LocalKind::Var };
             self.add_local(name, ty, kind, precision, value);
             return;
@@ -228,7 +228,7 @@ impl Checker<'_> {
             Some((Q::Uniform, _)) => GlobalStorage::Uniform,
             Some((Q::In, _)) => GlobalStorage::In,
             Some((Q::Out, _)) if self.env.is_stage() => GlobalStorage::Out,
-            // The pass has an output already: a variable like any other, of which more is said at the end.
+            // The pass already has an output: this is an ordinary variable, reported at the end if it is used.
             Some((Q::Out, _)) => GlobalStorage::Private,
             _ if quals.constant.is_some() => GlobalStorage::Const,
             _ => GlobalStorage::Private,
@@ -303,15 +303,15 @@ impl Checker<'_> {
         (global.flat, global.location) = (quals.flat, location);
     }
 
-    /// Returns whether a variable is there already because the text of the vertex shader, which stands before this one,
-    /// declares what it hands on.
+    /// Returns whether a variable already exists because the text of the vertex shader, which precedes this one,
+    /// declares it as an output.
     fn is_of_other_stage(&self, name: Ident, ty: TypeId, init: Option<ExprId>) -> bool {
         self.settings.dialect.joins_stages()
             && init.is_none()
             && matches!(self.scopes.here(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
     }
 
-    /// The number of a `layout(location = n)`.
+    /// Returns the number in a `layout(location = n)`.
     fn location(&mut self, quals: &Qualifiers) -> Option<u32> {
         let (_, items) = quals.layout?;
         let ast = self.ast;
@@ -327,9 +327,9 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns whether nothing but constants goes into an expression. Where that is no constant expression, a comma operator is
-    /// in it (section 12.43). ANGLE takes such an initialiser of a variable: its `ValidateGlobalInitializer` looks at what is
-    /// read and called, not at the operators.
+    /// Returns whether an expression contains only constants. If it is nevertheless not a constant expression, it
+    /// contains a comma operator (section 12.43). ANGLE accepts such an initialiser of a variable: its
+    /// `ValidateGlobalInitializer` checks what is read and called, not the operators.
     fn reads_only_constants(&self, init: ExprId) -> bool {
         let mut left = vec![init];
         while let Some(expr) = left.pop() {
@@ -351,7 +351,8 @@ impl Checker<'_> {
         true
     }
 
-    /// Section 4.3: an initialiser at file scope must be a constant expression, for any variable.
+    /// Reports an initialiser at file scope that is not a constant expression, which section 4.3 requires for any
+    /// variable.
     #[cold]
     fn not_constant_global(&mut self, name: Ident, init: ExprId) {
         let (text, at) = (self.name(name.symbol), self.loc(init));
@@ -386,7 +387,7 @@ impl Checker<'_> {
         id
     }
 
-    /// `invariant a, b;` and `layout(..) uniform;`.
+    /// Checks `invariant a, b;` and `layout(..) uniform;`.
     fn qualify(&mut self, qualifiers: List<ast::Qualifier>, names: List<Ident>, loc: Loc) {
         let quals = self.qualifiers(qualifiers, DeclContext::Global);
         let ast = self.ast;
@@ -414,7 +415,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A uniform block: nobody fills it, so its members are zero.
+    /// Checks a uniform block: nothing fills it, so its members are zero.
     fn block(
         &mut self,
         qualifiers: List<ast::Qualifier>,

@@ -1,16 +1,16 @@
-//! Says what is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for
-//! each kind of pass, and the entry point the header declares.
+//! The environment before the first line: the built-ins of chapters 7 and 8, Shadertoy's uniforms and channels for each
+//! kind of pass, and the entry point that the header declares.
 
 use crate::{
     hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
     source::{CustomUniformKind, PassKind},
 };
 
-/// The header that stands before the text.
+/// The header that precedes the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Env {
     Pass(PassKind),
-    /// Common alone: `iDate` and `iSampleRate`. The rest is in scope too, but naming it is noted.
+    /// Common alone: `iDate` and `iSampleRate`. The rest is in scope too, but its uses are noted.
     Common,
 }
 
@@ -37,23 +37,23 @@ impl Env {
         variable.is_of_vertices() == self.is_vertex()
     }
 
-    /// Returns whether it is a stage of a program that draws meshes.
+    /// Returns whether this is a stage of a program that draws meshes.
     pub(crate) fn is_stage(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_stage())
     }
 
-    /// Returns whether it is called once for each vertex.
+    /// Returns whether the entry point is called once per vertex.
     pub(crate) fn is_vertex(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_vertex())
     }
 
-    /// Returns whether it declares all its inputs itself.
+    /// Returns whether the text declares all its inputs itself.
     pub(crate) fn is_plain(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_plain())
     }
 }
 
-/// The built-in constants of section 7.3, at the least values the specification promises.
+/// The built-in constants of section 7.3, with the minimum values that the specification guarantees.
 pub(crate) const LIMITS: [(&str, i32); 11] = [
     ("gl_MaxVertexAttribs", 16),
     ("gl_MaxVertexUniformVectors", 256),
@@ -68,7 +68,7 @@ pub(crate) const LIMITS: [(&str, i32); 11] = [
     ("gl_MaxProgramTexelOffset", MAX_OFFSET),
 ];
 
-/// Legal range of the constant offsets of section 8.8.
+/// The legal range of the constant offsets of section 8.8.
 pub(super) const MIN_OFFSET: i32 = -8;
 pub(super) const MAX_OFFSET: i32 = 7;
 
@@ -83,11 +83,11 @@ pub(crate) const VARIABLES: [(&str, BuiltinVar); 8] = [
     ("gl_FragDepth", BuiltinVar::FragDepth),
 ];
 
-/// Uniforms that every text may name, Common among them.
+/// Uniforms that every text may name, including Common.
 pub(super) const EVERYWHERE: [Uniform; 2] = [Uniform::Date, Uniform::SampleRate];
 
-/// The names that do not mean the same in every pass that is no stage, or not in every place of one: what the site's
-/// header gives to some, and the entry points.
+/// Returns the names whose meaning differs between passes that are not stages, or between places in one: those that
+/// Shadertoy's header declares for some, and the entry points.
 pub(super) fn differ() -> impl Iterator<Item = &'static str> {
     let uniforms = Uniform::ALL.iter().filter(|u| !EVERYWHERE.contains(u)).map(|u| u.name());
     let kinds = [PassKind::Image, PassKind::Cubemap, PassKind::Sound, PassKind::Fragment];
@@ -99,7 +99,7 @@ pub(super) fn differ() -> impl Iterator<Item = &'static str> {
 pub(crate) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
 pub(crate) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
 
-/// Names that the language or the site gives besides functions and uniforms.
+/// Returns the names that the language or Shadertoy defines besides functions and uniforms.
 #[cfg(test)]
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
@@ -109,7 +109,7 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     limits.chain(variables).chain(channels).chain(entries).chain(["gl_DepthRange", "iGlobalTime"])
 }
 
-/// Name and signature of a kind's entry point; `usage` is what an author has to write.
+/// The name and signature of a kind's entry point; `usage` is what an author has to write.
 pub(crate) struct Entry {
     pub name: &'static str,
     pub result: TypeId,
@@ -117,7 +117,7 @@ pub(crate) struct Entry {
     pub usage: &'static str,
 }
 
-/// The parameter that an entry point draws with, as [`Entry::usage`] calls it.
+/// The output parameter of an entry point, as [`Entry::usage`] names it.
 pub(crate) const OUTPUT: &str = "fragColor";
 
 pub(crate) fn entry(kind: PassKind) -> Entry {
@@ -158,8 +158,8 @@ pub(crate) fn custom_uniform_type(kind: CustomUniformKind) -> TypeId {
     }
 }
 
-/// Returns the reason that nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the
-/// site has it already.
+/// Returns the reason that nothing can be declared as `name`, if there is one: it is a keyword, or the language or
+/// Shadertoy defines it.
 pub fn taken(name: &str) -> Option<&'static str> {
     let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
     if Uniform::ALL.iter().any(|u| u.name() == name) || CHANNELS.contains(&name) || CHANNEL_STRUCTS.contains(&name) {

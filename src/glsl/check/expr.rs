@@ -1,4 +1,4 @@
-//! Expressions: the loop over the tree's arena, names, and the kinds that need no rules of their own file.
+//! Expressions: the loop over the tree's arena, names, and the kinds whose rules are not in files of their own.
 
 use super::{checker::Checker, scope::Binding};
 use crate::{
@@ -24,14 +24,14 @@ impl<'a> Checker<'a> {
         if !self.pending_channels.is_empty() {
             self.report_pending_channels();
         }
-        // A node a level at least: most expressions need no look.
+        // There is at least one node per level, so most expressions need no further check.
         if root.index() - first >= MAX_NESTING as usize && self.height(first, root) > MAX_NESTING {
             return self.too_deep(root);
         }
         self.lowered[root.index()].expect("the root is in the range")
     }
 
-    /// Levels of the tree under `root`, left spines not counted, nor what was folded to a constant.
+    /// Returns the number of levels of the tree under `root`, not counting left spines and folded constants.
     fn height(&self, first: usize, root: ast::ExprId) -> u32 {
         let ast = self.ast;
         let mut heights: Vec<u32> = Vec::with_capacity(root.index() + 1 - first);
@@ -56,8 +56,8 @@ impl<'a> Checker<'a> {
         heights.last().copied().unwrap_or(0) + 1
     }
 
-    /// Refuses an expression whose tree is too deep. Nothing reaches the tree afterwards: what reads programs recurses
-    /// as deep as their trees.
+    /// Rejects an expression whose tree is too deep. Nothing visits the tree afterwards: the passes over programs
+    /// recurse as deep as their trees.
     #[cold]
     fn too_deep(&mut self, root: ast::ExprId) -> ExprId {
         let loc = self.ast[root].loc;
@@ -70,7 +70,7 @@ impl<'a> Checker<'a> {
         id
     }
 
-    /// Post-order, so the first node of an expression is its leftmost leaf.
+    /// Returns the first node of an expression: in post-order, its leftmost leaf.
     fn first_of(&self, root: ast::ExprId) -> usize {
         let mut at = root;
         loop {
@@ -83,8 +83,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Between the nodes of a tree that had syntax errors may lie others that were given up: only what hangs on the
-    /// root counts.
+    /// Checks an expression of a tree that had syntax errors: between its nodes there may be discarded ones, so only
+    /// those reachable from the root are checked.
     #[cold]
     fn expr_in_broken_tree(&mut self, first: usize, root: usize) {
         let mut wanted = vec![false; root + 1 - first];
@@ -104,7 +104,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// HIR of a child that was checked before.
+    /// Returns the HIR of a child that has been checked.
     #[inline]
     pub(super) fn done(&self, id: ast::ExprId) -> ExprId {
         self.lowered[id.index()].expect("children come first")
@@ -173,7 +173,7 @@ impl<'a> Checker<'a> {
                         self.push(ExprKind::Global(id), ty, ExprFlags::PLACE, loc)
                     }
                     GlobalStorage::Uniform if value.is_some() => {
-                        // Known, and yet no constant expression to the language.
+                        // Its value is known, but it is not a constant expression in the language.
                         let expr = self.folded(value, loc);
                         self.module[expr].flags = ExprFlags::default();
                         expr
@@ -234,7 +234,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A use of a `const` variable: its value, whose words all uses share.
+    /// Returns a use of a `const` variable: its value, whose words are shared by all uses.
     fn folded(&mut self, value: Option<hir::ConstId>, loc: Loc) -> ExprId {
         let Some(id) = value else { return self.error_expr(loc) };
         let hir::Const { ty, words } = self.module[id];
@@ -254,7 +254,7 @@ impl<'a> Checker<'a> {
         self.push(ExprKind::Uniform(uniform), ty, ExprFlags::default(), loc)
     }
 
-    /// Type of a uniform of the site's that is named at `loc`.
+    /// Returns the type of a Shadertoy uniform that is named at `loc`.
     pub(super) fn uniform_type(&mut self, uniform: hir::Uniform, loc: Loc) -> TypeId {
         match uniform {
             hir::Uniform::ChannelTime => self.array_type(TypeId::FLOAT, 4, loc),
@@ -264,11 +264,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `gl_DepthRange`, whose window is always 0 to 1 here.
+    /// Returns `gl_DepthRange`, whose range is always 0 to 1 here.
     fn depth_range(&mut self, symbol: Symbol, loc: Loc) -> ExprId {
         if self.depth_range.is_none() {
             let here = |symbol| ast::Ident { symbol, token: loc.first };
-            // A member the text never names cannot be asked for either; the struct's own name stands in for it.
+            // A member that the text never names cannot be accessed either; the struct's own name is used instead.
             let members = ["near", "far", "diff"].map(|name| hir::StructMember {
                 name: here(self.names.find(name).unwrap_or(symbol)),
                 ty: TypeId::FLOAT,
@@ -296,7 +296,7 @@ impl<'a> Checker<'a> {
         let (c, t, o) = (self.done(cond), self.done(then), self.done(otherwise));
         let (tt, ot) = (self.ty(t), self.ty(o));
         if !self.expect_bool(c, cond, "the condition of `?:`") || tt == TypeId::ERROR || ot == TypeId::ERROR {
-            // The type may still be known, which spares the reader of the surrounding expression a guess.
+            // The type may still be known, so that the surrounding expression can be checked.
             let id = self.error_expr(loc);
             if tt == ot {
                 self.module[id].ty = tt;
@@ -333,7 +333,7 @@ impl<'a> Checker<'a> {
         self.push(ExprKind::Ternary { cond: c, then: t, otherwise: o }, tt, flags, loc)
     }
 
-    /// Never a constant expression (section 12.43), even of constants.
+    /// Checks a comma operator, which is never a constant expression (section 12.43), even of constants.
     fn comma(&mut self, lhs: ExprId, rhs: ExprId, loc: Loc) -> ExprId {
         let ty = self.ty(rhs);
         for side in [lhs, rhs] {
@@ -351,7 +351,7 @@ impl<'a> Checker<'a> {
 
     // --------------------------------------------------------------------------------------------------------- places
 
-    /// The variable, call or constant that a chain of members, components and indices begins with.
+    /// Returns the variable, call or constant at the root of a chain of members, components and indices.
     pub(super) fn root_of(&self, expr: ExprId) -> ExprId {
         let mut at = expr;
         loop {
@@ -373,7 +373,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether `expr` may be written to; otherwise says why not. `doing` is what is tried: `assigned to`.
+    /// Returns whether `expr` may be written to; otherwise reports why not. `doing` describes the attempt: `assigned
+    /// to`.
     pub(super) fn place(&mut self, expr: ExprId, doing: &str) -> bool {
         if self.ty(expr) == TypeId::ERROR {
             return false;
@@ -400,7 +401,7 @@ impl<'a> Checker<'a> {
                     at = base;
                 }
                 ExprKind::Member { base, .. } | ExprKind::Index { base, .. } => at = base,
-                // Said already.
+                // Already reported.
                 ExprKind::Error => return,
                 _ => break,
             }
@@ -444,9 +445,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The name that an expression written as `name`, `name.member`, `name[index]` and so on begins with.
+    /// Returns the name at the root of an expression written as `name`, `name.member`, `name[index]` and so on.
     fn named_root(&self, expr: ExprId) -> Option<Symbol> {
-        // A constructor that leaves no node gives its argument's: what was written last counts.
+        // A constructor without a node shares that of its argument: the one written last is used.
         if self.is_full() {
             return None;
         }
@@ -460,8 +461,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns whether something in the full expression checked last was reported, so that what it is not need not be
-    /// said.
+    /// Returns whether an error was reported in the full expression checked last, so that follow-up errors are not
+    /// needed.
     #[cold]
     pub(super) fn is_broken(&self) -> bool {
         self.is_full() || self.module.exprs[self.full_expr..].iter().any(|expr| matches!(expr.kind, ExprKind::Error))

@@ -1,43 +1,43 @@
-//! Says what the checker knows of a type beyond its kind, and of a function.
+//! The checker's additional information about types and functions.
 
 use crate::{
     ast::Loc,
     hir::{FuncId, Type, TypeId, TypeTable},
 };
 
-/// Most scalars a type may hold: 16 MiB, ANGLE's limit for a shader's private variables.
+/// The maximum number of scalars in a type: 16 MiB, ANGLE's limit for a shader's private variables.
 pub(super) const MAX_WORDS: u32 = 1 << 22;
 
 pub(super) const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
 
-/// Per function of [`Module::functions`](crate::hir::Module::functions), what only the checker needs.
+/// Per function of [`Module::functions`](crate::hir::Module::functions), the information that only the checker needs.
 #[derive(Clone)]
 pub(super) struct FuncFacts {
-    /// Next overload of the same name.
+    /// The next overload of the same name.
     pub next: Option<FuncId>,
-    /// The last overload; only the first one keeps it.
+    /// The last overload; only stored in the first one.
     pub last: FuncId,
-    /// First place it is called from, for messages about what cannot be called.
+    /// The location of its first call, for messages about calls that are errors.
     pub first_call: Option<Loc>,
-    /// Stamp of the last function that was seen calling this one, so that `calls` names it once.
+    /// The last function that was seen calling this one, so that it is listed once in `calls`.
     pub called_by: u32,
 }
 
-/// Holds what the checker knows of a type beyond [`Type`]; found once, when the type is made.
+/// The checker's information about a type in addition to [`Type`]; computed once, when the type is made.
 #[derive(Clone, Copy)]
 pub(super) struct TypeFacts {
-    /// Scalars in a value of it, up to [`MAX_WORDS`].
+    /// The number of scalars in a value of the type, up to [`MAX_WORDS`].
     pub words: u32,
-    /// Is or holds a sampler.
+    /// The type is or contains a sampler.
     pub opaque: bool,
-    /// Is or holds an array.
+    /// The type is or contains an array.
     pub arrays: bool,
-    /// Structs inside one another.
+    /// The nesting depth of structs.
     pub nesting: u8,
 }
 
 impl TypeFacts {
-    /// Takes in one more member.
+    /// Adds the facts of one more member.
     pub fn add(&mut self, member: TypeFacts) {
         self.words = self.words.saturating_add(member.words);
         self.opaque |= member.opaque;

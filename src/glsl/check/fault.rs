@@ -1,5 +1,5 @@
-//! Operations on constants whose result GLSL ES 3.00 leaves open, or that is no finite number. They are folded, so that
-//! no device and no walk comes to them.
+//! Operations on constants whose result is undefined in GLSL ES 3.00 or not a finite number. They are folded, so
+//! neither devices nor the CPU interpreter (`walk`) execute them.
 
 use super::checker::Checker;
 use crate::ast::Loc;
@@ -11,13 +11,14 @@ const NAN: &str = "this is NaN, which a GPU need not support: the result is unde
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub loc: Loc,
-    /// The result is undefined; else it is an infinity of finite numbers, which section 4.5.1 demands.
+    /// The result is undefined; otherwise it is an infinity computed from finite numbers, which section 4.5.1 requires.
     pub is_undefined: bool,
-    /// The fault in words for a person. Sections are those of the specification.
+    /// The description for users. Sections are those of the specification.
     pub what: &'static str,
 }
 
-/// A NaN came of numbers, or an infinity of finite ones.
+/// Returns whether a NaN was computed from numbers that are not NaN, and whether an infinity was computed from finite
+/// ones.
 pub(super) fn born<'w>(given: impl Iterator<Item = &'w [u32]> + Clone, result: &[u32]) -> (bool, bool) {
     let float = |bits: &u32| f32::from_bits(*bits);
     let has = |is: fn(f32) -> bool| given.clone().flatten().any(|bits| is(float(bits)));
@@ -31,7 +32,7 @@ impl Checker<'_> {
         self.faults.push(Fault { loc, is_undefined: true, what });
     }
 
-    /// Notes what floats came of constants: `given` are those that went in. Infinities are often meant, and no warning.
+    /// Records NaNs and infinities computed from constants. Infinities are often intended, so they are not reported.
     pub(super) fn note_floats(&mut self, loc: Loc, is_nan: bool, is_infinite: bool) {
         if is_nan {
             self.undefined(loc, NAN);

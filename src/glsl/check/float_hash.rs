@@ -1,8 +1,8 @@
-//! Hashes by `fract(sin(x) * large)`, which give other numbers on every GPU, and the integer hash that replaces them.
+//! Detects hashes of the form `fract(sin(x) * large)`, which differ on every GPU, and offers an integer hash instead.
 //!
-//! Vulkan allows `sin` and `cos` an absolute error of 2^-11 within -pi to pi and says nothing of larger angles (Vulkan
-//! 1.3, "Precision of Individual Operations"). A large factor makes whole numbers of that error, and `fract` keeps what
-//! is left of them.
+//! Vulkan allows `sin` and `cos` an absolute error of 2^-11 within -pi to pi and specifies nothing for larger angles
+//! (Vulkan 1.3, "Precision of Individual Operations"). A large factor scales that error beyond 1, and `fract` keeps the
+//! remainder.
 
 use super::checker::Checker;
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
 };
 use eddy_diag::{Edit, Fix, Span};
 
-/// The least factor that is reported: the allowed error times 256 is an eighth of the range of `fract`.
+/// The smallest factor that is reported: the allowed error times 256 is an eighth of the range of `fract`.
 const MIN_FACTOR: f32 = 256.0;
 
 /// An angle whose sine is hashed.
@@ -22,21 +22,21 @@ struct Hash {
     function: Builtin,
     angle: ExprId,
     factor: f32,
-    /// Nothing that varies is added to the product, so that a hash of the angle can stand for the whole.
+    /// Nothing that varies is added to the product, so that a hash of the angle can replace the whole expression.
     is_alone: bool,
 }
 
-/// The value that an integer hash takes in place of an angle.
+/// The value that an integer hash takes instead of an angle.
 struct Input {
     ty: TypeId,
-    /// The place where it is written, or the name of the variable.
+    /// The span of its text, or the name of the variable.
     text: Result<Span, Symbol>,
-    /// Tells hashes of one value apart that differ in their constants.
+    /// Distinguishes hashes of the same value that have different constants.
     seed: u32,
 }
 
 impl Checker<'_> {
-    /// Notes every such hash in the functions of a program without errors: once for each place, once for each macro.
+    /// Reports every such hash in the functions of an error-free program: once per place, and once per macro.
     pub(super) fn finish_float_hashes(&mut self) {
         let mut in_macros: Vec<Span> = Vec::new();
         for func in self.module.call_order.clone() {
@@ -61,7 +61,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns the hash that an expression is: `fract` or `mod(.., 1.0)` of a large multiple of a sine.
+    /// Returns the hash that an expression computes: `fract` or `mod(.., 1.0)` of a large multiple of a sine.
     fn float_hash(&self, at: ExprId) -> Option<Hash> {
         let ExprKind::Builtin { builtin, args } = self.module[at].kind else { return None };
         let args = &self.module[args];
@@ -114,8 +114,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns the fix that hashes by integers what a float hash takes the sine of: the call, and the function before
-    /// the one that calls it unless it is there already.
+    /// Returns the fix that replaces a float hash with an integer hash of its angle: the call, and the helper function
+    /// before the calling function, unless it already exists.
     fn integer_hash(&self, func: FuncId, at: ExprId, hash: &Hash) -> Option<Fix> {
         let whole = self.written_at(self.module[at].loc).filter(|_| hash.is_alone)?;
         let input = self.input(func, hash.angle)?;
@@ -144,7 +144,7 @@ impl Checker<'_> {
         Some(Fix::new(format!("Replace with the integer hash `{name}`"), edits))
     }
 
-    /// Returns whether a name is that of the function which an earlier fix put before this one.
+    /// Returns whether a name is that of the function which an earlier fix inserted before this one.
     fn is_helper(&self, name: Symbol, user: FuncId, from: TypeId, to: TypeId) -> bool {
         let first = self.module[user].loc.first;
         (0..self.module.functions.len()).map(FuncId::new).any(|func| {
@@ -163,8 +163,8 @@ impl Checker<'_> {
         (size <= 4 && ty == TypeId::vector(Scalar::Float, size as u8)).then_some(size)
     }
 
-    /// Returns what a hash of an angle shall take: the variable in it, without the constants that it is scaled by. The
-    /// product's last bits differ between GPUs, too, which may fuse its operations.
+    /// Returns the input of the new hash: the variable in an angle, without the constants that it is scaled by. The
+    /// last bits of the product differ between GPUs, too, which may fuse its operations.
     fn input(&self, func: FuncId, angle: ExprId) -> Option<Input> {
         let (mut at, mut seed, mut by_name) = (angle, 0u32, None);
         loop {
@@ -176,7 +176,7 @@ impl Checker<'_> {
                         (Some(words), None) => (rhs, words),
                         _ => break,
                     };
-                    // Of a scalar that meets a vector each component differs.
+                    // If a scalar is combined with a vector, the components differ.
                     if self.module[of].ty != expr.ty {
                         break;
                     }
@@ -190,7 +190,7 @@ impl Checker<'_> {
                     }
                     break;
                 }
-                // The dots of one variable with several constants.
+                // The dot products of one variable with several constants.
                 ExprKind::Vector(args) => {
                     let dots: Option<Vec<_>> = self.module[args].iter().map(|arg| self.of_dot(*arg)).collect();
                     let Some(dots) = dots else { break };
@@ -208,7 +208,7 @@ impl Checker<'_> {
                     at = dots[0].0;
                     break;
                 }
-                // A variable that is such a product.
+                // A variable whose value is such a product.
                 ExprKind::Local(local) if by_name.is_none() => match self.only_value(local) {
                     Some(value) if self.has_dot(value) => (at, by_name) = (value, Some(local)),
                     _ => break,
@@ -260,7 +260,7 @@ impl Checker<'_> {
         false
     }
 
-    /// Returns the value that a variable is declared with, if it keeps it.
+    /// Returns the value that a variable is declared with, if it never changes.
     fn only_value(&self, local: LocalId) -> Option<ExprId> {
         if self.module[local].flags.contains(VarFlags::WRITTEN) {
             return None;
@@ -282,7 +282,7 @@ impl Checker<'_> {
             })
     }
 
-    /// Returns the name of a variable that is never written and whose name no other variable of the function has.
+    /// Returns the name of a variable if it is never written and no other variable of the function has the same name.
     fn steady_name(&self, func: FuncId, local: LocalId) -> Option<Symbol> {
         let symbol = self.module[local].name?.symbol;
         let range = self.module[func].locals.clone();
@@ -300,14 +300,14 @@ impl Checker<'_> {
     }
 }
 
-/// FNV-1a over words (G. Fowler, L. C. Noll, K.-P. Vo, 1991).
+/// Computes FNV-1a over words (G. Fowler, L. C. Noll, K.-P. Vo, 1991).
 fn mixed(seed: u32, words: &[u32]) -> u32 {
     let bytes = words.iter().flat_map(|word| word.to_le_bytes());
     let mixed = bytes.fold(seed ^ 0x811c_9dc5, |mixed, byte| (mixed ^ u32::from(byte)).wrapping_mul(0x0100_0193));
     mixed ^ mixed >> 16
 }
 
-/// Returns a function of GLSL ES 3.00 that makes `to` numbers in 0..1 of the bits of `from` floats.
+/// Returns a function of GLSL ES 3.00 that computes `to` numbers in 0..1 from the bits of `from` floats.
 fn helper(name: &str, from: u32, to: u32) -> String {
     let vector = |scalar: &str, vector: &str, size: u32| match size {
         1 => scalar.to_owned(),

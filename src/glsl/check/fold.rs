@@ -1,20 +1,20 @@
-//! Values of operators and conversions on constants, bit for bit as a device with 32-bit floats and wrapping ints has
-//! them. What the specification leaves undefined is what ANGLE makes of it.
+//! Values of operators and conversions on constants, bit for bit as on a device with 32-bit floats and wrapping ints.
+//! What the specification leaves undefined has the value that ANGLE computes.
 
 use crate::{
     hir::{BinaryOp, Scalar, Shape, UnaryOp},
     undefined,
 };
 
-/// Says what an author should know about a folded operation.
+/// A warning about a folded operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FoldWarning {
     DivisionByZero,
     ShiftRange,
 }
 
-/// One component from a scalar type to another (section 5.4.1). Out of range a float saturates as an int, and a
-/// negative one wraps as a uint.
+/// Converts one component from a scalar type to another (section 5.4.1). Out-of-range floats saturate as ints, and
+/// negative ones wrap as uints.
 pub(super) fn convert(bits: u32, from: Scalar, to: Scalar) -> u32 {
     use Scalar::{Bool, Float, Int, Uint};
     let float = f32::from_bits(bits);
@@ -45,7 +45,7 @@ pub(super) fn unary(op: UnaryOp, scalar: Scalar, bits: u32) -> u32 {
     }
 }
 
-/// One component of an operator; `right_signed` matters to shifts only.
+/// Evaluates one component of an operator; `right_signed` only affects shifts.
 pub(super) fn binary(
     op: BinaryOp,
     scalar: Scalar,
@@ -119,14 +119,14 @@ fn float(op: BinaryOp, a: f32, b: f32) -> u32 {
     }
 }
 
-/// Rows and columns of one side of a matrix product: a vector is one column on the right, one row on the left.
+/// The rows and columns of one side of a matrix product: a vector is one column on the right, one row on the left.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     pub columns: usize,
     pub rows: usize,
 }
 
-/// A linear algebraic product, column-major, sums from the first term on.
+/// Computes a linear algebraic product, column-major, with sums from the first term on.
 pub(super) fn product(shape: Shape, left: Grid, right: Grid, a: &[u32], b: &[u32]) -> super::words::ScalarWords {
     let (left, right) = match shape {
         Shape::VecMat => (Grid { columns: left.rows, rows: 1 }, right),

@@ -25,7 +25,7 @@ pub(super) struct FunctionSign<'s> {
 }
 
 impl Checker<'_> {
-    /// A new function; its name is bound, or put behind the overloads it has.
+    /// Adds a function; binds its name, or appends it to the overloads of that name.
     pub(super) fn add_function(&mut self, sign: FunctionSign<'_>, header: Loc, loc: Loc) -> FuncId {
         let id = self.add_unnamed_function(&sign, header, loc);
         match self.scopes.here(sign.symbol) {
@@ -42,7 +42,7 @@ impl Checker<'_> {
         id
     }
 
-    /// A function nothing can call: one whose name may not be declared.
+    /// Adds a function that nothing can call, because its name may not be declared.
     fn add_unnamed_function(&mut self, sign: &FunctionSign<'_>, header: Loc, loc: Loc) -> FuncId {
         let start = self.add_params(sign.params);
         self.module.functions.push(Function {
@@ -67,7 +67,7 @@ impl Checker<'_> {
         self.module.params(id).iter().map(|p| p.ty).collect()
     }
 
-    /// The overload that takes these types, of those of the first one's name.
+    /// Returns the overload that takes these types, among those with the first one's name.
     pub(super) fn overload(&self, first: FuncId, types: impl Iterator<Item = TypeId> + Clone) -> Option<FuncId> {
         if self.funcs[first.index()].next.is_none() {
             let params = self.module.params(first).iter().map(|p| p.ty);
@@ -89,7 +89,7 @@ impl Checker<'_> {
         start
     }
 
-    /// Returns where a function was declared first, unless the header did it.
+    /// Returns the location of the first declaration of a function, unless the header declares it.
     pub(super) fn function_at(&self, id: FuncId) -> Option<Loc> {
         self.module[id].declared_at.first().map(|&token| token.into())
     }
@@ -117,7 +117,7 @@ impl Checker<'_> {
                     true => format!("remove it: `{}` is called without it", entry.name),
                     false => format!("write `{}`", entry.usage),
                 });
-                // What `main` draws with is what the entry point does.
+                // `main` is taken for the entry point that draws.
                 if !is_there && kind.draws_pixels() && decl.body.is_some() {
                     self.fix_main(&decl);
                     let at = self.diagnostics.len() - 1;
@@ -138,7 +138,7 @@ impl Checker<'_> {
                     None => self.add_function(sign, decl.header, loc),
                 },
                 Some(_) => {
-                    // Says that the name is taken; what it stands for stays.
+                    // Reports that the name is taken; its binding stays.
                     self.declare(name, Binding::Poison);
                     self.add_unnamed_function(&sign, decl.header, loc)
                 }
@@ -158,7 +158,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A `main` becomes the entry point.
+    /// Offers to turn `main` into the entry point.
     fn fix_main(&mut self, decl: &ast::FunctionDecl) {
         let Env::Pass(kind) = self.env else { return };
         let header = env::entry(kind).usage.trim_end_matches(" { .. }");
@@ -227,12 +227,12 @@ impl Checker<'_> {
         signs
     }
 
-    /// The overload with these parameter types.
+    /// Returns the overload with these parameter types.
     fn same_params(&self, first: FuncId, params: &[ParamSign]) -> Option<FuncId> {
         self.overload(first, params.iter().map(|param| param.1))
     }
 
-    /// A prototype or definition of a function that was declared before.
+    /// Checks a prototype or definition of a function that was declared before.
     fn declared_again(&mut self, known: FuncId, sign: &FunctionSign<'_>, decl: ast::FunctionDecl, loc: Loc) -> FuncId {
         let name = self.name(sign.symbol);
         let first = self.function_at(known);
@@ -277,20 +277,20 @@ impl Checker<'_> {
         known
     }
 
-    /// Returns whether it is the entry point that the site's header declares.
+    /// Returns whether a function is the entry point that Shadertoy's header declares.
     pub(super) fn is_header_entry(&self, id: FuncId) -> bool {
         self.header_entry == Some(id)
     }
 
     fn define(&mut self, func: FuncId, decl: &ast::FunctionDecl, params: &[ParamSign], body: ast::StmtId, loc: Loc) {
-        // The body's locals follow the parameters, so a definition after a prototype has parameters of its own.
+        // The body's locals follow the parameters, so a definition after a prototype has its own parameters.
         let start = self.add_params(params);
         let function = &mut self.module[func];
         function.name = decl.name;
         function.header = decl.header;
         function.loc = loc;
         function.locals = start..start + params.len() as u32;
-        // Says that there is a body, before it is there: the function may (wrongly) be defined inside itself no more.
+        // Marks the function as defined before its body is checked, so that a definition inside itself is an error.
         function.body = Some(List::EMPTY);
         let result = function.result;
         let first_expr = self.module.exprs.len() as u32;

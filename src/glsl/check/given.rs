@@ -1,4 +1,4 @@
-//! Declarations of what is there already: the site's uniforms, which GLSL of other tools declares itself, and the
+//! Declarations of names that already exist: Shadertoy's uniforms, which GLSL of other tools declares itself, and the
 //! pass's output.
 
 use super::{checker::Checker, qualifiers::Qualifiers, scope::Binding};
@@ -8,7 +8,7 @@ use crate::{
 };
 
 impl Checker<'_> {
-    /// Type of what the header declares by this name, and what uses of it refer to.
+    /// Returns the type of a name that the header declares, and the target of its uses.
     fn given(&mut self, name: Ident) -> Option<(TypeId, DeclRef)> {
         let loc = Loc::from(name);
         Some(match self.scopes.get(name.symbol) {
@@ -19,8 +19,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Takes a declaration of a uniform that is there already: with its own type it changes nothing. Returns whether it
-    /// was one.
+    /// Checks a redeclaration of an existing uniform: with the same type it has no effect. Returns whether it was one.
     pub(super) fn uniform_again(
         &mut self,
         quals: &Qualifiers,
@@ -45,7 +44,7 @@ impl Checker<'_> {
         true
     }
 
-    /// Says what to make of a uniform that is there with the type `given`.
+    /// Reports a redeclaration of a uniform that has the type `given`.
     fn take_again(&mut self, name: Ident, ty: TypeId, given: TypeId) {
         let text = self.name(name.symbol);
         if ty == given {
@@ -63,8 +62,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Does the same as [`Checker::uniform_again`] for a member of a block without a name, which is a uniform of its
-    /// own.
+    /// As [`Checker::uniform_again`], for a member of an unnamed block, which is a uniform of its own.
     pub(super) fn member_again(&mut self, name: Ident, ty: TypeId) -> bool {
         let Some((given, target)) = self.given(name) else { return false };
         self.uses(name.token, target);
@@ -72,7 +70,7 @@ impl Checker<'_> {
         true
     }
 
-    /// Reports an interface variable whose name is taken, before more is said of it. Returns whether it is.
+    /// Reports an interface variable whose name is taken, before other checks. Returns whether it is taken.
     pub(super) fn is_taken(&mut self, name: Ident) -> bool {
         let is_taken = self.scopes.here(name.symbol).is_some_and(|previous| previous != Binding::Poison);
         if is_taken {
@@ -81,8 +79,8 @@ impl Checker<'_> {
         is_taken
     }
 
-    /// Says what to make of outputs at file scope, of which a pass has one already, its colour: those that nothing
-    /// names do no harm.
+    /// Reports the outputs at file scope of a pass, which already has one output, its colour: those that are never used
+    /// are harmless.
     pub(super) fn finish_outputs(&mut self) {
         for id in std::mem::take(&mut self.outputs) {
             let (name, is_used) = (self.module[id].name, self.module[id].flags.contains(VarFlags::USED));

@@ -1,5 +1,5 @@
-//! Checks what concerns the whole program: the entry point, calls of functions nobody defined, recursion, and the order
-//! in which functions must stand so that each is defined before it is called.
+//! Checks of the whole program: the entry point, calls of undefined functions, recursion, and an order of functions in
+//! which each comes before its callers.
 
 use super::{
     checker::Checker,
@@ -8,13 +8,13 @@ use super::{
 };
 use crate::hir::FuncId;
 
-/// Functions of a circle that are named.
-const SHOWN: usize = 8;
+/// The maximum number of functions that are listed for a cycle.
+const MAX_LISTED: usize = 8;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mark {
     New,
-    /// On the path being walked.
+    /// On the current path.
     Open,
     Done,
 }
@@ -28,7 +28,7 @@ impl Checker<'_> {
             self.module.entry = defined;
             return;
         }
-        // A syntax error may have swallowed it, or what was said about its header is the reason.
+        // A syntax error may have removed it, or an error in its header is the reason.
         let symbol = self.entry_symbol;
         let attempts: Vec<FuncId> = (0..self.module.functions.len())
             .map(FuncId::new)
@@ -92,7 +92,7 @@ impl Checker<'_> {
         }
         let mut marks = vec![Mark::New; self.funcs.len()];
         let mut order = Vec::with_capacity(self.funcs.len());
-        // The entry point comes last, behind what values of globals call.
+        // The entry point comes last, after the functions that initialisers of globals call.
         let roots: Vec<FuncId> = self.global_calls.iter().copied().chain(self.module.entry).collect();
         for root in roots {
             self.walk_calls(root, &mut marks, &mut order);
@@ -101,14 +101,14 @@ impl Checker<'_> {
             self.module[id].used = true;
         }
         self.module.call_order = order;
-        // Recursion is forbidden in what is never called, too.
+        // Recursion is also forbidden in functions that are never called.
         let mut rest = Vec::new();
         for i in 0..self.funcs.len() {
             self.walk_calls(FuncId::new(i), &mut marks, &mut rest);
         }
     }
 
-    /// Callees before callers, with a stack of its own: chains of calls may be long.
+    /// Orders callees before callers, with an explicit stack: chains of calls may be long.
     fn walk_calls(&mut self, root: FuncId, marks: &mut [Mark], order: &mut Vec<FuncId>) {
         if marks[root.index()] != Mark::New {
             return;
@@ -149,9 +149,9 @@ impl Checker<'_> {
         let message = if names.len() == 1 {
             format!("`{head}` calls itself; GLSL has no recursion")
         } else {
-            let mut shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-            if names.len() > SHOWN {
-                shown.push(format!("{} others", names.len() - SHOWN));
+            let mut shown: Vec<String> = names.iter().take(MAX_LISTED).map(|n| format!("`{n}`")).collect();
+            if names.len() > MAX_LISTED {
+                shown.push(format!("{} others", names.len() - MAX_LISTED));
             }
             shown.push(format!("`{head}`"));
             format!("these functions call each other recursively, which GLSL does not allow: {}", shown.join(" calls "))

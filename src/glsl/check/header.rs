@@ -1,4 +1,4 @@
-//! Puts into scope what is there before the first line.
+//! Declares the names in scope before the first line.
 
 use super::{
     checker::Checker,
@@ -13,8 +13,8 @@ use crate::{
 };
 
 impl Checker<'_> {
-    /// Fills the scopes with what is there before the first line of every text, whichever pass it belongs to: names
-    /// from this symbol on, as those before it have come up in texts that were checked.
+    /// Declares the names in scope before the first line of every text, for any kind of pass: those from the symbol
+    /// `from` on, because earlier ones already occurred in texts that were checked.
     pub(super) fn declare_language(&mut self, from: Symbol) {
         let builtins = Builtin::all().filter(|builtin| !builtin.is_of_image);
         let builtins = builtins.map(|builtin| (builtin.symbol(), Binding::Builtin(builtin)));
@@ -33,10 +33,10 @@ impl Checker<'_> {
         }
     }
 
-    /// Fills the scopes with what there is besides in this pass: the names of [`env::differ`], and the author's own
-    /// uniforms.
+    /// Declares the names specific to this pass: those of [`env::differ`], and the custom uniforms.
     pub(super) fn declare_pass(&mut self) {
-        // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
+        // Shadertoy defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its
+        // own.
         let dialect = self.settings.dialect;
         let is_image = self.env == Env::Pass(PassKind::Image) && dialect.has_extras();
         if is_image {
@@ -66,7 +66,7 @@ impl Checker<'_> {
             let entry = entry(kind);
             self.entry_symbol = self.names.find(entry.name);
             if let Some(symbol) = self.entry_symbol {
-                // The header's prototype stands nowhere in the text; the end of file stands for it.
+                // The header's prototype is not in the text; it is located at the end of the file.
                 let nowhere = TokenId(self.origins.tokens.len() as u32 - 1);
                 let params: Vec<_> = entry.params.iter().map(|&(kind, ty)| (None, ty, kind, None)).collect();
                 self.header_entry = Some(self.add_function(
@@ -76,7 +76,7 @@ impl Checker<'_> {
                 ));
             }
         }
-        // An author's own uniform hides what only the language gives, as a global would.
+        // A custom uniform hides names of the language, as a global would.
         for (i, custom_uniform) in self.settings.custom_uniforms.iter().enumerate() {
             self.give(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
         }
@@ -88,7 +88,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Type of `iChannelN`.
+    /// Returns the type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
         use crate::ChannelKind as C;
         TypeId::basic(match self.settings.channels[usize::from(channel)] {
@@ -98,7 +98,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Notes that Common named what only passes have.
+    /// Records that Common uses a name that only passes have.
     pub(super) fn note_in_common(&mut self, token: TokenId, target: DeclRef) {
         let refused = match target {
             DeclRef::Uniform(uniform) => !matches!(uniform, Uniform::Date | Uniform::SampleRate),

@@ -1,14 +1,15 @@
-//! Types, scopes and every rule of meaning: a syntax tree in, the typed program of [`super::hir`] and what is wrong
-//! out.
+//! Semantic analysis: checks types, scopes and every semantic rule of a syntax tree, and returns the typed program of
+//! [`super::hir`] and diagnostics.
 //!
-//! Owns chapters 4 to 8 of the GLSL ES 3.00 specification: declarations, conversions (there are none), overloads,
-//! places, constant expressions and their values, placement of statements, recursion, the site's uniforms and entry
-//! points. It judges as WebGL 2 does (ANGLE, the site's compiler): what that refuses is an error, what only ANGLE
-//! refuses a warning. It reads no text, only tokens' symbols, and decides nothing about how a construct is executed.
+//! Implements chapters 4 to 8 of the GLSL ES 3.00 specification: declarations, conversions (there are none), overloads,
+//! places, constant expressions and their values, placement of statements, recursion, Shadertoy's uniforms and entry
+//! points. It accepts what WebGL 2 accepts (ANGLE, Shadertoy's compiler): what the specification rejects is an error,
+//! what only ANGLE rejects a warning. It reads no text, only tokens' symbols, and does not decide how a construct is
+//! executed.
 //!
 //! One pass over the tree in text order. Expressions are checked in a loop over the arena (children come before
-//! parents), so no chain of operators is too long; statements recurse, no deeper than the parser's nesting limit. A
-//! scope is an undo stack over one table indexed by symbol, so looking a name up is one load.
+//! parents), so chains of operators may have any length; statements recurse, no deeper than the parser's nesting limit.
+//! A scope is an undo stack over one table indexed by symbol, so looking up a name is one load.
 
 mod access;
 mod call;
@@ -56,19 +57,19 @@ use checker::{Checker, Settings};
 use eddy_diag::{Diagnostic, Span};
 use env::Env;
 
-/// A program, right or wrong: the module exists for any tree, lowering wants one without errors.
+/// A program, with or without errors: the module exists for any tree, lowering requires one without errors.
 #[derive(Debug)]
 pub(crate) struct Checked {
     pub module: Module,
-    /// In the order in which they were found, which is text order but for what concerns the whole program.
+    /// In the order in which they were found, which is text order except for diagnostics of the whole program.
     pub diagnostics: Vec<Diagnostic>,
-    /// Operations on constants whose results are open or no finite numbers.
+    /// Operations on constants whose results are undefined or not finite numbers.
     pub faults: Vec<Fault>,
-    /// The name of the function that most of the program lies in, of a program without errors.
+    /// The name of the function that makes up the largest part of an error-free program.
     pub bulk: Option<Span>,
 }
 
-/// Checks one pass, whose texts `ast` is of; the first of them may have `begun` it.
+/// Checks one pass with the syntax tree `ast`; the first of its texts may already be checked in `begun`.
 pub(crate) fn check(
     ast: &Ast,
     origins: &Origins,
@@ -84,9 +85,8 @@ pub(crate) fn check(
     Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, bulk }
 }
 
-/// Returns what the site would refuse in Common because it compiles it alone, where only `iDate` and `iSampleRate`
-/// exist: one warning for each name that only passes have. What is wrong in any case is left to the passes, which
-/// report it.
+/// Returns what Shadertoy would reject in Common because it compiles it alone, where only `iDate` and `iSampleRate`
+/// exist: one warning for each name that only passes have. Other errors are reported with the passes.
 pub(crate) fn check_common(
     ast: &Ast,
     origins: &Origins,
@@ -99,8 +99,8 @@ pub(crate) fn check_common(
     checker.refused_in_common
 }
 
-/// Checks Common for every pass that is no stage at once. `mentions` tells whether a name stands in it: it must name
-/// nothing that [`env::differ`] has, nor any of the author's own uniforms. `None`: each pass has to check it.
+/// Checks Common once for every pass that is not a stage. `mentions` returns whether a name occurs in it: it must not
+/// use any name of [`env::differ`], nor any custom uniform. Returns `None` if each pass has to check it.
 pub(crate) fn begin(
     ast: &Ast,
     origins: &Origins,

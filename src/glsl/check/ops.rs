@@ -1,4 +1,4 @@
-//! Operators (sections 5.7 to 5.9): which types they take, what they give, and their values on constants.
+//! Operators (sections 5.7 to 5.9): the types they take and return, and their values on constants.
 
 use super::{
     checker::Checker,
@@ -86,7 +86,7 @@ impl Checker<'_> {
         self.push(ExprKind::IncDec { op, place }, ty, flags, loc)
     }
 
-    /// Wrong, but its type is known, so what uses it can be checked.
+    /// Returns an error expression of a known type, so that its uses can be checked.
     pub(super) fn error_expr_of(&mut self, ty: TypeId, loc: Loc) -> ExprId {
         let id = self.error_expr(loc);
         self.module[id].ty = ty;
@@ -100,7 +100,7 @@ impl Checker<'_> {
         let (l, r) = (self.done(lhs), self.done(rhs));
         let (lt, rt) = (self.ty(l), self.ty(r));
         if lt == TypeId::ERROR || rt == TypeId::ERROR {
-            // Comparisons give a bool whatever is wrong with their sides.
+            // Comparisons return a bool whatever is wrong with their sides.
             let ty = if gives_bool(op) { TypeId::BOOL } else { TypeId::ERROR };
             return self.error_expr_of(ty, loc);
         }
@@ -131,7 +131,7 @@ impl Checker<'_> {
         self.push(ExprKind::Binary { op, shape, lhs: l, rhs: r }, ty, flags, loc)
     }
 
-    /// Type and shape of `left op right`, `None` where the operator does not take them.
+    /// Returns the type and shape of `left op right`; `None` if the operator does not take these types.
     pub(super) fn operator_type(&self, op: Op, left: TypeId, right: TypeId) -> Option<(TypeId, Shape)> {
         let types = &self.module.types;
         match op {
@@ -180,7 +180,8 @@ impl Checker<'_> {
         }
     }
 
-    /// `*` where a matrix meets a matrix or vector (section 5.9): outer `None` if it is no such product.
+    /// Returns the type and shape of `*` on a matrix and a matrix or vector (section 5.9); the outer `None` means that
+    /// it is not such a product.
     #[expect(clippy::option_option)]
     fn product_type(&self, left: TypeId, right: TypeId) -> Option<Option<(TypeId, Shape)>> {
         let types = &self.module.types;
@@ -253,14 +254,15 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN nothing.
+    /// Returns whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN equals
+    /// nothing.
     fn equal_constants(&self, ty: TypeId, l: ExprId, r: ExprId) -> Option<bool> {
         let (a, b) = (self.words(l)?, self.words(r)?);
         let mut at = 0;
         Some(self.equal_words(ty, a, b, &mut at))
     }
 
-    /// Stops at the first difference. Recursion is bounded by the nesting of structs, which is limited.
+    /// Compares words up to the first difference. Recursion is bounded by the nesting of structs, which is limited.
     fn equal_words(&self, ty: TypeId, a: &[u32], b: &[u32], at: &mut usize) -> bool {
         match self.module.types.get(ty) {
             Type::Array { element, len } => (0..len).all(|_| self.equal_words(element, a, b, at)),

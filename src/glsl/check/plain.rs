@@ -1,4 +1,4 @@
-//! Refuses what a plain shader cannot have, because WebGPU has nothing for it.
+//! Rejects features that a plain shader cannot have, because WebGPU lacks them.
 
 use super::{checker::Checker, qualifiers::Qualifiers};
 use crate::{
@@ -7,11 +7,11 @@ use crate::{
     hir::{Builtin, BuiltinVar, GlobalId, Scalar, Type, TypeId},
 };
 
-/// Samplers that a program can tell apart.
+/// The maximum number of samplers in a program.
 const MAX_SAMPLERS: usize = 128;
 
 impl Checker<'_> {
-    /// Takes a uniform that a plain shader declares, whose type is written at `loc`.
+    /// Checks a uniform that a plain shader declares, whose type is written at `loc`.
     pub(super) fn plain_uniform(&mut self, id: GlobalId, loc: Loc) {
         let ty = self.module[id].ty;
         if !self.facts(ty).opaque {
@@ -49,7 +49,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports a layout by rows, which buffers of a plain shader do not have.
+    /// Reports a row-major layout, which buffers of a plain shader do not support.
     pub(super) fn refuse_row_major(&mut self, quals: &Qualifiers) {
         let Some((_, items)) = quals.layout.filter(|_| self.env.is_plain()) else { return };
         let ast = self.ast;
@@ -61,7 +61,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks a built-in variable where it is named.
+    /// Checks a use of a built-in variable.
     pub(super) fn plain_variable(&mut self, variable: BuiltinVar, symbol: Symbol, loc: Loc) {
         if !self.env.is_plain() {
             return;
@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks a call that reads a texture: `types` are of its arguments, the sampler first.
+    /// Checks a call that reads a texture: `types` are those of its arguments, the sampler first.
     pub(super) fn plain_texture_call(&mut self, builtin: Builtin, types: &[TypeId], loc: Loc) {
         let Some(&sampler) = types.first().filter(|_| self.env.is_plain()) else { return };
         let Type::Sampler { scalar, shadow, .. } = self.module.types.get(sampler) else { return };

@@ -1,4 +1,4 @@
-//! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
+//! Qualifiers (sections 4.3 to 4.8): where they are allowed, in which order, and on which types.
 
 use super::checker::Checker;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     hir::{LocalKind, Scalar, Type, TypeId},
 };
 
-/// Says where qualifiers stand.
+/// The context of a declaration with qualifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DeclContext {
     Global,
@@ -17,7 +17,7 @@ pub(super) enum DeclContext {
     Block,
 }
 
-/// Qualifiers sorted out; what does not belong has been reported and left out.
+/// Parsed qualifiers; invalid ones have been reported and dropped.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Qualifiers {
     pub constant: Option<TokenId>,
@@ -31,7 +31,7 @@ pub(super) struct Qualifiers {
     pub layout: Option<(TokenId, List<LayoutItem>)>,
 }
 
-/// Says what a layout is written on.
+/// The declaration that a layout qualifies.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum LayoutOf {
     /// A block, or the default for all blocks.
@@ -55,7 +55,7 @@ impl Qualifiers {
         }
     }
 
-    /// As written, or the default of the type.
+    /// Returns the precision as written, or the default of the type.
     pub fn precision_of(&self, checker: &Checker<'_>, base: TypeId) -> Option<Precision> {
         self.precision.map(|(precision, _)| precision).or_else(|| checker.default_precision(base))
     }
@@ -156,7 +156,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Precision only on numbers and samplers, and samplers that have no default must have one (section 4.5.4).
+    /// Checks that only numbers and samplers have a precision, and that samplers without a default have one (section
+    /// 4.5.4).
     pub(super) fn check_precision(&mut self, quals: &Qualifiers, base: TypeId, loc: Loc) {
         let numeric = matches!(self.module.types.scalar(base), Some(Scalar::Float | Scalar::Int | Scalar::Uint));
         let sampler = self.is_sampler(base);
@@ -190,7 +191,7 @@ impl Checker<'_> {
         self.precisions[basic as usize]
     }
 
-    /// `precision highp float;`
+    /// Checks `precision highp float;`.
     pub(super) fn precision_statement(&mut self, precision: Precision, ty: crate::ast::TypeSpecId) {
         let base = self.base_type(ty);
         let spec = self.ast[ty];
@@ -212,7 +213,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Closes a scope: names and default precisions are again what they were.
+    /// Closes a scope: restores names and default precisions.
     pub(super) fn pop_scope(&mut self) {
         let depth = self.scopes.depth();
         if let Some(&(at, saved)) = self.saved_precisions.last()
@@ -224,7 +225,7 @@ impl Checker<'_> {
         self.scopes.pop();
     }
 
-    /// Qualifiers of a member: a precision at most.
+    /// Checks the qualifiers of a member: at most a precision.
     pub(super) fn field_qualifiers(&mut self, list: List<Qualifier>, base: TypeId) {
         if list.is_empty() {
             return;
@@ -235,8 +236,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks that layouts stand where they may (section 4.3.8). None changes anything here: blocks are zero, outputs
-    /// private.
+    /// Checks that layouts are allowed where they are (section 4.3.8). They have no effect here: blocks are zero,
+    /// outputs private.
     pub(super) fn check_layout(&mut self, quals: &Qualifiers, of: LayoutOf) {
         let Some((_, items)) = quals.layout else { return };
         let ast = self.ast;
@@ -265,7 +266,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks what a global's storage demands of its qualifiers and type (sections 4.3.4 to 4.3.9).
+    /// Checks the requirements of a global's storage on its qualifiers and type (sections 4.3.4 to 4.3.9).
     pub(super) fn check_interface(&mut self, quals: &Qualifiers, ty: TypeId, loc: Loc) {
         let (input, output) = (quals.is(Q::In), quals.is(Q::Out));
         if let Some(token) = quals.invariant
@@ -284,7 +285,7 @@ impl Checker<'_> {
         {
             self.error(token, "`layout` needs `in`, `out` or `uniform`");
         } else {
-            // Section 4.3.8: inputs of vertices, and outputs of fragments.
+            // Section 4.3.8: inputs of vertex shaders, and outputs of fragment shaders.
             let has_location = if self.env.is_vertex() { input } else { output };
             self.check_layout(quals, if has_location { LayoutOf::Output } else { LayoutOf::Variable });
         }

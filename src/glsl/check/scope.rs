@@ -1,17 +1,17 @@
-//! Says what each name means where the checker stands. Owns the scopes of section 4.2; knows no rule about what may be
-//! declared.
+//! The meaning of each name at the checker's current position. Implements the scopes of section 4.2; it does not know
+//! which declarations are allowed.
 
 use crate::{
     ast::{Ident, Symbol},
     hir::{Builtin, BuiltinVar, FuncId, GlobalId, LocalId, StructId, Uniform},
 };
 
-/// Says what a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Binding {
     /// Nothing: the name is unknown.
     None,
-    /// Declared, but so wrongly that nothing can be said of it; uses are silent.
+    /// Declared, but with errors that leave its meaning unknown; uses are not reported.
     Poison,
     Builtin(Builtin),
     BuiltinVar(BuiltinVar),
@@ -19,43 +19,43 @@ pub(super) enum Binding {
     BuiltinConst(i32),
     DepthRange,
     Uniform(Uniform),
-    /// One of the author's own uniforms, by its place among the pass's.
+    /// A custom uniform, by its index among the pass's.
     CustomUniform(u16),
-    /// `iGlobalTime`, which became `iTime`.
+    /// `iGlobalTime`, which was renamed to `iTime`.
     OldTime,
     Channel(u8),
     ChannelStruct(u8),
     /// The first overload of a user's function.
     Function(FuncId),
     Struct(StructId),
-    /// The name of a uniform block, which stands for nothing else (section 4.3.7).
+    /// The name of a uniform block, which has no other meaning (section 4.3.7).
     Block(Ident),
     Global(GlobalId),
     Local(LocalId),
 }
 
-/// Depth of what the language gives; anything may hide it.
+/// The depth of names defined by the language; anything may hide them.
 pub(super) const LANGUAGE: u32 = 0;
-/// Depth of file scope, which the site's header shares.
+/// The depth of file scope, which Shadertoy's header shares.
 pub(super) const FILE: u32 = 1;
 
 #[derive(Clone, Default)]
 pub(super) struct Scopes {
-    /// By symbol: innermost binding and the depth it was made at.
+    /// By symbol: the innermost binding and the depth of its declaration.
     table: Vec<(Binding, u32)>,
-    /// Says what declarations in open scopes replaced, oldest first.
+    /// The bindings that declarations in open scopes replaced, oldest first.
     hidden: Vec<(Symbol, Binding, u32)>,
-    /// Length of `hidden` where each open scope began.
+    /// The length of `hidden` at the start of each open scope.
     marks: Vec<usize>,
 }
 
 impl Scopes {
-    /// Returns the number of symbols that there is room for.
+    /// Returns the number of symbols for which the table has an entry.
     pub fn symbols(&self) -> usize {
         self.table.len()
     }
 
-    /// Makes room for this many symbols, the new ones unknown.
+    /// Adds table entries for this many symbols, the new ones unknown.
     pub fn reserve_symbols(&mut self, symbols: usize) {
         self.table.resize(symbols, (Binding::None, LANGUAGE));
     }
@@ -65,7 +65,7 @@ impl Scopes {
         self.table[symbol.0 as usize].0
     }
 
-    /// Returns what `symbol` means in the innermost scope itself, if it was declared there.
+    /// Returns the meaning of `symbol` in the innermost scope itself, if it was declared there.
     #[inline]
     pub fn here(&self, symbol: Symbol) -> Option<Binding> {
         let (binding, depth) = self.table[symbol.0 as usize];
@@ -91,7 +91,7 @@ impl Scopes {
         }
     }
 
-    /// Declares in the innermost scope; the caller has looked at [`Scopes::here`].
+    /// Declares a name in the innermost scope; the caller has checked [`Scopes::here`].
     #[inline]
     pub fn declare(&mut self, symbol: Symbol, binding: Binding) {
         let depth = self.depth();
@@ -102,12 +102,12 @@ impl Scopes {
         *slot = (binding, depth);
     }
 
-    /// Declares what the language or the header gives.
+    /// Declares a name of the language or the header.
     pub fn give(&mut self, symbol: Symbol, binding: Binding, depth: u32) {
         self.table[symbol.0 as usize] = (binding, depth);
     }
 
-    /// All names that mean something here.
+    /// Returns all names that have a meaning here.
     pub fn visible(&self) -> impl Iterator<Item = (Symbol, Binding)> {
         let named = self.table.iter().enumerate().filter(|(_, (binding, _))| *binding != Binding::None);
         named.map(|(i, (binding, _))| (Symbol(i as u32), *binding))

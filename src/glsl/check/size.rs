@@ -1,8 +1,8 @@
-//! The size of a program once every call is written out, as every driver writes it.
+//! The size of a program after inlining all calls, as every driver does.
 //!
-//! A shader has no stack: thirty functions of which each calls the one before twice are a billion copies of the first.
-//! A driver that is handed such a program takes all memory and minutes before it gives up, and there is no simpler code
-//! for it, so it is an error here.
+//! A shader has no stack: with thirty functions, each of which calls the previous one twice, there are a billion copies
+//! of the first. A driver that receives such a program uses all memory and takes minutes before it fails, and no
+//! simpler code can be generated for it, so it is an error here.
 
 use super::checker::Checker;
 use crate::{
@@ -11,11 +11,11 @@ use crate::{
     lower::reached,
 };
 
-/// Expressions and statements of a program with all calls written out.
+/// The maximum number of expressions and statements of a program with all calls inlined.
 pub(super) const MAX_PROGRAM: u64 = 1 << 20;
 
 impl Checker<'_> {
-    /// Judges a program without errors.
+    /// Checks the size of an error-free program.
     pub(super) fn finish_size(&mut self) {
         let quick = quick_sizes(&self.module);
         let Some(func) = too_large(&self.module, &self.global_calls, &quick) else {
@@ -30,8 +30,8 @@ impl Checker<'_> {
     }
 }
 
-/// The innermost function that is too large with what it calls, of those that are reached from the entry point or, by
-/// these calls, from what globals begin with.
+/// Returns the innermost function that is too large including its callees, among those that are reachable from the
+/// entry point or, through `of_globals`, from the initialisers of globals.
 fn too_large(module: &Module, of_globals: &[FuncId], quick: &[u64]) -> Option<FuncId> {
     quick.iter().find(|&&size| size > MAX_PROGRAM)?;
     let of = |func: FuncId| reached(module, module[func].body.unwrap_or(List::EMPTY));
@@ -47,7 +47,7 @@ fn too_large(module: &Module, of_globals: &[FuncId], quick: &[u64]) -> Option<Fu
     Some(found)
 }
 
-/// Returns the name of the innermost function that holds half of a program with what it calls.
+/// Returns the name of the innermost function that, including its callees, makes up more than half of a program.
 fn bulk(module: &Module, sizes: &[u64]) -> Option<Loc> {
     let mut found = module.entry?;
     let half = sizes[found.index()] / 2;
@@ -57,8 +57,8 @@ fn bulk(module: &Module, sizes: &[u64]) -> Option<Loc> {
     Some(module[found].name.into())
 }
 
-/// Returns the size of each function that is called by what stands in the text, which is quick: what is left out, and
-/// what folding left behind, counts too.
+/// Returns an upper bound of the size of each called function, which is fast to compute: it also counts excluded
+/// branches and expressions left over from folding.
 fn quick_sizes(module: &Module) -> Vec<u64> {
     sizes(module, |func, sizes| {
         let own = u64::from(module[func].exprs.end - module[func].exprs.start);
@@ -66,7 +66,7 @@ fn quick_sizes(module: &Module) -> Vec<u64> {
     })
 }
 
-/// Returns what a function calls, as often as it does.
+/// Returns the callees of a function, once for each call.
 fn calls(module: &Module, func: FuncId) -> impl Iterator<Item = FuncId> {
     module[func].exprs.clone().filter_map(|expr| match module[ExprId::new(expr as usize)].kind {
         ExprKind::Call { func, .. } => Some(func),
@@ -74,7 +74,7 @@ fn calls(module: &Module, func: FuncId) -> impl Iterator<Item = FuncId> {
     })
 }
 
-/// The size of each function that is called, by [`FuncId::index`], from those of what it calls.
+/// Returns the size of each called function, by [`FuncId::index`], computed from those of its callees.
 fn sizes(module: &Module, size: impl Fn(FuncId, &[u64]) -> u64) -> Vec<u64> {
     let mut sizes = vec![0; module.functions.len()];
     for &func in &module.call_order {

@@ -9,7 +9,7 @@ use crate::{
 };
 
 impl Checker<'_> {
-    /// A list of statements in the scope that is open.
+    /// Checks a list of statements in the current scope.
     pub(super) fn statements(&mut self, list: List<ast::StmtId>) -> List<StmtId> {
         let ast = self.ast;
         let base = self.stmt_stack.len();
@@ -19,14 +19,14 @@ impl Checker<'_> {
         self.take_statements(base)
     }
 
-    /// Returns what has gathered on the stack above `base`, as a list.
+    /// Takes the statements on the stack above `base`, and returns them as a list.
     fn take_statements(&mut self, base: usize) -> List<StmtId> {
         let list = self.module.list(&self.stmt_stack[base..]);
         self.stmt_stack.truncate(base);
         list
     }
 
-    /// The body of a branch: a scope, whatever statement it is.
+    /// Checks the body of a branch, which is a scope whatever the statement is.
     fn branch(&mut self, stmt: ast::StmtId) -> List<StmtId> {
         self.scopes.push();
         let list = self.body(stmt);
@@ -34,7 +34,7 @@ impl Checker<'_> {
         list
     }
 
-    /// The body of a loop, whose scope the loop has opened.
+    /// Checks the body of a loop, whose scope the loop has opened.
     fn body(&mut self, stmt: ast::StmtId) -> List<StmtId> {
         match self.ast[stmt].kind {
             S::Block(list) => self.statements(list),
@@ -156,8 +156,8 @@ impl Checker<'_> {
         self.add_stmt(StmtKind::For { init, test, step, body }, loc);
     }
 
-    /// ANGLE, and with it the site, refuses `for` and `while` whose test is constant and true and that nothing leaves:
-    /// such a program never draws, and takes the device with it. It does not count `discard`.
+    /// Reports an endless loop: ANGLE, and therefore Shadertoy, rejects `for` and `while` loops with a constant true
+    /// test that nothing leaves: such a program never draws, and hangs the device. `discard` does not count as leaving.
     fn expect_end(&mut self, test: Option<ExprId>, body: List<StmtId>, loc: Loc) {
         let is_endless = test.is_none_or(|test| self.words(test) == Some(&[1]));
         if is_endless && !self.leaves(body, true) {
@@ -166,7 +166,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns whether a statement of the list ends the loop that it is in (`is_own`) or a loop further out.
+    /// Returns whether a statement of the list leaves the current loop (`is_own`) or an outer loop.
     fn leaves(&self, list: List<StmtId>, is_own: bool) -> bool {
         self.module[list].iter().any(|id| match self.module[*id].kind {
             StmtKind::Break => is_own,
@@ -179,7 +179,7 @@ impl Checker<'_> {
         })
     }
 
-    /// `x == 1;` where `x = 1;` was meant.
+    /// Warns about `x == 1;` where `x = 1;` was probably meant.
     fn warn_unused(&mut self, written: ast::ExprId, value: ExprId) {
         if let A::Binary { op: ast::BinaryOp::Equal, .. } = self.ast[written].kind
             && self.ty(value) == TypeId::BOOL
@@ -202,7 +202,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `while (bool b = e)`: `b` is declared before the loop and assigned by its test.
+    /// Checks `while (bool b = e)`: `b` is declared before the loop and assigned by its test.
     fn condition_declaration(&mut self, decl: ast::DeclId, what: &str) -> Option<ExprId> {
         let ast = self.ast;
         let DeclKind::Vars { qualifiers, ty, declarators } = ast[decl].kind else { return None };
@@ -290,7 +290,7 @@ impl Checker<'_> {
         self.scopes.push();
         self.switches.push(Switch { ty, values: FxHashMap::default(), default: None });
         let mut cases: Vec<Case> = Vec::new();
-        // The labels that stand together, and where the statements after them begin on the stack.
+        // The current labels, and the position on the stack where the statements after them start.
         let mut labels: Option<Case> = None;
         let mut values: Vec<u32> = Vec::new();
         let base = self.stmt_stack.len();
@@ -352,7 +352,7 @@ impl Checker<'_> {
         self.add_stmt(StmtKind::Switch { value: selector, cases }, loc);
     }
 
-    /// The bits of a `case`, unless something is wrong with it.
+    /// Returns the bits of a `case` label; reports errors in it.
     fn label(&mut self, label: ast::ExprId) -> Option<u32> {
         let value = self.expr(label);
         let (found, loc) = (self.ty(value), self.loc(value));

@@ -1,5 +1,5 @@
-//! Guesses what was probably meant: names of other shading languages and old versions, and names spelled nearly like
-//! this one.
+//! Suggestions for unknown names: equivalents of names in other shading languages and old versions, and names with a
+//! similar spelling.
 
 use super::{
     checker::Checker,
@@ -14,7 +14,7 @@ use crate::{
 };
 use eddy_diag::Edit;
 
-/// Functions of HLSL, old and later GLSL and C, with what stands for them here.
+/// Functions of HLSL, old and later GLSL and C, with their replacements here.
 const FUNCTIONS: &[(&str, &str)] = &[
     ("saturate", "`saturate` is HLSL: write `clamp(x, 0.0, 1.0)`"),
     ("lerp", "`lerp` is HLSL: write `mix(a, b, t)`"),
@@ -85,7 +85,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ),
 ];
 
-/// Those of them that only are called otherwise here: what they take, they take in the same order.
+/// Those of them that differ only in name: they take the same arguments in the same order.
 const RENAMED: &[(&str, &str)] = &[
     ("lerp", "mix"),
     ("frac", "fract"),
@@ -130,7 +130,7 @@ const RENAMED: &[(&str, &str)] = &[
     ("TAU", "6.28318530718"),
 ];
 
-/// Variables that other hosts give.
+/// Variables that other hosts define.
 const VARIABLES: &[(&str, &str)] = &[
     ("gl_FragColor", "`gl_FragColor` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
     ("gl_FragData", "`gl_FragData` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
@@ -151,13 +151,13 @@ const VARIABLES: &[(&str, &str)] = &[
     ("this", "GLSL has no objects"),
 ];
 
-/// Returns how to use the site's input in place of another host's variable of this name.
+/// Returns how to use Shadertoy's input instead of another host's variable of this name.
 pub(super) fn input_of_the_site(name: &str) -> Option<&'static str> {
     find(VARIABLES, name).filter(|hint| hint.starts_with("use `i"))
 }
 
 impl Checker<'_> {
-    /// Returns whether nothing was said yet in this function about an unknown name.
+    /// Returns whether an unknown name has not been reported in this function yet, and marks it as reported.
     pub(super) fn say_once(&mut self, symbol: Symbol) -> bool {
         if self.unknown_said.is_empty() {
             self.unknown_said = vec![u32::MAX; self.names.len()];
@@ -195,7 +195,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Says how a plain shader gets what other hosts give. Returns whether it is that.
+    /// Adds a hint on the equivalent of another host's variable in a plain shader. Returns whether it added one.
     fn explain_plain(&mut self, name: &str) -> bool {
         if matches!(name, "gl_FragColor" | "gl_FragData") {
             self.hint(format!("`{name}` is GLSL ES 1.00: declare `out vec4 color;` at file scope and assign to it"));
@@ -209,13 +209,13 @@ impl Checker<'_> {
         is_input
     }
 
-    /// Returns whether an error says already why there is no such name.
+    /// Returns whether an earlier error already explains why the name does not exist.
     fn is_explained(&self, symbol: Symbol) -> bool {
         self.origins.unread.contains(&symbol)
     }
 
-    /// Returns whether a name stands in a `main` that should be the entry point, which is told of already: the mend of
-    /// that mends it, too.
+    /// Returns whether a name is in a `main` that should be the entry point, which is already reported: the fix of that
+    /// error then also fixes the name.
     fn wants_entry(&mut self, token: TokenId) -> bool {
         let Some((main, at)) = self.foreign_main.filter(|(main, _)| self.func == Some(*main)) else { return false };
         let edit = self.written_at(token).map(|span| Edit { span, text: env::OUTPUT.into() });
@@ -225,7 +225,7 @@ impl Checker<'_> {
         self.func == Some(main)
     }
 
-    /// `gl_FragColor` in the entry point is its output.
+    /// Adds a fix that replaces `gl_FragColor` in the entry point with its output.
     fn fix_old_output(&mut self, name: &str, token: TokenId) {
         let is_entry = self.func.is_some() && self.func == self.header_entry;
         let Some(entry) = self.func.filter(|_| name == "gl_FragColor" && is_entry) else { return };
@@ -236,7 +236,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Some names exist, but not in this kind of pass.
+    /// Explains names that exist, but not in this kind of pass.
     fn env_explains(&mut self, name: &str) -> bool {
         let Some(uniform) = crate::hir::Uniform::ALL.iter().find(|u| u.name() == name) else { return false };
         if self.env == Env::Pass(crate::PassKind::Sound) {
@@ -331,7 +331,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The visible name of a fitting kind that is spelled most like this one.
+    /// Returns the visible name of a matching kind with the most similar spelling.
     fn near(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
         if self.is_full() {
             return None;

@@ -1,4 +1,4 @@
-//! Types as written to [`TypeId`]s: names, dimensions, struct definitions; and types as messages spell them.
+//! Resolves types as written to [`TypeId`]s: names, dimensions, struct definitions; and formats types for messages.
 
 use rustc_hash::FxHashMap;
 
@@ -13,19 +13,19 @@ use crate::{
     source::Dialect,
 };
 
-/// Members from which on those of a struct are found by a table.
+/// The number of members from which on a struct's members are looked up in a table.
 pub(super) const MANY_MEMBERS: usize = 16;
 
-/// Structs inside one another that WebGL's compiler takes.
+/// The maximum nesting depth of structs that WebGL's compiler accepts.
 const MAX_NESTING: u8 = 4;
 
-/// Size of an array as written.
+/// The size of an array as written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Size {
-    /// `[]`: the initialiser or the constructor's arguments tell.
+    /// `[]`: determined by the initialiser or the constructor's arguments.
     Open,
     Known(u32),
-    /// Reported.
+    /// Invalid, and reported.
     Bad,
 }
 
@@ -35,13 +35,12 @@ impl<'a> Checker<'a> {
         self.facts[ty.0 as usize]
     }
 
-    /// `void`, and what is no type at all.
     #[inline]
     pub(super) fn is_sampler(&self, ty: TypeId) -> bool {
         matches!(self.module.types.get(ty), Type::Sampler { .. })
     }
 
-    /// An array type; reports sizes past the limit.
+    /// Returns an array type; reports sizes past the limit.
     pub(super) fn array_type(&mut self, element: TypeId, len: u32, loc: Loc) -> TypeId {
         if element == TypeId::ERROR {
             return TypeId::ERROR;
@@ -60,7 +59,7 @@ impl<'a> Checker<'a> {
         ty
     }
 
-    /// The type without its dimensions.
+    /// Returns the type without its dimensions.
     pub(super) fn base_type(&mut self, spec: TypeSpecId) -> TypeId {
         let spec = self.ast[spec];
         match spec.kind {
@@ -87,7 +86,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Size of one pair of brackets.
+    /// Returns the size in one pair of brackets.
     pub(super) fn size(&mut self, dim: Dim) -> Size {
         let Some(expr) = dim.size else { return Size::Open };
         let id = self.expr(expr);
@@ -119,7 +118,7 @@ impl<'a> Checker<'a> {
         Size::Known(bits)
     }
 
-    /// The size that the dimensions of a type and of a declarator give together: at most one in ESSL 3.00.
+    /// Returns the size from the dimensions of a type and of a declarator: at most one in ESSL 3.00.
     pub(super) fn sizes(&mut self, of_type: List<Dim>, of_name: List<Dim>) -> Option<(Size, Loc)> {
         let ast = self.ast;
         let mut found = None;
@@ -139,7 +138,7 @@ impl<'a> Checker<'a> {
         found
     }
 
-    /// A complete type with its dimensions; `[]` is an error described by `what`.
+    /// Returns a complete type with its dimensions; `[]` is an error described by `what`.
     pub(super) fn complete_type(&mut self, base: TypeId, of_type: List<Dim>, of_name: List<Dim>, what: &str) -> TypeId {
         match self.sizes(of_type, of_name) {
             None => base,
@@ -250,19 +249,19 @@ impl<'a> Checker<'a> {
         ty
     }
 
-    /// A type as a message spells it.
+    /// Formats a type for messages.
     pub(super) fn type_name(&self, ty: TypeId) -> String {
         self.module.type_text(self.names, ty)
     }
 
-    /// The type with its article: `an `int``.
+    /// Formats a type with its article: `an `int``.
     pub(super) fn a(&self, ty: TypeId) -> String {
         let name = self.type_name(ty);
         let article = if name.starts_with(['a', 'e', 'i', 'o', 'A', 'E', 'I', 'O']) { "an" } else { "a" };
         format!("{article} `{name}`")
     }
 
-    /// Declares a name, or reports that this scope has it already.
+    /// Declares a name, or reports that it already exists in this scope.
     pub(super) fn declare(&mut self, name: ast::Ident, binding: Binding) -> bool {
         let is_given = |previous: &Binding| {
             matches!(previous, Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_))
@@ -317,7 +316,7 @@ impl<'a> Checker<'a> {
         self.hint("choose another name, or remove the type to assign to the first one");
     }
 
-    /// Returns where what a name stands for was declared, if that is in the text.
+    /// Returns the location of the declaration of a name, if it is in the text.
     pub(super) fn declared_at(&self, binding: Binding) -> Option<Loc> {
         match binding {
             Binding::Function(id) => self.function_at(id),
@@ -329,7 +328,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `a variable`, `a function`... for messages.
+    /// Describes a binding for messages: `a variable`, `a function`...
     pub(super) fn describe_binding(&self, binding: Binding) -> &'static str {
         match binding {
             Binding::Builtin(_) => "a built-in function",
@@ -348,7 +347,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Component type and number of a scalar or vector.
+    /// Returns the component type and the number of components of a scalar or vector.
     #[inline]
     pub(super) fn vector_shape(&self, ty: TypeId) -> Option<(Scalar, u8)> {
         match self.module.types.get(ty) {

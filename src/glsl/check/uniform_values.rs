@@ -1,4 +1,4 @@
-//! Values that come from outside for the uniforms a text declares, as constants of the declared types.
+//! Converts external values for the uniforms a text declares to constants of the declared types.
 
 use super::checker::Checker;
 use crate::{
@@ -8,8 +8,8 @@ use crate::{
 };
 
 impl Checker<'_> {
-    /// Returns the value that a uniform of a type is set to. `None`: it has none; `Some(None)`: one that does not fit,
-    /// which is reported.
+    /// Returns the value that a uniform of a type is set to. `None` if it has no value; `Some(None)` if its value does
+    /// not match the type, which is reported.
     pub(super) fn uniform_value(&mut self, name: Ident, ty: TypeId) -> Option<Option<ConstId>> {
         let values = self.settings.values;
         let text = self.name(name.symbol);
@@ -33,7 +33,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Adds a value's scalars in memory order. Err: what is wrong with it.
+    /// Adds a value's scalars in memory order. Returns an error that describes why the value does not match.
     fn take(&self, ty: TypeId, value: &UntypedValue, words: &mut Vec<u32>) -> Result<(), String> {
         let (parts, count) = match self.module.types.get(ty) {
             Type::Scalar(scalar) => {
@@ -62,7 +62,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// A value of a type as eddy.toml writes it, long lists cut short.
+    /// Formats a value of a type as in eddy.toml, with long lists shortened.
     fn shape(&self, ty: TypeId) -> Option<String> {
         let list = |part: Option<String>, count: u32| {
             let part = part?;

@@ -1,4 +1,4 @@
-//! Making nodes of the typed program, and reading and writing folded values in it.
+//! Creates nodes of the typed program, and reads and writes folded values in it.
 
 use super::checker::Checker;
 use crate::{
@@ -6,8 +6,8 @@ use crate::{
     hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},
 };
 
-/// Scalars that folded constants may hold and compare together: 64 MiB, four times the largest type. Without a limit a
-/// few thousand constants that each hold the one before take all memory there is.
+/// The maximum number of scalars in folded constants and their comparisons: 64 MiB, four times the largest type.
+/// Without a limit a few thousand constants that each contain the previous one use all memory.
 pub(super) const MAX_FOLDED_WORDS: usize = 1 << 24;
 
 /// The scalars of a value of a keyword type, at most those of a `mat4`.
@@ -18,7 +18,7 @@ pub(super) struct ScalarWords {
 }
 
 impl ScalarWords {
-    /// So many zeros.
+    /// Returns `len` zeros.
     pub fn zeros(len: usize) -> Self {
         Self { len: len as u8, ..Self::default() }
     }
@@ -56,13 +56,13 @@ impl Checker<'_> {
         self.push(ExprKind::Error, TypeId::ERROR, ExprFlags::default(), loc)
     }
 
-    /// A scalar constant.
+    /// Returns a scalar constant.
     #[inline]
     pub(super) fn literal(&mut self, bits: u32, ty: TypeId, loc: Loc) -> ExprId {
         self.push(ExprKind::Literal(bits), ty, ExprFlags::CONSTANT, loc)
     }
 
-    /// A folded value of any type: a `Literal` where it is a scalar.
+    /// Returns a folded value of any type: a `Literal` if it is a scalar.
     pub(super) fn constant(&mut self, ty: TypeId, words: &[u32], loc: Loc) -> ExprId {
         let kind = match words {
             &[bits] if self.vector_shape(ty).is_some() => ExprKind::Literal(bits),
@@ -71,7 +71,7 @@ impl Checker<'_> {
         self.push(kind, ty, ExprFlags::CONSTANT, loc)
     }
 
-    /// Returns whether so many scalars more can be folded; says so where they cannot.
+    /// Returns whether this many more scalars can be folded; reports an error if not.
     pub(super) fn has_room(&mut self, words: usize, loc: Loc) -> bool {
         let before = self.folded_words;
         self.folded_words = before.saturating_add(words);
@@ -88,8 +88,8 @@ impl Checker<'_> {
         false
     }
 
-    /// The scalars of a folded value, in memory order. The value given for a uniform is none: it is no constant
-    /// expression.
+    /// Returns the scalars of a folded value, in memory order. `None` for the external value of a uniform, which is not
+    /// a constant expression.
     #[inline]
     pub(super) fn words(&self, expr: ExprId) -> Option<&[u32]> {
         match &self.module[expr].kind {
@@ -105,12 +105,12 @@ impl Checker<'_> {
         self.module[expr].flags.contains(ExprFlags::CONSTANT)
     }
 
-    /// Effects and branches of several children together.
+    /// Returns the inherited flags of several children.
     pub(super) fn inherited(&self, children: &[ExprId]) -> ExprFlags {
         children.iter().fold(ExprFlags::default(), |sum, &child| sum.with(self.module[child].flags.inherited()))
     }
 
-    /// The value, no longer a place: what a constructor or operator that leaves no node gives.
+    /// Returns an expression as a value, no longer a place: for constructors and operators without a node of their own.
     pub(super) fn as_value(&mut self, expr: ExprId) -> ExprId {
         let flags = &mut self.module[expr].flags;
         flags.0 &= !ExprFlags::PLACE.0;

@@ -1,9 +1,9 @@
 //! Uniform buffers that a plain shader declares, laid out by std140.
 //!
-//! Their types differ from those of values where std140 pads: an element of an array of scalars or of vectors of two
-//! lies in the first components of a vector of four, and so does a column of two rows; a bool is a uint. Structures
-//! have members that fill the gaps, so that every writer of naga's, also one that spells no offsets, gives the same
-//! layout.
+//! Their types differ from those of values where std140 pads: an element of an array of scalars or of two-component
+//! vectors is the first components of a four-component vector, and so is a column of two rows; a bool is a uint.
+//! Structures have members that fill the gaps, so that all of naga's writers, including one that writes no offsets,
+//! produce the same layout.
 
 use std::num::NonZeroU32;
 
@@ -20,17 +20,17 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// A block that was declared.
+/// A declared block.
 pub(super) struct Block {
     pub variable: Handle<GlobalVariable>,
-    /// The members of the type, by those of the block.
+    /// The index in the type of each member of the block.
     places: Vec<u32>,
-    /// By member of the block: whether it is read.
+    /// The members of the block that are read.
     read: Vec<bool>,
 }
 
 impl Emitter<'_> {
-    /// Returns the variable of a block, and the member of its type that a member of the block is.
+    /// Returns the variable of a block, and the index in its type of a member of the block.
     pub fn block_member(&mut self, block: u16, index: u16) -> (Handle<GlobalVariable>, u32) {
         let made = match self.resources.blocks.remove(&block) {
             Some(made) => made,
@@ -53,7 +53,7 @@ impl Emitter<'_> {
         Block { variable, places, read: vec![false; types.len()] }
     }
 
-    /// Returns a structure with its gaps filled, and the place of each member in it.
+    /// Returns a structure with its gaps filled, and the index of each member in it.
     fn padded_struct(&mut self, name: &str, types: &[TypeId], names: &[&str]) -> (Handle<naga::Type>, Vec<u32>) {
         let (offsets, span) = std140::offsets(self.ir, types);
         let (mut members, mut places) = (Vec::new(), Vec::new());
@@ -78,7 +78,7 @@ impl Emitter<'_> {
         (self.out.types.insert(ty, naga::Span::UNDEFINED), places)
     }
 
-    /// Returns the type that a value has in a buffer.
+    /// Returns the type of a value in a buffer.
     fn buffer_ty(&mut self, ty: TypeId) -> Handle<naga::Type> {
         match self.ir.types.get(ty) {
             Type::Scalar(Scalar::Bool) => self.ty(TypeId::UINT),
@@ -111,7 +111,7 @@ impl Emitter<'_> {
         self.insert_type(TypeInner::Array { base, size, stride })
     }
 
-    /// Returns the place of a member in the type that its structure has in a buffer.
+    /// Returns the index of a member in its structure's type in a buffer.
     fn place_in_struct(&self, ty: TypeId, index: u32) -> u32 {
         let Type::Struct(id) = self.ir.types.get(ty) else { return index };
         let types = &self.ir.structs[id.index()];
@@ -128,7 +128,7 @@ impl Emitter<'_> {
         place
     }
 
-    /// Tells of the blocks that were declared, and drops the samplers that were not.
+    /// Adds the declared blocks to the reflection, and removes undeclared samplers from it.
     pub fn finish_blocks(&mut self) {
         let mut blocks: Vec<_> = std::mem::take(&mut self.resources.blocks).into_iter().collect();
         blocks.sort_by_key(|(index, _)| *index);
@@ -147,13 +147,13 @@ impl Emitter<'_> {
     }
 }
 
-/// Returns the component type that stands for one in a buffer.
+/// Returns the component type that represents another one in a buffer.
 fn in_buffer(scalar: Scalar) -> Scalar {
     if scalar == Scalar::Bool { Scalar::Uint } else { scalar }
 }
 
 impl Builder<'_, '_> {
-    /// Returns whether a place lies in a block of the author's.
+    /// Returns whether a place is in a uniform block that the author declared.
     pub(super) fn is_in_block(&self, place: Value) -> bool {
         match self.ir[self.ir.root(place)] {
             Op::Global(id) => matches!(self.cx.ir[id].kind, GlobalKind::Member { .. }),
@@ -161,7 +161,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns whether the parts of a type lie in slots of which they are the first components.
+    /// Returns whether the parts of a type are the first components of larger slots.
     fn has_slots(&self, ty: TypeId) -> bool {
         match self.cx.ir.types.get(ty) {
             Type::Matrix { rows, .. } => rows == 2,
@@ -172,7 +172,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the pointer to a part of a place in a block: to the slot of a vector of two, if it lies in one.
+    /// Returns the pointer to a part of a place in a block, or to the slot of a two-component vector, if it is in one.
     pub(super) fn part_in_block(&mut self, place: Value) -> Handle<Expression> {
         let ir = self.ir;
         let (Op::Part { base: of, .. } | Op::Element { base: of, .. }) = ir[place] else {
@@ -193,7 +193,7 @@ impl Builder<'_, '_> {
         self.first_of_slot(pointer, ty, ir.ty(place))
     }
 
-    /// Returns the pointer to a scalar in its slot; others begin where the slot does.
+    /// Returns the pointer to a scalar in its slot; other parts start at the start of the slot.
     fn first_of_slot(&mut self, pointer: Handle<Expression>, whole: TypeId, part: TypeId) -> Handle<Expression> {
         match self.cx.ir.types.get(part) {
             Type::Scalar(_) if self.has_slots(whole) => self.add(Expression::AccessIndex { base: pointer, index: 0 }),

@@ -1,8 +1,9 @@
-//! Constants as naga's.
+//! Translates constants to naga's.
 //!
-//! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used;
-//! a table with one is filled when the entry point starts. So is a long global that the program writes, where the
-//! driver needs it ([`super::long_arrays`]); what is only read the driver takes for a constant of its own.
+//! naga rejects infinities and NaN as literals. A composite that contains one is built from bit patterns where it is
+//! used; a table with one is filled when the entry point starts. The same holds for a long global that the program
+//! writes, if the driver requires it ([`super::long_arrays`]); the driver recognises globals that are only read as
+//! constants.
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
@@ -12,7 +13,7 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// Returns a scalar as naga's literal; `None` for infinities and NaN.
+/// Returns a scalar as a naga literal; `None` for infinities and NaN.
 pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
     Some(match scalar {
         Scalar::Bool => Literal::Bool(bits != 0),
@@ -23,7 +24,7 @@ pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
 }
 
 impl Emitter<'_> {
-    /// Returns a naga constant; `None` if it holds an infinity or NaN, or is long.
+    /// Returns a naga constant; `None` if it contains an infinity or NaN, or is long.
     pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
@@ -45,7 +46,7 @@ impl Emitter<'_> {
             return init;
         }
         let constant = &self.ir[id];
-        // Judged beforehand, so that no half-built composite stays behind.
+        // Checked first, so that no half-built composite is left over.
         let init = self.all_finite(constant.ty, &mut constant.words.iter().copied()).then(|| {
             let mut words = constant.words.iter().copied();
             self.global_expression(constant.ty, &mut words)
@@ -100,7 +101,7 @@ impl Emitter<'_> {
         })
     }
 
-    /// Returns a private global that holds a constant, for indexing.
+    /// Returns a private global with the value of a constant, for indexing.
     pub(super) fn private_table(&mut self, id: ConstId) -> Handle<GlobalVariable> {
         let ty = self.ty(self.ir[id].ty);
         let init = self.constant_init(id);

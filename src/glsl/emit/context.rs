@@ -10,7 +10,7 @@ use crate::{
     ir::{self, ConstId, layout::Layouts},
 };
 
-/// State of emitting one module. What belongs to one function is in [`super::function::Builder`].
+/// State of emitting one module. The state of one function is in [`super::function::Builder`].
 pub(super) struct Emitter<'a> {
     pub ir: &'a ir::Module,
     pub source: &'a PassSource<'a>,
@@ -24,20 +24,20 @@ pub(super) struct Emitter<'a> {
     pub resources: Resources,
     /// By [`ir::FuncId`].
     pub functions: Vec<Handle<naga::Function>>,
-    /// Private memory that is stored as a whole before anything reads it.
+    /// Private memory that is stored as a whole before it is read.
     pub overwritten: FxHashSet<Handle<GlobalVariable>>,
     /// Variables of each function that are written before they are read, in the order of emission: the entry point
     /// last.
     pub written_first: Vec<FxHashSet<Handle<naga::LocalVariable>>>,
 }
 
-/// Constants made so far.
+/// The constants created so far.
 pub(super) struct Constants {
-    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
+    /// By [`ConstId::index`]; `Some(None)` if it contains a value that is not a literal.
     pub inits: Vec<Option<Option<Handle<Expression>>>>,
     pub constants: Vec<Option<Handle<naga::Constant>>>,
     pub literals: Map<(u8, u32), Handle<Expression>>,
-    /// Globals whose constant value is no constant expression of naga's.
+    /// Globals whose constant value is not a constant expression in naga.
     pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
 }
 
@@ -52,7 +52,7 @@ impl Constants {
     }
 }
 
-/// Tables found so far.
+/// The tables found so far.
 #[derive(Default)]
 pub(super) struct Tables {
     pub places: Map<u32, TablePlace>,
@@ -82,7 +82,7 @@ pub(super) enum TablePlace {
     Storage(u32),
 }
 
-/// Variables declared so far.
+/// The variables declared so far.
 #[derive(Default)]
 pub(super) struct Resources {
     pub block: Option<Handle<GlobalVariable>>,
@@ -95,7 +95,7 @@ pub(super) struct Resources {
     /// Private memory, by [`ir::GlobalId::index`].
     pub private: Vec<Option<Handle<GlobalVariable>>>,
     pub geometry: Option<Handle<GlobalVariable>>,
-    /// Holds the zero that the driver cannot know.
+    /// The zero that is unknown to the driver.
     pub opaque_zero: Option<Handle<GlobalVariable>>,
 }
 

@@ -1,4 +1,4 @@
-//! The entry point: what the device hands it, what it hands on, and what has to be set before all else.
+//! The entry point: its inputs and outputs, and the globals that are set before its body runs.
 
 use naga::{
     BinaryOperator, Binding, BuiltIn, EntryPoint, Expression, FunctionArgument, FunctionResult, Handle, Interpolation,
@@ -14,13 +14,13 @@ use crate::{
 
 const POSITION: BuiltIn = BuiltIn::Position { invariant: false };
 
-/// Adds the entry point; every function is there already.
+/// Adds the entry point; all functions have been emitted.
 pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) {
     let is_vertex = cx.source.kind.is_vertex();
     let mut b = Builder::new(cx, function);
     b.block(&function.body);
     b.emit();
-    // What functions reach is known by now: it is set before the body runs.
+    // All constants that functions use are known by now: they are set before the body runs.
     let body = std::mem::take(&mut b.block);
     for (variable, id) in std::mem::take(&mut b.cx.consts.set_at_start) {
         let value = b.composed(id);
@@ -45,7 +45,7 @@ pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) {
     });
 }
 
-/// Returns the binding of a location; `interpolation` is of what passes between stages.
+/// Returns the binding of a location; `interpolation` is for values that pass between stages.
 fn at(location: u32, interpolation: Option<Interpolation>) -> Binding {
     let sampling = match interpolation {
         Some(Interpolation::Flat) => Some(Sampling::First),
@@ -60,7 +60,7 @@ fn interpolation(flat: bool) -> Option<Interpolation> {
 }
 
 impl Builder<'_, '_> {
-    /// Returns the argument that brings an input, which may be there already.
+    /// Returns the index of the argument for an input, adding it if necessary.
     pub fn argument_of(&mut self, input: Input) -> u32 {
         let (ty, binding) = match input {
             Input::Position => (TypeId::VEC4, Binding::BuiltIn(POSITION)),
@@ -83,8 +83,8 @@ impl Builder<'_, '_> {
         self.add_preemitted(Expression::FunctionArgument(index))
     }
 
-    /// Makes the zero that the driver cannot know, if some code reads it, of the sign of a number whose bits, read as
-    /// an `int`, are never negative: of where a pixel lies, or of a vertex's number.
+    /// Computes the zero that is unknown to the driver, if any code reads it, as the sign of a number whose bits, read
+    /// as an `int`, are never negative: the pixel position, or the vertex index.
     fn set_opaque_zero(&mut self, is_vertex: bool) {
         let Some(variable) = self.cx.resources.opaque_zero else { return };
         let number = if is_vertex {
@@ -101,7 +101,7 @@ impl Builder<'_, '_> {
         self.push(Statement::Store { pointer, value: sign });
     }
 
-    /// Returns all parts at once.
+    /// Returns all outputs at once.
     pub fn output(&mut self, parts: &[(Output, Value)]) {
         if parts.is_empty() {
             self.push(Statement::Return { value: None });
@@ -112,7 +112,7 @@ impl Builder<'_, '_> {
         for &(output, value) in parts {
             let binding = match output {
                 Output::Target(location) if self.cx.source.kind.is_stage() => at(location, None),
-                // What a pass always had.
+                // The binding that passes have always had.
                 Output::Target(location) => at(location, interpolation(false)),
                 Output::Varying { location, flat } => at(location, interpolation(flat)),
                 Output::Position => Binding::BuiltIn(POSITION),
@@ -130,7 +130,7 @@ impl Builder<'_, '_> {
             self.push(Statement::Return { value: Some(value) });
             return;
         }
-        // No memory has this struct: any places that do not overlap will do.
+        // This struct is never in memory, so any offsets that do not overlap will do.
         const PLACE: u32 = 16;
         let span = bound.len() as u32 * PLACE;
         let (mut members, mut components) = (Vec::new(), Vec::new());

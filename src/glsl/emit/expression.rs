@@ -1,4 +1,4 @@
-//! The operations of a function that are expressions of naga's.
+//! The operations of a function that are naga expressions.
 
 use naga::{Expression, Handle, ImageQuery, SampleLevel, ScalarKind};
 
@@ -12,7 +12,7 @@ use crate::{
     types::{SamplerDim, Scalar, Swizzle, Type, TypeId},
 };
 
-/// The coordinate of a read, as naga has it.
+/// The coordinate of a read, in naga's form.
 struct Coordinate {
     coordinate: Handle<Expression>,
     array_index: Option<Handle<Expression>>,
@@ -68,7 +68,7 @@ impl Builder<'_, '_> {
                 let at = self.coordinate(coordinate, dim, shadow);
                 let mut of = |value: Value| self.value(value);
                 let level = match level {
-                    // WebGPU compares in the base level, or in the one that derivatives ask for.
+                    // WebGPU compares in the base level, or in the one selected by derivatives.
                     Level::Exact(_) if shadow => SampleLevel::Zero,
                     Level::Auto => SampleLevel::Auto,
                     Level::Exact(level) => SampleLevel::Exact(of(level)),
@@ -124,9 +124,9 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the size of a level by that of level 0: max(1, size >> level), OpenGL ES 3.0, 3.8.10.4. It holds for levels that a
-    /// texture does not have, too: their size is undefined (GLSL ES 3.00, 8.8), and drivers of OpenGL return this one, where
-    /// those of Vulkan return zeros.
+    /// Returns the size of a level computed from that of level 0: max(1, size >> level), OpenGL ES 3.0, 3.8.10.4. This
+    /// also works for levels that a texture does not have: their size is undefined (GLSL ES 3.00, 8.8), and OpenGL
+    /// drivers return this one, while Vulkan drivers return zeros.
     fn size_of_level(&mut self, size: Handle<Expression>, level: Handle<Expression>, count: u8) -> Handle<Expression> {
         let (most, one) = (self.literal(Scalar::Uint, 31), self.literal(Scalar::Uint, 1));
         let level = self.add(Expression::As { expr: level, kind: ScalarKind::Uint, convert: None });
@@ -144,7 +144,7 @@ impl Builder<'_, '_> {
         (texture.dim, texture.shadow)
     }
 
-    /// Takes the coordinate of a sample apart: GLSL has the layer and what is compared in its last components.
+    /// Splits the coordinate of a sample: in GLSL its last components are the layer and the reference value.
     fn coordinate(&mut self, whole: Handle<Expression>, dim: SamplerDim, shadow: bool) -> Coordinate {
         let size = match dim {
             SamplerDim::D2 | SamplerDim::D2Array => 2,
@@ -163,7 +163,7 @@ impl Builder<'_, '_> {
         Coordinate { coordinate, array_index, depth_ref }
     }
 
-    /// Does the same for the coordinate of a fetch.
+    /// As [`Builder::coordinate`], for a fetch.
     fn texel(&mut self, whole: Handle<Expression>, dim: SamplerDim) -> Coordinate {
         if dim != SamplerDim::D2Array {
             return Coordinate { coordinate: whole, array_index: None, depth_ref: None };
@@ -183,7 +183,7 @@ impl Builder<'_, '_> {
         let is_vector = matches!(self.cx.ir.types.get(ty), Type::Vector { .. });
         for &part in parts {
             match self.ir[part] {
-                // naga's SPIR-V writer takes a constant vector within a constant vector for one component.
+                // naga's SPIR-V writer treats a constant vector within a constant vector as one component.
                 Op::Const(id) if is_vector => {
                     let ir = self.cx.ir;
                     let scalar = ir.scalar(ir[id].ty);

@@ -1,4 +1,4 @@
-//! One function: its variables, its statements, and the values they compute.
+//! Emits a function: its variables, its statements, and the values they compute.
 
 use rustc_hash::FxHashSet;
 
@@ -22,20 +22,20 @@ pub(super) struct Builder<'m, 'a> {
     pub ir: &'m ir::Function,
     pub f: naga::Function,
     pub block: Block,
-    /// First and last expression not yet emitted.
+    /// The first and last expression not yet emitted.
     unemitted: Option<(Handle<Expression>, Handle<Expression>)>,
     /// The expression of each value, by [`Value::index`].
     values: Vec<Option<Handle<Expression>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
-    /// The place for the result of a function that returns a long one.
+    /// The pointer for the result of a function with a long result.
     pub long_result: Option<Handle<Expression>>,
     /// By [`ir::VarId`].
     vars: Vec<Handle<LocalVariable>>,
-    /// Variables that are written before they are read, and so need no zeros.
+    /// Variables that are written before they are read, and therefore need no zeros.
     written_first: FxHashSet<Handle<LocalVariable>>,
 }
 
-/// Emits a function that is called.
+/// Emits a function that is not the entry point.
 pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) -> naga::Function {
     let mut b = Builder::new(cx, function);
     for param in &function.params {
@@ -81,7 +81,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             if var.init.is_none() {
                 builder.written_first.insert(builder.vars[index]);
             }
-            // Zeros are what naga's variables begin with.
+            // naga's variables are initialised to zero by default.
             if let Some(init) = var.init
                 && !matches!(function[init], Op::Zero(_))
             {
@@ -99,7 +99,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.f
     }
 
-    /// Ends the run of expressions at hand: what follows is no part of it.
+    /// Ends the current run of expressions, so that later ones are not part of it.
     pub fn emit(&mut self) {
         if let Some((first, last)) = self.unemitted.take() {
             self.block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
@@ -119,8 +119,8 @@ impl<'m, 'a> Builder<'m, 'a> {
         value
     }
 
-    /// Adds an expression that no `Emit` may cover: it is there from the start of the function, or a statement computes
-    /// it.
+    /// Adds an expression that no `Emit` may cover: it is available from the start of the function, or a statement
+    /// computes it.
     pub fn add_preemitted(&mut self, expression: Expression) -> Handle<Expression> {
         self.emit();
         self.f.expressions.append(expression, Span::UNDEFINED)
@@ -132,7 +132,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             return made;
         }
         let made = match self.ir[value] {
-            // Bit patterns are computed in the block at hand.
+            // Bit patterns are computed in the current block.
             Op::Literal(scalar, bits) if consts::literal(scalar, bits).is_none() => return self.literal(scalar, bits),
             Op::Literal(scalar, bits) => self.literal(scalar, bits),
             Op::Zero(ty) => {
@@ -177,7 +177,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Composes a constant that naga has none for.
+    /// Composes a constant that naga cannot represent.
     pub fn composed(&mut self, id: ir::ConstId) -> Handle<Expression> {
         let ir = self.cx.ir;
         let constant = &ir[id];
@@ -186,7 +186,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             && !self.cx.source.kind.is_plain()
             && !self.cx.holds_booleans(constant.ty)
         {
-            // Copied from there by a loop.
+            // Copied from the storage buffer by a loop.
             let index = self.cx.storage_index(id);
             let tables = self.cx.storage_tables();
             let base = self.add_preemitted(Expression::GlobalVariable(tables));
@@ -278,7 +278,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Computes a value where its statement stands.
+    /// Computes a value at its statement.
     fn compute(&mut self, value: Value) {
         let ir = self.ir;
         let expression = match ir[value] {

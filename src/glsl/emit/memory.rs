@@ -1,7 +1,7 @@
-//! Places: the memory that a program names, in the blocks and buffers where it lies.
+//! Places: the memory that a program names, in the blocks and buffers that contain it.
 //!
-//! In a uniform buffer the elements of an array of scalars and vectors lie in slots of 16 bytes: `iChannelTime` and
-//! constant tables are read as such.
+//! In a uniform buffer the elements of an array of scalars and vectors are in slots of 16 bytes: `iChannelTime` and
+//! constant tables are read this way.
 
 use naga::{Expression, GlobalVariable, Handle, SwizzleComponent};
 
@@ -16,22 +16,22 @@ use crate::{
     types::{Type, TypeId},
 };
 
-/// A pointer to what an element of a padded array lies in.
+/// A pointer to the slot of an element of a padded array.
 enum Slot {
     /// The element itself.
     Whole(Handle<Expression>),
-    /// A vector of four, of which the first two count.
+    /// A four-component vector, of which the first two are the element.
     Two(Handle<Expression>),
 }
 
 impl Builder<'_, '_> {
     /// Returns the handle of a module-scope variable, or the pointer to it.
     pub fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
-        // naga makes no instruction of it: as many as there are uses do no harm.
+        // naga generates no instruction for it, so duplicates are harmless.
         self.add_preemitted(Expression::GlobalVariable(variable))
     }
 
-    /// Returns the variable that a global of the program is by itself; none for a member of a block.
+    /// Returns the variable of a global of the program; `None` for a member of a block.
     pub fn global(&mut self, id: GlobalId) -> Option<Handle<GlobalVariable>> {
         match self.cx.ir[id].kind {
             GlobalKind::Private { .. } => Some(self.cx.private_global(id)),
@@ -78,7 +78,7 @@ impl Builder<'_, '_> {
         if is_face { self.add(Expression::AccessIndex { base: pointer, index: 0 }) } else { pointer }
     }
 
-    /// Returns whether the elements of this array lie in slots.
+    /// Returns whether the elements of this array are in slots.
     fn is_padded(&mut self, place: Value) -> bool {
         let Op::Global(id) = self.ir[place] else { return false };
         match self.cx.ir[id].kind {
@@ -88,7 +88,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the pointer to a part of a place; none where it is an element of which only a part of its slot counts.
+    /// Returns the pointer to a part of a place; `None` for an element that is only a part of its slot.
     pub fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
         let ir = self.ir;
         let (Op::Part { base, .. } | Op::Element { base, .. }) = ir[place] else { unreachable!("it has a base") };
@@ -102,7 +102,7 @@ impl Builder<'_, '_> {
             };
         }
         let base = match ir[base] {
-            // A component of a vector of two in a slot of four.
+            // A component of a two-component vector in a slot of four.
             Op::Part { base: array, .. } | Op::Element { base: array, .. } if self.is_padded(array) => {
                 match self.slot(base) {
                     Slot::Whole(pointer) | Slot::Two(pointer) => pointer,
@@ -186,8 +186,8 @@ impl Builder<'_, '_> {
         self.add(Expression::Load { pointer })
     }
 
-    /// Returns the int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles
-    /// anew for each value of those, what the entry point made.
+    /// Returns the int that is always zero, although the driver cannot know it: a uniform or, if the driver recompiles
+    /// for each value of uniforms, the value computed by the entry point.
     pub fn opaque_zero(&mut self) -> Handle<Expression> {
         let is_made = self.cx.source.driver.opaque_uniforms || self.cx.source.kind.is_plain();
         let pointer = if is_made {

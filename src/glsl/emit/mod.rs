@@ -1,11 +1,11 @@
-//! Emission: the intermediate representation as a [`naga::Module`].
+//! Emission: translates the intermediate representation to a [`naga::Module`].
 //!
-//! Owns types, constants, tables, resources and entry points of the module, the order of its expressions, and what
-//! drivers need done otherwise ([`long_arrays`]; each names the driver and the fault). Says in the reflection what the
-//! module declares.
+//! Contains types, constants, tables, resources and entry points of the module, the order of its expressions, and
+//! work-arounds for drivers on the emitted module ([`long_arrays`]; each names the driver and the fault). Adds the
+//! declarations of the module to the reflection.
 //!
-//! naga knows no bounds of indices and guards divisions by functions of its own: both are taken care of before
-//! ([`super::ir`]), so that modules need none.
+//! naga does not know the bounds of indices, and guards divisions with its own functions: both are handled earlier
+//! ([`super::ir`]), so that modules need neither.
 
 mod blocks;
 mod consts;
@@ -40,14 +40,14 @@ use super::{
 pub(crate) struct Emitted {
     pub module: naga::Module,
     pub tables: TableBytes,
-    /// Size of the array of the author's own uniforms; 0 if the module has none.
+    /// The size of the array of custom uniforms; 0 if the module has none.
     pub custom_uniform_bytes: u64,
     /// See [`super::Compiled::initialized_arrays`].
     pub initialized_arrays: Option<u32>,
 }
 
-/// Emits a program, which keeps the rules of [`ir::verify`]; adds to `reflection` what the module declares. The result
-/// validates; a validation error is a bug of this compiler.
+/// Emits a program that satisfies the rules of [`ir::verify`]; adds the declarations of the module to `reflection`. The
+/// result validates; a validation error is a bug of this compiler.
 pub(crate) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &mut Reflection) -> Emitted {
     let mut emitter = Emitter {
         ir: program,
@@ -81,10 +81,10 @@ pub(crate) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &m
     Emitted { module: out, tables, custom_uniform_bytes, initialized_arrays }
 }
 
-/// Checks an emitted module. An error is a bug of this compiler, never the author's.
+/// Validates an emitted module. An error is a bug of this compiler, never the author's.
 pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo, String> {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
-    // `packHalf2x16` needs the second; every desktop device has it.
+    // `packHalf2x16` needs the second capability; every desktop device has it.
     let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
     Validator::new(ValidationFlags::all(), capabilities).validate(module).map_err(|error| {
         let error = error.into_inner();

@@ -1,4 +1,4 @@
-//! Operators and functions of the IR as naga's.
+//! Translates operators and functions of the IR to naga's.
 
 use naga::{BinaryOperator, MathFunction, SwizzleComponent, UnaryOperator};
 

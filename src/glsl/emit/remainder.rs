@@ -1,8 +1,8 @@
-//! Remainders of ints, written out: naga's `%` has the dividend's sign, and its SPIR-V form guards once more against
-//! divisors that cannot be here.
+//! Expands remainders of ints: naga's `%` has the dividend's sign, and its SPIR-V form adds another guard against
+//! divisors that cannot occur.
 //!
-//! GLSL leaves `%` open where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site
-//! make of it: a remainder with the divisor's sign.
+//! GLSL leaves `%` undefined if an operand is negative (section 5.9), but shaders rely on the result of OpenGL drivers
+//! and Shadertoy: a remainder with the divisor's sign.
 
 use naga::{BinaryOperator, Expression, Handle};
 
@@ -40,8 +40,8 @@ impl Builder<'_, '_> {
         let multiple = op(self, B::Multiply, quotient, right);
         let rest = op(self, B::Subtract, left, multiple);
         let zero = repeated(self, 0);
-        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on
-        // the product of signs, which 0 must not enter.
+        // A remainder of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is
+        // on the product of signs, which must exclude 0.
         let condition = if known.is_some() {
             op(self, B::Less, rest, zero)
         } else {
@@ -54,7 +54,7 @@ impl Builder<'_, '_> {
         self.add(Expression::Select { condition, accept: moved, reject: rest })
     }
 
-    /// Returns a divisor above zero that is a literal.
+    /// Returns the divisor if it is a positive literal.
     fn known_divisor(&self, value: Value) -> Option<u32> {
         match self.ir[value] {
             Op::Literal(Scalar::Int, bits) => (bits as i32 > 0).then_some(bits),

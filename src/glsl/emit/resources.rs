@@ -1,6 +1,6 @@
-//! Module-scope variables: the uniform blocks, channels, and the memory that functions share.
+//! Module-scope variables: uniform blocks, channels, and memory shared by functions.
 //!
-//! Each is declared when it is first reached, and noted in the reflection.
+//! Each is declared, and added to the reflection, when it is first used.
 
 use std::num::NonZeroU32;
 
@@ -18,7 +18,7 @@ use crate::{
     types::{SamplerDim, Scalar, TypeId},
 };
 
-/// Member of the block: name, offset, and what the reflection calls it.
+/// A member of the block: name, offset, and its kind.
 macro_rules! members {
     ($($name:literal $field:ident $kind:ident;)*) => {
         [$(($name, std::mem::offset_of!(UniformBlock, $field) as u32, Member::$kind)),*]
@@ -57,7 +57,7 @@ const MEMBERS: [(&str, u32, Member); 15] = members! {
     "tile_origin" tile_origin Int2;
 };
 
-/// Returns the position of a uniform in [`MEMBERS`], and its name in the reflection.
+/// Returns the index of a uniform in [`MEMBERS`], and its flag in the reflection.
 pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
     match uniform {
         Uniform::Resolution => (0, UniformSet::RESOLUTION),
@@ -79,10 +79,10 @@ pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
     }
 }
 
-/// Position of the cube face in [`MEMBERS`].
+/// The index of the cube face in [`MEMBERS`].
 pub(super) const CUBE_FACE: u32 = 12;
 
-/// Position of the tile's origin in [`MEMBERS`].
+/// The index of the tile's origin in [`MEMBERS`].
 pub(super) const TILE_ORIGIN: u32 = 14;
 
 /// A member of the block that is always zero.
@@ -101,7 +101,7 @@ impl Emitter<'_> {
         self.out.global_variables.append(variable, Span::UNDEFINED)
     }
 
-    /// Returns memory of one invocation, zero at its start unless `init` says otherwise.
+    /// Returns memory of one invocation, zero at its start unless `init` is given.
     pub fn private(
         &mut self,
         ty: Handle<naga::Type>,
@@ -167,12 +167,12 @@ impl Emitter<'_> {
         block
     }
 
-    /// Slots up to the last that the pass may name.
+    /// Returns the number of slots up to the last that the pass may name.
     pub fn custom_uniform_slots(&self) -> u32 {
         self.source.custom_uniforms.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
     }
 
-    /// Returns the author's own uniforms: an array of slots, because every backend lays that out alike.
+    /// Returns the custom uniforms: an array of slots, because every backend uses the same layout for that.
     pub fn custom_uniform_block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.custom_uniform_block {
             return block;
@@ -226,7 +226,7 @@ impl Emitter<'_> {
         made
     }
 
-    /// Returns a variable at the binding that is so far from the first of a channel.
+    /// Returns a variable at the binding `after` places after the first of a channel.
     fn handle(&mut self, ty: Handle<naga::Type>, channel: u8, after: u32) -> Handle<GlobalVariable> {
         let texture = &self.ir.textures[usize::from(channel)];
         let binding = ResourceBinding { group: texture.group, binding: texture.binding + after };
@@ -238,7 +238,7 @@ impl Emitter<'_> {
         made
     }
 
-    /// Returns private memory, set to its constant value where it has one.
+    /// Returns private memory, set to its constant value if it has one.
     pub fn private_global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
         if let Some(&Some(made)) = self.resources.private.get(id.index()) {
             return made;
@@ -260,7 +260,7 @@ impl Emitter<'_> {
         made
     }
 
-    /// Returns the memory that holds the zero which the driver cannot know; the entry point sets it.
+    /// Returns the variable with the zero that the driver cannot know; the entry point sets it.
     pub fn opaque_zero(&mut self) -> Handle<GlobalVariable> {
         if self.resources.opaque_zero.is_none() {
             let ty = self.ty(TypeId::INT);

@@ -1,10 +1,10 @@
 //! Constant tables that are indexed at run time, in read-only buffers.
 //!
-//! As memory of each invocation a table must be filled before the first read, element by element, and a driver's
-//! compiler takes minutes over a table of some thousand entries. In a buffer it costs a load. GLSL drivers do the same:
-//! Mesa's turns constant arrays into uniforms. Arrays of numbers and vectors lie in a uniform buffer until it is full;
-//! what a uniform buffer cannot hold lies in a storage buffer if it is large. All else stays in memory: small tables,
-//! which a driver turns into selects, and those that hold booleans, which no buffer may.
+//! In memory of each invocation a table must be filled before the first read, element by element, and a driver's
+//! compiler takes minutes for a table of some thousand entries. In a buffer it costs a load. GLSL drivers do the same:
+//! Mesa's turn constant arrays into uniforms. Arrays of numbers and vectors are put in a uniform buffer until it is
+//! full; large tables that a uniform buffer cannot store are put in a storage buffer. All others stay in memory: small
+//! tables, which a driver turns into selects, and those that contain booleans, which are not allowed in buffers.
 
 use std::num::NonZeroU32;
 
@@ -20,27 +20,27 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// Scalars from which on a constant that is indexed goes into a storage buffer. Its load is slow where neighbours read
-/// different places (five times the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a
-/// loop folds reads of memory away.
+/// The number of scalars from which on an indexed constant is put in a storage buffer. Its load is slow if neighbouring
+/// invocations read different places (five times the frame time for a loop over 14 triangles on llvmpipe), and a driver
+/// that unrolls such a loop constant-folds reads of memory.
 pub(crate) const LEAST_STORAGE_TABLE: usize = 256;
 
-/// Elements from which on a constant array that is indexed goes into the uniform buffer. To fill memory takes llvmpipe
-/// a store for each pixel and component at every start of the program; but Mesa unrolls loops of up to 32 turns
-/// (`max_unroll_iterations` in `lp_screen.c`), and then folds what they read of memory away.
+/// The number of elements from which on an indexed constant array is put in the uniform buffer. Filling memory takes
+/// llvmpipe one store per pixel and component at every start of the program; but Mesa unrolls loops of up to 32
+/// iterations (`max_unroll_iterations` in `lp_screen.c`), and then constant-folds their reads of memory.
 pub(crate) const LEAST_UNIFORM_TABLE: u32 = 33;
 
-/// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
+/// The size of a slot in bytes: the minimum stride of an array in a uniform buffer.
 const SLOT: u32 = 16;
 
-/// Contents of the buffers with constant tables; empty: the module has none of that kind.
+/// The contents of the buffers with constant tables; if empty, the module has no such buffer.
 pub(crate) struct TableBytes {
     pub uniform: Vec<u8>,
     pub storage: Vec<u8>,
 }
 
 impl Emitter<'_> {
-    /// Returns whether values of a type are copied by loops, which the driver needs ([`super::long_arrays`]).
+    /// Returns whether values of a type are copied by loops, because the driver needs it ([`super::long_arrays`]).
     pub fn is_long(&mut self, ty: TypeId) -> bool {
         self.source.driver.array_loops && self.layouts.is_aggregate_of(self.ir, ty, LEAST_COPY)
     }
@@ -70,9 +70,9 @@ impl Emitter<'_> {
         place
     }
 
-    /// Returns an array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in
-    /// the first components of vectors of three or four. `None` for what is no array of these, or too short to be worth
-    /// it.
+    /// Returns the type of an array in a uniform buffer, and its number of bytes: its scalars and vectors are in slots
+    /// of 16 bytes, in the first components of vectors of three or four. `None` if it is not an array of these, or too
+    /// short to be worth it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
         let Type::Array { element, len: len @ LEAST_UNIFORM_TABLE.. } = self.ir.types.get(ty) else { return None };
         let base = match self.ir.types.get(element) {
@@ -99,7 +99,7 @@ impl Emitter<'_> {
         buffer.members.len() as u32 - 1
     }
 
-    /// Returns the member of the storage buffer that holds a constant.
+    /// Returns the member of the storage buffer that contains a constant.
     pub fn storage_index(&mut self, id: ConstId) -> u32 {
         let key = id.index() as u32;
         if let Some(&index) = self.tables.stored.get(&key) {
@@ -125,7 +125,7 @@ impl Emitter<'_> {
         self.tables.storage.members.len() as u32 - 1
     }
 
-    /// Puts a value's words where its layout has them.
+    /// Writes a value's words at the offsets of its layout.
     fn write(&mut self, ty: TypeId, at: usize, words: &mut dyn Iterator<Item = u32>, bytes: &mut [u8]) {
         let ir = self.ir;
         let mut put = |at: usize| {
@@ -187,13 +187,13 @@ impl Emitter<'_> {
         *self.tables.storage.variable.insert(made)
     }
 
-    /// Returns a buffer; its type is not known before the last table is.
+    /// Returns a buffer; its type is not known until the last table has been added.
     fn table_buffer(&mut self, space: AddressSpace, binding: u32) -> Handle<GlobalVariable> {
         let ty = self.ty(TypeId::UINT);
         self.variable(space, ty, Some(ResourceBinding { group: interface::UNIFORM_GROUP, binding }), None)
     }
 
-    /// Gives the buffers their types; their bytes.
+    /// Sets the types of the buffers, and returns their contents.
     pub fn finish_tables(&mut self) -> TableBytes {
         let (uniform, storage) = (std::mem::take(&mut self.tables.uniform), std::mem::take(&mut self.tables.storage));
         let align = storage.align.max(4);

@@ -1,4 +1,4 @@
-//! Types of the intermediate representation as naga's.
+//! Translates types of the intermediate representation to naga's.
 
 use std::num::NonZeroU32;
 
@@ -19,7 +19,7 @@ pub(super) fn naga_scalar(scalar: Scalar) -> naga::Scalar {
     }
 }
 
-/// `size` 2 to 4.
+/// Converts a size of 2 to 4.
 pub(super) fn vector_size(size: usize) -> VectorSize {
     match size {
         2 => VectorSize::Bi,
@@ -29,7 +29,7 @@ pub(super) fn vector_size(size: usize) -> VectorSize {
 }
 
 impl Emitter<'_> {
-    /// Returns a type of `inner`, made at most once.
+    /// Returns the type with this `inner`, created at most once.
     pub fn insert_type(&mut self, inner: TypeInner) -> Handle<naga::Type> {
         self.out.types.insert(naga::Type { name: None, inner }, naga::Span::UNDEFINED)
     }
@@ -44,7 +44,7 @@ impl Emitter<'_> {
         self.layouts.of(self.ir, id)
     }
 
-    /// Returns naga's type of a value: neither void, sampler nor error.
+    /// Returns naga's type of a value, which is not void, sampler or error.
     pub fn ty(&mut self, id: TypeId) -> Handle<naga::Type> {
         if let Some(made) = self.types[id.0 as usize] {
             return made;

@@ -1,4 +1,4 @@
-//! Says what a program declares: variables, functions, folded values.
+//! The declarations of a program: variables, functions, folded values.
 
 use super::ids::{ConstId, ExprId, FuncId, StmtId};
 use crate::{
@@ -13,39 +13,39 @@ pub struct Global {
     pub name: Ident,
     pub ty: TypeId,
     pub storage: GlobalStorage,
-    /// `None` is zero. May be any expression of type `ty` (ANGLE forgives non-constant ones: a warning). Never set for
-    /// `Const`.
+    /// `None` is zero. May be any expression of type `ty` (ANGLE accepts non-constant ones, with a warning). Never set
+    /// for `Const`.
     pub init: Option<ExprId>,
-    /// The folded value: always for `Const`; for others where `init` is constant (then lowering may use either).
+    /// The folded value: always for `Const`; for others if `init` is constant (lowering may then use either).
     pub value: Option<ConstId>,
     /// The whole declaration.
     pub loc: Loc,
     pub flags: VarFlags,
-    /// An input or output that is not interpolated.
+    /// The input or output is not interpolated.
     pub flat: bool,
-    /// The location that the `layout` of an output says.
+    /// The location in the `layout` of an output.
     pub location: Option<u32>,
-    /// The name of the uniform block that it is a member of, or stands for.
+    /// The name of the uniform block that this is a member of, or represents.
     pub block: Option<Symbol>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GlobalStorage {
-    /// An ordinary global: one copy an invocation, initialised when the entry point starts.
+    /// An ordinary global: one copy per invocation, initialised when the entry point starts.
     Private,
     /// `const`: uses are folded to `Literal` or `Const` with this `value`'s id, so no expression refers to the global.
     Const,
-    /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`,
-    /// whose unit WebGL gives it: its uses are `Channel(0)`.) In a plain shader it lies in a buffer, and the uses of a
-    /// sampler are `Channel(n)` with its place among [`super::Module::samplers`].
+    /// A `uniform` the author declared: nothing sets it, so it reads as zero. (A sampler reads `iChannel0`, the texture
+    /// unit that WebGL assigns by default: its uses are `Channel(0)`.) In a plain shader it is in a buffer, and the
+    /// uses of a sampler are `Channel(n)` with its index in [`super::Module::samplers`].
     Uniform,
-    /// `in`: in a pass no vertex shader writes it, and it reads as zero; in a stage the entry point sets it.
+    /// `in`: in a pass no vertex shader writes it, so it reads as zero; in a stage the entry point sets it.
     In,
-    /// `out`: private memory, which in a stage the entry point hands on.
+    /// `out`: private memory, which the entry point of a stage outputs.
     Out,
 }
 
-/// Holds what the checker saw done to a variable, anywhere in the text, reached or not.
+/// The ways in which a variable is used anywhere in the text, reachable or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct VarFlags(pub u8);
 
@@ -55,7 +55,7 @@ impl VarFlags {
     /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the value of
     /// its declaration (or argument), and lowering needs no memory for it.
     pub const WRITTEN: VarFlags = VarFlags(2);
-    /// Some `Index` with an index that is no literal has this variable at its root.
+    /// Some `Index` with a non-literal index has this variable at its root.
     pub const INDEXED: VarFlags = VarFlags(4);
 
     pub fn contains(self, other: VarFlags) -> bool {
@@ -72,7 +72,7 @@ impl VarFlags {
 pub struct Function {
     /// At its definition, or its first prototype if it has none.
     pub name: Ident,
-    /// Names in all its prototypes, and in its definition; for editors.
+    /// The names in all its prototypes, and in its definition; for editors.
     pub declared_at: Vec<TokenId>,
     pub result: TypeId,
     /// The function's slice of [`super::Module::locals`]: parameters first, in order, then every local of the body.
@@ -82,13 +82,13 @@ pub struct Function {
     pub param_count: u32,
     /// The function's slice of [`super::Module::exprs`].
     pub exprs: Range<u32>,
-    /// `None` if only declared (an error where it is called).
+    /// `None` if it is only declared (an error where it is called).
     pub body: Option<List<StmtId>>,
-    /// Functions it calls, each once.
+    /// The functions it calls, each once.
     pub calls: Vec<FuncId>,
     /// Reachable from the entry point: member of [`super::Module::call_order`].
     pub used: bool,
-    /// Header, and the whole definition or prototype.
+    /// The header, and the whole definition or prototype.
     pub header: Loc,
     pub loc: Loc,
 }
@@ -96,11 +96,11 @@ pub struct Function {
 /// A parameter or a local variable.
 #[derive(Clone, Copy, Debug)]
 pub struct Local {
-    /// `None` for a parameter without name.
+    /// `None` for an unnamed parameter.
     pub name: Option<Ident>,
     pub ty: TypeId,
     pub kind: LocalKind,
-    /// As written or by default; changes nothing, for hover only.
+    /// As written, or the default; it has no effect and is only for hover.
     pub precision: Option<Precision>,
     /// For `Const`: its value.
     pub value: Option<ConstId>,
@@ -135,12 +135,12 @@ impl LocalKind {
     }
 }
 
-/// A folded value of any type but void and samplers.
+/// A folded value of any type except void and samplers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Const {
     pub ty: TypeId,
     /// All scalars in memory order, 32 bits each: floats and ints bit for bit (NaN and infinities may occur), bools 0
-    /// or 1; matrices column by column, structs member by member, arrays element by element. As many as `ty` has
-    /// scalars.
+    /// or 1; matrices column by column, structs member by member, arrays element by element. The number of words is the
+    /// number of scalars in `ty`.
     pub words: List<u32>,
 }

@@ -1,4 +1,4 @@
-//! Names of what a module holds.
+//! Ids of the items of a module.
 
 use crate::ast;
 

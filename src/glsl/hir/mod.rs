@@ -1,23 +1,24 @@
-//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering makes
-//! [`super::ir`] of it, editor services read its side tables.
+//! The checked program: typed, resolved, constants folded. The checker creates it from [`super::ast`], lowering
+//! translates it to [`super::ir`], editor services read its side tables.
 //!
-//! The checker makes a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs only
-//! when no error was reported; then it may rely on everything said here, and on there being no `Error` expression and
-//! no [`TypeId::ERROR`] in what is reachable from [`Module::entry`].
+//! The checker creates a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs
+//! only if no error was reported; it may then rely on everything documented here, and on the absence of `Error`
+//! expressions and [`TypeId::ERROR`] in everything reachable from [`Module::entry`].
 //!
 //! Guarantees of the checker, beyond those on the items:
 //! - Ids are in post-order (child < parent) and every node has at most one parent: a tree, no sharing. Folding leaves
-//!   nodes without parent behind, which cost nothing.
+//!   nodes without a parent, which are harmless.
 //! - Depth is bounded by a small multiple of [`super::ast::MAX_NESTING`], apart from the left spines (`Binary.lhs`,
 //!   `Logical.lhs`, `Comma.lhs`, and `base` of `Member`, `Swizzle` and `Index`) with at most one inserted node
 //!   (`Convert`) per link: walk these with a loop.
-//! - No implicit conversion is left: operand types fit exactly as each kind says. ANGLE's leniency, where we share
-//!   it, shows as explicit [`ExprKind::Convert`].
-//! - Operands are evaluated left to right, each once, and variables among them are read behind the effects of all, as ANGLE
-//!   does ([`super::unsequenced`]). Lowering keeps that order visible wherever [`ExprFlags::EFFECTS`] is set in a sibling.
-//! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out`
-//!   parameter is zero at entry, a non-void function that ends without `return` returns zero. No expression stands for
-//!   it; lowering does it.
+//! - No implicit conversion is left: operand types match exactly as each kind documents. Where we share ANGLE's
+//!   leniency, there is an explicit [`ExprKind::Convert`].
+//! - Operands are evaluated left to right, each once, and operands that are variables are read after the effects of
+//!   all, as in ANGLE ([`super::unsequenced`]). Lowering keeps that order observable wherever [`ExprFlags::EFFECTS`] is
+//!   set in a sibling.
+//! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out` parameter
+//!   is zero at entry, a non-void function that ends without `return` returns zero. No expression represents it;
+//!   lowering generates it.
 
 mod declarations;
 mod ids;
@@ -37,23 +38,23 @@ pub use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
 pub struct Module {
     pub types: TypeTable,
     pub structs: Vec<Struct>,
-    /// In text order; initialisers that are not constant run in this order when the entry point starts.
+    /// In text order; non-constant initialisers run in this order when the entry point starts.
     pub globals: Vec<Global>,
     /// The samplers that a plain shader declares, in text order.
     pub samplers: Vec<GlobalId>,
-    /// One entry a signature; prototypes and definition share it.
+    /// One entry per signature; prototypes and definition share it.
     pub functions: Vec<Function>,
     pub exprs: Vec<Expr>,
     pub stmts: Vec<Stmt>,
     pub consts: Vec<Const>,
     pub locals: Vec<Local>,
-    /// `mainImage` and its like, with a body and exactly the signature of the pass's kind. Set whenever there is no
-    /// error.
+    /// `mainImage` or another entry point, with a body and exactly the signature of the pass's kind. Always set if
+    /// there is no error.
     pub entry: Option<FuncId>,
     /// Functions reachable from [`Module::entry`] and from initialisers of used globals, callees before callers (the
     /// checker forbids recursion). Each has a body.
     pub call_order: Vec<FuncId>,
-    /// Every name in the text that was resolved, declarations excluded, in no particular order; for editors.
+    /// Every resolved name in the text, except declarations, in no particular order; for editors.
     pub uses: Vec<Use>,
     expr_lists: Vec<ExprId>,
     stmt_lists: Vec<StmtId>,
@@ -64,7 +65,7 @@ pub struct Module {
     tokens: Vec<TokenId>,
 }
 
-/// A copy is gone on with: what follows Common is checked into it.
+/// Cloning a module allows checking to continue in the copy: the text after Common is checked into it.
 impl Clone for Module {
     fn clone(&self) -> Self {
         Self {
@@ -108,7 +109,7 @@ ast::arenas! { Module;
 }
 
 impl Module {
-    /// Makes room for what the nodes of a tree become, but for its first so many expressions.
+    /// Reserves capacity for the nodes of a tree, except for its first `done` expressions.
     pub fn reserve(&mut self, ast: &ast::Ast, done: usize) {
         let exprs = ast.exprs.len() - done;
         self.exprs.reserve(exprs + exprs / 4);
@@ -128,7 +129,7 @@ impl Module {
         StmtId::new(self.stmts.len() - 1)
     }
 
-    /// Stores a folded value; `words` as [`Const::words`] has them.
+    /// Stores a folded value; for `words` see [`Const::words`].
     pub fn constant(&mut self, ty: TypeId, words: &[u32]) -> ConstId {
         let words = self.list(words);
         self.consts.push(Const { ty, words });
@@ -147,14 +148,14 @@ impl Module {
         }
     }
 
-    /// Parameters of a function, in order.
+    /// Returns the parameters of a function, in order.
     #[inline]
     pub fn params(&self, func: FuncId) -> &[Local] {
         let function = &self[func];
         &self.locals[function.locals.start as usize..][..function.param_count as usize]
     }
 
-    /// Adds what an expression consists of.
+    /// Adds the operands of an expression.
     pub fn parts(&self, expr: ExprId, out: &mut Vec<ExprId>) {
         match self[expr].kind {
             ExprKind::Error
@@ -190,7 +191,7 @@ impl Module {
         }
     }
 
-    /// Returns the variable that a place is or lies in.
+    /// Returns the variable that is, or contains, a place.
     pub fn root(&self, mut place: ExprId) -> ExprId {
         while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
             self[place].kind
@@ -201,7 +202,7 @@ impl Module {
     }
 }
 
-/// A struct type. Member types are complete and none is void; names are distinct.
+/// A struct type. Member types are complete and not void; names are distinct.
 #[derive(Clone, Copy, Debug)]
 pub struct Struct {
     /// `None` for `struct { .. } x;`.
@@ -229,15 +230,15 @@ pub struct Expr {
     pub loc: Loc,
 }
 
-/// Facts about an expression and what is below it.
+/// Properties of an expression and its operands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ExprFlags(pub u8);
 
 impl ExprFlags {
-    /// May be assigned to. Set for variables that are no constants, inputs or uniforms, and for `Member`, `Index` and
-    /// `Swizzle` without repetition of such. A place is a value as well: used as one it is read.
+    /// May be assigned to. Set for variables that are not constants, inputs or uniforms, and for `Member`, `Index` and
+    /// non-repeating `Swizzle` of such. A place is also a value: it is read when used as one.
     pub const PLACE: ExprFlags = ExprFlags(1);
-    /// Evaluating may change something: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
+    /// Evaluation may have side effects: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
     pub const EFFECTS: ExprFlags = ExprFlags(2);
     /// A constant expression (section 4.3.3): always a `Literal` or `Const`.
     pub const CONSTANT: ExprFlags = ExprFlags(8);
@@ -251,32 +252,33 @@ impl ExprFlags {
         Self(self.0 | other.0)
     }
 
-    /// Returns what a parent takes over from a child: effects.
+    /// Returns the flags that a parent inherits from a child: effects.
     #[must_use]
     pub fn inherited(self) -> Self {
         Self(self.0 & Self::EFFECTS.0)
     }
 }
 
-/// Says what an expression is. `ty` below is the expression's own type.
+/// The kind of an expression. `ty` below is the expression's own type.
 #[derive(Clone, Copy, Debug)]
 pub enum ExprKind {
     /// Reported; never reaches lowering.
     Error,
 
     // Values.
-    /// A scalar constant, bit for bit (bool 0 or 1); `ty` tells bool, int, uint or float.
+    /// A scalar constant, bit for bit (bool 0 or 1); `ty` is bool, int, uint or float.
     Literal(u32),
-    /// A folded vector, matrix, array or struct. All uses of one `const` variable name the same id, so that a table is
+    /// A folded vector, matrix, array or struct. All uses of one `const` variable have the same id, so that a table is
     /// stored once.
     Const(ConstId),
-    /// A parameter or variable of the function at hand. One of sampler type is the parameter that stands for a channel.
+    /// A parameter or variable of the current function. One of sampler type is a parameter to which a channel is
+    /// passed.
     Local(LocalId),
     /// A variable of storage `Private`, `Uniform`, `In` or `Out`.
     Global(GlobalId),
-    /// A uniform of the site. `ty` is [`Uniform::ty`]; the arrays are mostly followed by an `Index`.
+    /// A Shadertoy uniform. `ty` is [`Uniform::ty`]; the arrays are usually followed by an `Index`.
     Uniform(Uniform),
-    /// One of the author's own uniforms, by its place among the pass's.
+    /// A custom uniform, by its index among the pass's.
     CustomUniform(u16),
     /// `iChannel0` to `iChannel3` (also `iCh0.sampler`); `ty` is the sampler type. Occurs only as an argument.
     Channel(u8),
@@ -286,62 +288,61 @@ pub enum ExprKind {
     // Parts.
     /// Member `index` of a struct.
     Member { base: ExprId, index: u32 },
-    /// Components of a vector. One component gives a scalar.
+    /// Components of a vector. One component is a scalar.
     Swizzle { base: ExprId, swizzle: Swizzle },
     /// An element of an array, a column of a matrix or a component of a vector. `index` is int or uint; a `Literal` is
-    /// in range (the checker guarantees it), anything else lowering clamps into range.
+    /// in range (the checker guarantees it), any other index is clamped by lowering.
     Index { base: ExprId, index: ExprId },
 
     // Operators.
-    /// Operand and result have the same type. Unary plus leaves no node.
+    /// Operand and result have the same type. Unary plus has no node.
     Unary { op: UnaryOp, operand: ExprId },
-    /// Eager operators.
+    /// Operators that evaluate both sides.
     Binary { op: BinaryOp, shape: Shape, lhs: ExprId, rhs: ExprId },
     /// `&&` and `||`: the right side is evaluated only if needed.
     Logical { op: LogicalOp, lhs: ExprId, rhs: ExprId },
     /// `cond` is bool; one branch is evaluated; both have type `ty` (which may be void, an array or a struct).
     Ternary { cond: ExprId, then: ExprId, otherwise: ExprId },
-    /// Evaluates both, gives `rhs`. Never a place.
+    /// Evaluates both; the value is `rhs`. Never a place.
     Comma { lhs: ExprId, rhs: ExprId },
-    /// `place = value`, all three types equal (arrays and structs too). The value is what was stored; not a place.
+    /// `place = value`, all three types equal (arrays and structs too). The value is the stored one; not a place.
     Assign { place: ExprId, value: ExprId },
-    /// `place op= value`: the place is found once, before `value` is evaluated, and read after. `ty` and `place` have
-    /// the same type; `shape` is that of `place op value`.
+    /// `place op= value`: the place is evaluated once, before `value`, and read after it. `ty` and `place` have the
+    /// same type; `shape` is that of `place op value`.
     AssignOp { op: BinaryOp, shape: Shape, place: ExprId, value: ExprId },
     /// `++` and `--` on int, uint or float scalars, vectors or matrices; the value is the new one for prefix, the old
     /// for postfix. Not a place.
     IncDec { op: IncDec, place: ExprId },
 
-    // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in
-    // `Convert`. `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a
-    // constructor of the same type leaves no node.
+    // Constructors (section 5.4). Component types agree unless stated otherwise: the checker wraps arguments in
+    // `Convert`. `float(v)`, `vec2(v3)` and the like are a `Swizzle` (or `Index`) and a `Convert`; a constructor of the
+    // same type has no node.
     /// Component by component between bool, int, uint and float (section 5.4.1), of a scalar or vector of the same
     /// size, to a different component type. Never of a matrix: `ivec4(m)` is the `Convert` of a float `Vector` of `m`.
     Convert(ExprId),
     /// A vector from one scalar.
     Splat(ExprId),
-    /// A vector from scalars, vectors and matrices: their components in order (matrices column by column), of which the
-    /// first `size` count. At least two arguments or a matrix; no argument is wholly unused. Component types are `ty`'s
-    /// own.
+    /// A vector from scalars, vectors and matrices: the first `size` of their components in order (matrices column by
+    /// column). At least two arguments or a matrix; no argument is wholly unused. Component types are those of `ty`.
     Vector(List<ExprId>),
     /// A matrix with a float scalar on its diagonal and zeros elsewhere.
     MatrixDiagonal(ExprId),
-    /// A matrix from one of another shape: common part copied, the rest as in the identity.
+    /// A matrix from one of another shape: the common part is copied, the rest is that of the identity matrix.
     MatrixResize(ExprId),
     /// A matrix from float scalars and vectors, column by column: exactly as many components as it has, or more in the
-    /// last.
+    /// last argument.
     Matrix(List<ExprId>),
-    /// A struct, one argument a member, of exactly the members' types.
+    /// A struct, one argument per member, of exactly the members' types.
     Struct(List<ExprId>),
-    /// An array, one argument an element, of exactly the element type.
+    /// An array, one argument per element, of exactly the element type.
     Array(List<ExprId>),
 
     // Calls.
-    /// A user function: one argument a parameter ([`Module::params`]), types equal. An argument to `out` or `inout` is
-    /// a place: it is found (indices evaluated) in argument order before the call, copied back in argument order after
-    /// it. A sampler argument is a `Channel` or a `Local`.
+    /// A user function: one argument per parameter ([`Module::params`]), with equal types. An argument to `out` or
+    /// `inout` is a place: it is evaluated (including its indices) in argument order before the call, and copied back
+    /// in argument order after it. A sampler argument is a `Channel` or a `Local`.
     Call { func: FuncId, args: List<ExprId> },
-    /// A built-in: argument and result types are those of one overload of chapter 8, which they tell apart. `modf`'s
+    /// A built-in: argument and result types are those of one overload of chapter 8, which they identify. `modf`'s
     /// second argument is a place. Texture calls have the sampler first; constant offsets are `Literal`/`Const` in the
     /// legal range.
     Builtin { builtin: Builtin, args: List<ExprId> },
@@ -357,31 +358,30 @@ pub enum UnaryOp {
     BitNot,
 }
 
-/// Operators whose both sides are always evaluated.
+/// Operators that always evaluate both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BinaryOp {
     /// Ints wrap.
     Add,
     Sub,
     Mul,
-    /// Int division truncates; by zero it is undefined but must not trap, as is the most negative by -1.
+    /// Int division truncates; division by zero, and of the most negative int by -1, are undefined but must not trap.
     Div,
     /// int and uint only.
     Rem,
     BitAnd,
     BitOr,
     BitXor,
-    /// The right side may be uint for an int left side and the other way round.
+    /// The right side may be uint for an int left side and vice versa.
     Shl,
     /// Arithmetic for int, logical for uint (by the left side).
     Shr,
-    /// The four orders: int, uint or float scalars; bool result.
+    /// The four relational operators: int, uint or float scalars; bool result.
     Less,
     Greater,
     LessEqual,
     GreaterEqual,
-    /// Whole values of one type, any but void and samplers (`lhs`'s `ty` says which): bool result, true if all parts
-    /// are equal.
+    /// Whole values of one type, any except void and samplers (`lhs`'s `ty`): bool result, true if all parts are equal.
     Equal,
     /// The opposite of `Equal`: true if any part differs.
     NotEqual,
@@ -389,12 +389,13 @@ pub enum BinaryOp {
     LogicalXor,
 }
 
-/// The way in which the operand types of a [`BinaryOp`] meet. Orders, equality and `^^` are always `Same`.
+/// The way in which the operand types of a [`BinaryOp`] combine. Relational operators, equality and `^^` are always
+/// `Same`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
-    /// Equal types, component by component (for shifts: equal sizes). `Mul` of two matrices is never this.
+    /// Equal types, component by component (for shifts: equal sizes). Never `Mul` of two matrices.
     Same,
-    /// Scalar left, vector or matrix right: the scalar meets each component.
+    /// Scalar left, vector or matrix right: the scalar is combined with each component.
     ScalarLeft,
     /// Vector or matrix left, scalar right.
     ScalarRight,
@@ -422,50 +423,51 @@ pub enum IncDec {
 
 // --------------------------------------------------------------------------------------------------------- statements
 
-/// A statement. Empty statements, `const` declarations and struct definitions leave none.
+/// A statement. Empty statements, `const` declarations and struct definitions have none.
 #[derive(Clone, Copy, Debug)]
 pub struct Stmt {
     pub kind: StmtKind,
     pub loc: Loc,
 }
 
-/// Says what a statement is. Scopes are resolved, so a `Block` only groups.
+/// The kind of a statement. Scopes are resolved, so a `Block` only groups.
 #[derive(Clone, Copy, Debug)]
 pub enum StmtKind {
-    /// Statements that run one after the other.
+    /// Statements that run in sequence.
     Block(List<StmtId>),
     /// Evaluated for its effects.
     Expr(ExprId),
-    /// One variable of a declaration. Each execution sets it anew: to `init`, or to zero.
+    /// One variable of a declaration. Each execution sets it again: to `init`, or to zero.
     Declare { local: LocalId, init: Option<ExprId> },
     /// `cond` is bool.
     If { cond: ExprId, then: List<StmtId>, otherwise: List<StmtId> },
-    /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool, absent: true) before each
-    /// round; `step` after each, also after `continue`. A condition that declares, `while (bool b = e)`, has become an
-    /// `Assign` to `b` as `test`.
+    /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool; true if absent) before
+    /// each iteration; `step` after each, also after `continue`. A condition that declares a variable, `while (bool b =
+    /// e)`, is an `Assign` to `b` as `test`.
     For { init: List<StmtId>, test: Option<ExprId>, step: Option<ExprId>, body: List<StmtId> },
-    /// `continue` goes to the test.
+    /// `continue` jumps to the test.
     DoWhile { body: List<StmtId>, test: ExprId },
     /// `value` is int or uint, evaluated once.
     Switch { value: ExprId, cases: List<Case> },
-    /// `Some` in functions that return a value, of type `Function::result`, unless the call returns void itself.
+    /// `Some` in functions that return a value, of type `Function::result`; `None` otherwise, and where a void call is
+    /// returned.
     Return(Option<ExprId>),
-    /// Leaves the nearest loop or switch; the checker guarantees there is one.
+    /// Leaves the nearest loop or switch; the checker guarantees that there is one.
     Break,
-    /// Goes on with the nearest loop, through any switch.
+    /// Continues the nearest loop, also from within a switch.
     Continue,
-    /// Ends the invocation, which draws nothing.
+    /// Ends the invocation, which then writes nothing.
     Discard,
 }
 
-/// Labels that stand together and what follows them up to the next label. Control falls through into the next case
-/// unless the body ends by `break` or the like. Locals declared in one case may be used in later ones: where the
-/// declaration was skipped they hold any value, zero for choice.
+/// Consecutive labels and the statements after them, up to the next label. Control falls through into the next case
+/// unless the body ends with `break` or the like. Locals declared in one case may be used in later ones: where the
+/// declaration was skipped they have any value, preferably zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Bits of the `case` values; distinct within a switch (the checker guarantees it).
     pub values: List<u32>,
-    /// `default:` is among the labels; at most once a switch, at any place.
+    /// `default:` is among the labels; at most once per switch, at any position.
     pub is_default: bool,
     pub body: List<StmtId>,
     /// The labels.
@@ -477,12 +479,12 @@ pub struct Case {
 /// A name in the text and what it refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Use {
-    /// `Origins` tells where it is written, which may be inside a macro's definition.
+    /// `Origins` stores where it is written, which may be inside a macro's definition.
     pub token: TokenId,
     pub target: DeclRef,
 }
 
-/// Whatever a name can refer to.
+/// The targets that a name can refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DeclRef {
     Local(LocalId),

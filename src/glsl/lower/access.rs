@@ -11,13 +11,13 @@ use crate::{
     ir::{Binary, Math, Op, Value},
 };
 
-/// Something in memory.
+/// A location in memory.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub pointer: Value,
     /// The type that the pointer points to.
     pub ty: TypeId,
-    /// Components of it that are meant; none: all of it.
+    /// The selected components; `None` for all.
     pub swizzle: Option<Swizzle>,
 }
 
@@ -28,7 +28,7 @@ impl Place {
 }
 
 impl Builder<'_, '_> {
-    /// Finds an l-value: evaluates its indices, once.
+    /// Evaluates an l-value and its indices, once.
     pub fn place(&mut self, expr: ExprId) -> Place {
         let (root, links) = self.chain(expr);
         let mut place = self.root(root, &links).expect("a place is in memory");
@@ -38,8 +38,8 @@ impl Builder<'_, '_> {
         place
     }
 
-    /// Returns the value of a variable or of a part of one, if it is in memory; else the links from the outermost to
-    /// the root.
+    /// Returns the value of a variable or of a part of one, if it is in memory; otherwise the links from the outermost
+    /// to the root.
     pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
         let (root, links) = self.chain(expr);
         let Some(mut place) = self.root(root, &links) else { return Err(links) };
@@ -49,14 +49,15 @@ impl Builder<'_, '_> {
         Ok(self.load_place(place))
     }
 
-    /// Finds the variable or the part of one that an operand names, where what is evaluated after it may change it.
+    /// Returns the place of an operand that is a variable or a part of one, if operands evaluated after it may change
+    /// it.
     ///
-    /// GLSL ES 3.00 gives operands no order. In ANGLE's code for SPIR-V (`OutputSPIRV.cpp`) an operand that is a chain of
-    /// members, swizzles and indices stays one, with its indices evaluated, until its operator is applied; only then is
-    /// it read. So `g * f()` multiplies by what `f` has made of `g`, arguments and constructors likewise. Any other operand
-    /// is a value at once: `(g + 1.0) * f()` adds before.
-    pub fn read_late(&mut self, operand: ExprId, has_effects_behind: bool) -> Option<Place> {
-        if !has_effects_behind {
+    /// GLSL ES 3.00 does not define the order of operands. In ANGLE's code for SPIR-V (`OutputSPIRV.cpp`) an operand
+    /// that is a chain of members, swizzles and indices stays one, with its indices evaluated, until its operator is
+    /// applied; only then is it read. So `g * f()` multiplies by the value of `g` after `f`, and the same holds for
+    /// arguments and constructors. Any other operand is evaluated immediately: `(g + 1.0) * f()` adds before.
+    pub fn read_late(&mut self, operand: ExprId, has_later_effects: bool) -> Option<Place> {
+        if !has_later_effects {
             return None;
         }
         let (root, links) = self.chain(operand);
@@ -79,7 +80,7 @@ impl Builder<'_, '_> {
             match self.read_late(self.written(operand), Some(i) < last_effect) {
                 Some(place) => {
                     late.push((i, operand, place));
-                    // In its place stands any value until it is read.
+                    // A placeholder until the operand is read.
                     values.push(place.pointer);
                 }
                 None => values.push(self.value(operand)),
@@ -97,11 +98,11 @@ impl Builder<'_, '_> {
         values
     }
 
-    /// Returns the operand that a constructor was given, where its components are converted: `n` of `vec2(n, 1)`.
+    /// Returns the operand as written if a constructor converts its components: `n` of `vec2(n, 1)`.
     fn written(&self, operand: ExprId) -> ExprId {
         let hir = self.cx.hir;
         match hir[operand].kind {
-            // One that is written as `float(n)` begins before `n`.
+            // One that is written as `float(n)` starts before `n`.
             ExprKind::Convert(inner) if hir[inner].loc == hir[operand].loc => inner,
             _ => operand,
         }
@@ -120,7 +121,7 @@ impl Builder<'_, '_> {
         (root, links)
     }
 
-    /// Returns the memory an expression names; `None` if it is a value.
+    /// Returns the memory that an expression names; `None` if it is a value.
     fn root(&mut self, root: ExprId, links: &[ExprId]) -> Option<Place> {
         let hir = self.cx.hir;
         let ty = hir[root].ty;
@@ -177,7 +178,7 @@ impl Builder<'_, '_> {
         Some(Place::of(self.global(global), ty))
     }
 
-    /// Returns the value of one of the author's own uniforms: words of its slot, read as what it is.
+    /// Returns the value of a custom uniform: the words of its slot, converted to its type.
     fn custom_uniform(&mut self, index: u16, ty: TypeId) -> Value {
         let slot = self.cx.source.custom_uniforms[usize::from(index)].slot;
         let block = self.cx.custom_uniform(slot);
@@ -196,14 +197,14 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the value a root that is not in memory has.
+    /// Returns the value of a root that is not in memory.
     pub fn root_value(&mut self, root: ExprId) -> Value {
         let hir = self.cx.hir;
         let ty = hir[root].ty;
         match hir[root].kind {
             ExprKind::Local(local) => match self.slot(local) {
                 Slot::Value(value) => value,
-                // Its declaration was skipped: any value will do.
+                // Its declaration was skipped, so any value is allowed.
                 _ => self.zero(ty),
             },
             ExprKind::Global(id) => match hir[id].value {
@@ -219,7 +220,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Some index that is no literal goes into an array or matrix.
+    /// Returns whether some non-literal index accesses an array or matrix.
     fn indexes_aggregate(&self, links: &[ExprId]) -> bool {
         let hir = self.cx.hir;
         links.iter().any(|&link| match hir[link].kind {
@@ -313,7 +314,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Components of a vector of type `ty`.
+    /// Selects components of a vector of type `ty`.
     pub fn swizzle(&mut self, vector: Value, ty: TypeId, swizzle: Swizzle) -> Value {
         if swizzle.len() == 1 {
             return self.add(Op::Part { base: vector, index: swizzle.get(0) as u32 });
@@ -324,7 +325,7 @@ impl Builder<'_, '_> {
         self.add(Op::Swizzle { vector, swizzle })
     }
 
-    /// Elements of an array, columns of a matrix, components of a vector.
+    /// Returns the number of elements of an array, columns of a matrix, or components of a vector.
     pub fn extent(&self, ty: TypeId) -> u32 {
         match self.cx.hir.types.get(ty) {
             Type::Array { len, .. } => len,
@@ -334,7 +335,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns an index, clamped to `0..len`: WebGL lets no index stray, and clamping is what its implementations do.
+    /// Returns an index, clamped to `0..len`: WebGL forbids out-of-bounds accesses, and its implementations clamp.
     fn index(&mut self, index: ExprId, len: u32) -> Value {
         let value = self.value(index);
         let clamped = if self.cx.hir[index].ty == TypeId::UINT {
@@ -349,7 +350,7 @@ impl Builder<'_, '_> {
         clamped
     }
 
-    /// Components of a vector, or a scalar alone.
+    /// Adds the components of a vector, or a scalar itself.
     pub fn components(&mut self, value: Value, ty: TypeId, out: &mut Vec<Value>) {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => {
@@ -374,7 +375,7 @@ impl Builder<'_, '_> {
         self.add(Op::Bitcast { value, to })
     }
 
-    /// Returns the variable of this function that an expression names as a whole, if it is memory.
+    /// Returns the variable of this function that an expression names as a whole, if it is in memory.
     pub fn whole_local(&self, expr: ExprId) -> Option<(LocalId, Value)> {
         match self.cx.hir[expr].kind {
             ExprKind::Local(local) => match self.slot(local) {
@@ -386,7 +387,7 @@ impl Builder<'_, '_> {
     }
 }
 
-/// `inner` of what `outer` selects.
+/// Returns the swizzle that applies `inner` to the result of `outer`.
 fn compose_swizzles(outer: Swizzle, inner: Swizzle) -> Swizzle {
     let components: Vec<u8> = inner.iter().map(|c| outer.get(c) as u8).collect();
     Swizzle::new(&components)

@@ -1,5 +1,4 @@
-//! Calling conventions: parameters that a copy of a function is specialized for, and those that it reads where they
-//! are.
+//! Calling conventions: the parameters that a copy of a function is specialized for, and those that it reads in place.
 
 use rustc_hash::FxHashSet;
 
@@ -8,47 +7,48 @@ use crate::{
     hir::{ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, LocalId, Module, Type, VarFlags},
 };
 
-/// Globals that are looked at to find out which each function writes. A chain of ten thousand functions that write one
-/// each would take all memory.
-const MOST_WRITES: usize = 1 << 22;
+/// The maximum number of globals that are visited to determine which each function writes. A chain of ten thousand
+/// functions that write one each would use all memory.
+const MAX_WRITES: usize = 1 << 22;
 
-/// A user function with what it has in place of samplers and of arrays that it only reads, in order.
+/// A user function with its specializations for samplers and for arrays that it only reads, in order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Instance {
     pub func: FuncId,
     pub specializations: Box<[Specialization]>,
 }
 
-/// A value known at compile time that a copy of a function has in place of one of its parameters.
+/// A compile-time value that replaces a parameter in a copy of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Specialization {
     /// Passed at run time.
     None,
-    /// The channel a sampler stands for.
+    /// The channel of a sampler.
     Channel(u8),
-    /// A global that neither the function nor what it calls writes: the parameter is that global.
+    /// A global that neither the function nor its callees write: the parameter is that global.
     Global(GlobalId),
-    /// A table.
+    /// A constant table.
     Table(ConstId),
 }
 
-/// The argument of a call for such a parameter.
+/// The argument of a call for a specializable parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SpecializedArgument {
     Known(Specialization),
-    /// The specialization that the caller itself has of a parameter, counted among those that can be specialized.
+    /// The caller's own specialization of a parameter, by its index among the specializable ones.
     Param(usize),
 }
 
 /// The calling conventions of a module.
 pub(super) struct Arguments {
-    /// Locals that some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
-    /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they
-    /// are.
+    /// Locals that some call passes as a whole for a parameter that is indexed, in the callee or in functions it calls
+    /// in turn; by [`LocalId::index`]. They are in memory, as if they were indexed themselves: the call then reads them
+    /// in place.
     pub handed_on: Vec<bool>,
-    /// Globals that a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of them.
+    /// Globals that a function or its callees write, by [`FuncId::index`]; `None` if there are too many, so any may be
+    /// written.
     written: Vec<Option<FxHashSet<GlobalId>>>,
-    /// Parameters of each function that a copy of it can have something in place of, in order.
+    /// The specializable parameters of each function, in order.
     specializable: Vec<Vec<LocalId>>,
     /// The number of expressions that name each constant, by [`ConstId::index`].
     named: Vec<u32>,
@@ -57,7 +57,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
+    /// `writes` contains the globals that each function itself writes, by [`FuncId::index`].
     pub fn new(module: &Module, writes: Vec<FxHashSet<GlobalId>>, table: usize) -> Self {
         let mut written: Vec<_> = writes.into_iter().map(Some).collect();
         let mut work = 0;
@@ -66,7 +66,7 @@ impl Arguments {
             for callee in &module[func].calls {
                 let of_callee = written[callee.index()].as_ref();
                 work += of_callee.map_or(0, FxHashSet::len);
-                match (&mut all, of_callee.filter(|_| work <= MOST_WRITES)) {
+                match (&mut all, of_callee.filter(|_| work <= MAX_WRITES)) {
                     (Some(all), Some(of_callee)) => all.extend(of_callee),
                     _ => all = None,
                 }
@@ -89,8 +89,8 @@ impl Arguments {
         made
     }
 
-    /// Returns whether a constant is a table rather than a few numbers written into one call: those are cheaper put
-    /// into memory where they are needed than at the start of every invocation.
+    /// Returns whether a constant is a table rather than a few numbers in one call: the latter are cheaper to store in
+    /// memory where they are used than at the start of every invocation.
     fn is_table(&self, module: &Module, id: ConstId) -> bool {
         self.named[id.index()] > 1 || module[module[id].words].len() >= self.table
     }
@@ -103,18 +103,18 @@ impl Arguments {
         matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
     }
 
-    /// Returns whether a function or what it calls writes a global.
+    /// Returns whether a function or one of its callees writes a global.
     pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
         self.written[func.index()].as_ref().is_none_or(|written| written.contains(&global))
     }
 
-    /// Returns whether a local is indexed, in its function or in one it is handed to as a whole.
+    /// Returns whether a local is indexed, in its function or in a callee that it is passed to as a whole.
     pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
     }
 
-    /// Returns whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what
-    /// the caller has, or that itself, and not a copy that each call fills anew, element by element.
+    /// Returns whether a parameter is only read, but indexed in a way that values cannot be: it is then a pointer to
+    /// the caller's argument, or the argument itself, instead of a copy that each call fills element by element.
     pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
         let declared = &module[param];
         !declared.kind.copies_out()
@@ -123,7 +123,7 @@ impl Arguments {
             && !matches!(module.types.get(declared.ty), Type::Scalar(_) | Type::Vector { .. } | Type::Sampler { .. })
     }
 
-    /// Returns the arguments of a call in `caller` (none: an initialiser) for those.
+    /// Returns the arguments of a call in `caller` (`None` for an initialiser) for the specializable parameters.
     pub fn passed(
         &self,
         module: &Module,
@@ -135,7 +135,7 @@ impl Arguments {
         let last_effect = last_effect(module, args);
         let passed = self.specializable(func).iter().map(|param| {
             let place = param.index() - first;
-            // What a later argument changes is not what was passed.
+            // If a later argument changes the value, it is not the passed one.
             let changes = last_effect > Some(place);
             match module[args[place]].kind {
                 ExprKind::Channel(channel) => SpecializedArgument::Known(Specialization::Channel(channel)),
@@ -147,7 +147,7 @@ impl Arguments {
                     let stays = !changes && !self.writes(func, global);
                     SpecializedArgument::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
                         (false, Some(value)) => Specialization::Table(value),
-                        // Nobody sets it: it is zero.
+                        // Nothing sets it: it is zero.
                         (false, None) if declared.init.is_none() => Specialization::None,
                         _ if stays => Specialization::Global(global),
                         _ => Specialization::None,
@@ -155,7 +155,7 @@ impl Arguments {
                 }
                 ExprKind::Local(local) => {
                     let specializable = caller.map_or(&[][..], |caller| self.specializable(caller));
-                    // They are in order.
+                    // They are sorted.
                     match specializable.binary_search(&local) {
                         Ok(param) => SpecializedArgument::Param(param),
                         Err(_) => SpecializedArgument::Known(Specialization::None),
@@ -168,7 +168,7 @@ impl Arguments {
     }
 }
 
-/// Returns the last argument whose evaluation changes something.
+/// Returns the last argument whose evaluation has effects.
 pub(super) fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
     args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
 }
@@ -186,7 +186,7 @@ fn handed_on(module: &Module) -> Vec<bool> {
             calls.push((func, args));
         }
     }
-    // All that a function calls comes before all calls of it: what it hands on is known by then.
+    // A function's own calls come before all calls of it, so its indexed parameters are known by then.
     calls.sort_by_key(|(func, _)| order[func.index()]);
     for (func, args) in calls {
         let first = module[func].locals.start as usize;

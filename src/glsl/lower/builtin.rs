@@ -1,4 +1,4 @@
-//! Built-in functions of chapter 8, textures excepted.
+//! Built-in functions of chapter 8, except texture functions.
 
 use super::{
     function::{Builder, PartOf},
@@ -24,7 +24,7 @@ impl Builder<'_, '_> {
         self.add(Op::Math { fun, arg, arg1: Some(arg1), arg2: Some(arg2), arg3: None })
     }
 
-    /// Calls a built-in of result type `ty`; `None` for void ones.
+    /// Calls a built-in of result type `ty`; returns `None` for void ones.
     pub fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
         match builtin.operation {
             Operation::Modf => return Some(self.modf(args)),
@@ -47,7 +47,7 @@ impl Builder<'_, '_> {
         Some(value)
     }
 
-    /// `ty` is the result's.
+    /// Lowers an operation; `ty` is the result type.
     fn operation(&mut self, operation: Operation, ty: TypeId, args: &[Typed]) -> Value {
         use Operation as O;
         match (operation, args) {
@@ -67,9 +67,9 @@ impl Builder<'_, '_> {
             (O::Atan, &[(_, x)]) => self.math(Math::Atan, x),
             (O::Atan, &[(_, y), (_, x)]) => self.math2(Math::Atan2, y, x),
             (O::Modulo, &[(_, a), b]) => {
-                // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the
-                // product, and x is left: shaders repeat space along some axes alone by it, so that divisor must stay
-                // in sight.
+                // x - y * floor(x / y): naga's remainder truncates. If y is a constant zero, drivers drop the product,
+                // and x remains: shaders use this to repeat space along some axes only, so that divisor must stay
+                // visible to the driver.
                 let b = self.splat_to(b.1, b.0, ty);
                 let quotient = self.op(Binary::Divide, a, b);
                 let whole = self.math(Math::Floor, quotient);
@@ -84,7 +84,7 @@ impl Builder<'_, '_> {
                 }
             },
             (O::Step, &[(a_ty, a), (_, b)]) => {
-                // Zero for NaN on either side, as OpenGL drivers have it; SPIR-V's `Step` may say one.
+                // Zero for NaN on either side, as in OpenGL drivers; SPIR-V's `Step` may return one.
                 let a = self.splat_to(a, a_ty, ty);
                 let reached = self.op(Binary::GreaterEqual, b, a);
                 self.add(Op::Convert { value: reached, to: Scalar::Float })
@@ -132,7 +132,7 @@ impl Builder<'_, '_> {
         self.add(Op::Math { fun, arg, arg1, arg2, arg3: None })
     }
 
-    /// Adds `isnan` or `isinf` by the bits: a driver that takes all floats for finite folds the tests themselves away.
+    /// Adds `isnan` or `isinf` by the bits: a driver that assumes all floats to be finite removes the tests themselves.
     fn exponent_test(&mut self, op: Binary, ty: TypeId, value: Value) -> Value {
         let ty = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
         let bits = self.bitcast(value, Scalar::Uint);
@@ -144,15 +144,15 @@ impl Builder<'_, '_> {
 
     fn derivative(&mut self, axis: Axis, expr: Value) -> Value {
         if self.cx.source.kind.is_vertex() {
-            // Of a function of Common that the checker let pass.
+            // In a function of Common that the checker accepted.
             let zero = self.float(0.0);
             return self.op(Binary::Multiply, expr, zero);
         }
         self.add(Op::Derivative { axis, value: expr })
     }
 
-    /// Writes out `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), where the edges are not
-    /// known to differ.
+    /// Expands `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), unless the edges are known to
+    /// differ.
     ///
     /// It is undefined for `a == b`, but shaders use it as a step: the quotient is infinite, and is clamped to 0 or 1.
     fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
@@ -182,7 +182,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Subtract, value, whole)
     }
 
-    /// `st_assert(bool[, int])`: the entry point paints what failed.
+    /// Lowers `st_assert(bool[, int])`: the entry point paints the number of the failed assertion.
     fn st_assert(&mut self, args: &[ExprId]) {
         let condition = self.value(args[0]);
         let number = match args.get(1) {
@@ -193,7 +193,7 @@ impl Builder<'_, '_> {
         let failed = self.global(failed);
         let (reject, _) = self.nested(|b| {
             let bits = b.bitcast(number, Scalar::Uint);
-            // Any other number than 0 to 2 paints like 3.
+            // Any number other than 0 to 2 paints like 3.
             let three = b.literal(Scalar::Uint, 3);
             let bit = b.math2(Math::Min, bits, three);
             let one = b.literal(Scalar::Uint, 1);

@@ -1,8 +1,8 @@
-//! Calls of user functions, and how arguments are handed over: without a copy wherever nobody can see the difference.
+//! Calls of user functions, and how arguments are passed: without a copy wherever the difference is not observable.
 //!
-//! That is decided here and not by a pass over the IR: whether somebody can see it follows from the order in which
-//! arguments are evaluated and from which of them are `out`, and both are gone once the copies are written as loads and
-//! stores. What a parameter may stand for ([`super::arguments`]) also says how its function is lowered.
+//! This is decided here and not by a pass over the IR: whether a copy is observable follows from the order in which
+//! arguments are evaluated and from which of them are `out`, and neither is known once the copies are loads and stores.
+//! The specialization of parameters ([`super::arguments`]) also determines how their function is lowered.
 
 use super::{
     access::Place,
@@ -14,7 +14,7 @@ use crate::{
     ir::Value,
 };
 
-/// The receiver of what an argument's place holds when all arguments have been evaluated.
+/// The destination of the value at an argument's place once all arguments have been evaluated.
 enum Copy {
     /// An argument of the call, by its index.
     Argument(usize),
@@ -23,11 +23,11 @@ enum Copy {
 }
 
 impl Builder<'_, '_> {
-    /// Calls a function; `None` if it is void.
+    /// Calls a function; returns `None` if it is void.
     ///
-    /// Section 6.1.1: arguments are evaluated in order, each once, and variables among them are read behind all others
-    /// ([`Builder::read_late`]); `inout` ones are copied in; after the call `out` and `inout` ones are copied back, in order. Where nobody can see the difference, the function works on the caller's
-    /// variable itself.
+    /// Section 6.1.1: arguments are evaluated in order, each once, and variables among them are read after all others
+    /// ([`Builder::read_late`]); `inout` ones are copied in; after the call `out` and `inout` ones are copied back, in
+    /// order. If the difference is not observable, the function works on the caller's variable itself.
     pub fn call(&mut self, func: FuncId, args: &[ExprId]) -> Option<Value> {
         let hir = self.cx.hir;
         let params = hir.params(func);
@@ -65,8 +65,8 @@ impl Builder<'_, '_> {
                 }
                 continue;
             }
-            // Passed by no other `out` or `inout` parameter, and changed by no later argument, the copy and the
-            // variable cannot be told apart.
+            // If no other `out` or `inout` parameter receives it, and no later argument changes it, the copy and the
+            // variable are indistinguishable.
             if let Some((local, pointer)) = self.whole_local(arg)
                 && !is_moved
                 && last_effect <= Some(i)
@@ -127,7 +127,7 @@ impl Builder<'_, '_> {
         (self.cx.hir[instance.func].result != TypeId::VOID).then_some(result)
     }
 
-    /// Returns the channel a sampler argument stands for.
+    /// Returns the channel of a sampler argument.
     pub fn channel(&self, arg: ExprId) -> u8 {
         match self.cx.hir[arg].kind {
             ExprKind::Channel(channel) => channel,
@@ -139,8 +139,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the variables that `out` and `inout` parameters of a call are or lie in, in order, and which argument
-    /// each is.
+    /// Returns the variables that `out` and `inout` parameters of a call are, or are parts of, in order, each with the
+    /// index of its argument.
     fn out_locals(&self, params: &[Local], args: &[ExprId]) -> Vec<(LocalId, usize)> {
         let outs = params.iter().zip(args).enumerate().filter(|(_, (param, _))| param.kind.copies_out());
         let mut outs: Vec<_> = outs.filter_map(|(i, (_, &arg))| Some((self.root_local(arg)?, i))).collect();

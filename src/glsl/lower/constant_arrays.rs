@@ -1,14 +1,14 @@
-//! Large global arrays that the program fills with constants before anything else: they are tables, and nobody need
-//! fill them.
+//! Large global arrays that the program fills with constants before anything else: they are tables, and need not be
+//! filled at run time.
 //!
 //! GLSL ES 1.00 had no array constructors, so a scene is often written as `triangles[0].a = vec3(..); triangles[1].a =
-//! ..` in a function that `mainImage` calls first. As memory such an array is thousands of stores in one block, once
-//! for its zeros and once for its values, and the time that LLVM takes for a block grows with more than the square of
-//! them: 550 triangles keep lavapipe busy for minutes where Mesa's OpenGL, which sees the constants and needs no zeros,
-//! takes a second. As a table (`emit/tables.rs`) they are a buffer.
+//! ..` in a function that `mainImage` calls first. In memory such an array is thousands of stores in one block, once
+//! for its zeros and once for its values, and LLVM's time for a block grows faster than the square of their number: 550
+//! triangles take lavapipe minutes, while Mesa's OpenGL, which sees the constants and needs no zeros, takes a second.
+//! As a table (`emit/tables.rs`) they are a buffer.
 //!
-//! That is found in the checked program and not by a pass over the IR, because lowering asks for it: an array that is a
-//! table can stand for a parameter, and then its function has a copy for it ([`super::arguments`]). Behind lowering
+//! This is detected in the checked program and not by a pass over the IR, because lowering depends on it: an array that
+//! is a table can replace a parameter, and then its function has a copy for it ([`super::arguments`]). After lowering,
 //! each call would copy the array.
 
 use super::walk as writes;
@@ -17,17 +17,17 @@ use crate::{
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},
 };
 
-/// Arrays that are looked for in one program: a bit each.
-const MOST: usize = 64;
+/// The maximum number of arrays considered in one program: one bit each.
+const MAX_ARRAYS: usize = 64;
 
-/// Members of a structure: they are counted for each store.
-const MOST_MEMBERS: usize = 64;
+/// The maximum number of members of a structure, which are counted for each store.
+const MAX_MEMBERS: usize = 64;
 
-/// The depth of calls at which an array may be filled.
-const MOST_CALLS: u32 = 16;
+/// The maximum call depth at which an array may be filled.
+const MAX_CALL_DEPTH: u32 = 16;
 
-/// Makes constants of the arrays of at least so many scalars that are filled with constants before all else, and takes
-/// out what fills them.
+/// Turns arrays of at least `least` scalars that are filled with constants before anything else into constants, and
+/// removes the statements that fill them.
 pub(crate) fn arrays_to_constants(module: &mut Module, least: usize) {
     let Some(entry) = module.entry else { return };
     let mut arrays = candidates(module, least);
@@ -44,16 +44,16 @@ pub(crate) fn arrays_to_constants(module: &mut Module, least: usize) {
     }
 }
 
-/// A global array and what is known to be stored in it first.
+/// A global array and the constants stored in it first.
 struct Array {
     global: GlobalId,
     words: Vec<u32>,
-    /// Statements that do nothing but store constants here.
+    /// The statements that only store constants in the array.
     stores: Vec<StmtId>,
-    /// The numbers of expressions that write it: all, and those in these statements.
+    /// The number of expressions that write the array: all, and those in these statements.
     written: usize,
     seen: usize,
-    /// Something may have read it: what is stored from now on is no first value.
+    /// The array may have been read: later stores are not initial values.
     is_open: bool,
 }
 
@@ -67,12 +67,12 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
             || varies
             || !global.flags.contains(VarFlags::WRITTEN)
             || !global.flags.contains(VarFlags::INDEXED)
-            || found.len() == MOST
+            || found.len() == MAX_ARRAYS
         {
             continue;
         }
         let size = words(module, global.ty);
-        if size < least || members(module, global.ty) > MOST_MEMBERS {
+        if size < least || members(module, global.ty) > MAX_MEMBERS {
             continue;
         }
         let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());
@@ -94,7 +94,7 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
     found
 }
 
-/// Counts the members of the structure that an array has elements of.
+/// Counts the members of the structures that are an array's elements.
 fn members(module: &Module, ty: TypeId) -> usize {
     match module.types.element(ty).map(|element| module.types.get(element)) {
         Some(Type::Struct(id)) => module[id].members.len(),
@@ -125,8 +125,8 @@ fn call_counts(module: &Module) -> Vec<u32> {
 struct Search<'a> {
     module: &'a Module,
     arrays: &'a mut [Array],
-    /// Arrays that each function or what it calls names, by [`FuncId::index`](crate::hir::FuncId::index): a bit
-    /// for each.
+    /// The arrays that each function or its callees name, by [`FuncId::index`](crate::hir::FuncId::index): one bit
+    /// each.
     named: Vec<u64>,
     calls: Vec<u32>,
 }
@@ -140,7 +140,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the arrays that an expression or what it calls names.
+    /// Returns the arrays that an expression or its callees name.
     fn names(&self, expr: ExprId) -> u64 {
         match self.module[expr].kind {
             ExprKind::Global(global) => {
@@ -175,15 +175,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Follows statements in the order in which they run, of a function that so many calls lead to. Returns `false`
-    /// where control may not reach their end. In the entry point that is all the same, as nothing follows it.
+    /// Visits the statements of a function in execution order; `calls` is the depth of calls that lead to it. Returns
+    /// `false` if control may not reach their end. For the entry point the result is irrelevant, as nothing follows it.
     fn statements(&mut self, list: List<StmtId>, calls: u32) -> bool {
         let module = self.module;
         for (i, &stmt) in module[list].iter().enumerate() {
             if self.arrays.iter().all(|array| !array.is_open) {
                 return true;
             }
-            let goes_on = match module[stmt].kind {
+            let continues = match module[stmt].kind {
                 StmtKind::Block(inner) => self.statements(inner, calls),
                 StmtKind::Expr(expr) => {
                     self.statement(stmt, expr, calls);
@@ -194,7 +194,7 @@ impl<'a> Search<'a> {
                     calls == 0 || !may_leave(module, stmt)
                 }
             };
-            if !goes_on {
+            if !continues {
                 self.close(&module[list][i + 1..], &[]);
                 return false;
             }
@@ -206,7 +206,7 @@ impl<'a> Search<'a> {
         let module = self.module;
         if let ExprKind::Call { func, args } = module[expr].kind
             && self.calls[func.index()] == 1
-            && calls < MOST_CALLS
+            && calls < MAX_CALL_DEPTH
         {
             self.close(&[], &module[args]);
             self.statements(module[func].body.unwrap_or(List::EMPTY), calls + 1);
@@ -267,16 +267,16 @@ impl<'a> Search<'a> {
 
 /// An assignment of a constant to a part of an array.
 struct Store<'a> {
-    /// The array, by its place among those that are looked for.
+    /// The index of the array among the considered ones.
     at: usize,
-    /// The scalar that the part begins at.
+    /// The offset of the part in scalars.
     from: usize,
-    /// The components that are stored, where the part is a vector and not all are.
+    /// The stored components, if the part is a vector and not all are stored.
     components: Option<Swizzle>,
     value: &'a [u32],
 }
 
-/// Returns whether a statement can end the function that it stands in.
+/// Returns whether a statement can return from its function.
 fn may_leave(module: &Module, stmt: StmtId) -> bool {
     let mut leaves = false;
     super::walk::walk(module, &[stmt], &[], |node, _| {
@@ -288,7 +288,7 @@ fn may_leave(module: &Module, stmt: StmtId) -> bool {
 }
 
 impl Array {
-    /// Makes it a constant if nothing else writes it.
+    /// Turns the array into a constant if nothing else writes it.
     fn make_constant(self, module: &mut Module) {
         if self.seen != self.written || self.seen == 0 {
             return;

@@ -12,7 +12,7 @@ use crate::{
 };
 use rustc_hash::FxHashMap;
 
-/// State of lowering one module. What belongs to one function is in [`super::function::Builder`].
+/// State of lowering one module. The state of one function is in [`super::function::Builder`].
 pub(super) struct Lowering<'a> {
     pub hir: &'a hir::Module,
     pub source: &'a PassSource<'a>,
@@ -26,28 +26,28 @@ pub(super) struct Lowering<'a> {
     pub functions: FxHashMap<Instance, ir::FuncId>,
     pub reflection: Reflection,
     pub names: Names,
-    /// The value that is probed.
+    /// The probed value.
     pub probed: Option<Probed>,
     pub marks: Marks,
 }
 
 impl Lowering<'_> {
-    /// Returns whether values of a type are passed by reference though a copy would do.
+    /// Returns whether values of a type are passed by reference although a copy would be possible.
     pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
         let least = self.options.by_reference;
         least.is_some_and(|scalars| self.layouts.is_aggregate_of(&self.out, ty, scalars))
     }
 }
 
-/// Variables declared so far.
+/// The variables declared so far.
 pub(super) struct Variables {
     pub read_only: FxHashMap<GlobalKind, ir::GlobalId>,
     /// By [`hir::GlobalId::index`].
     pub globals: Vec<Option<ir::GlobalId>>,
-    /// `gl_FragCoord`, where something other than the entry point reads it.
+    /// `gl_FragCoord`, if something other than the entry point reads it.
     pub frag_coord: Option<ir::GlobalId>,
     pub frag_depth: Option<ir::GlobalId>,
-    /// Built-in variables of stages, besides those two.
+    /// The built-in variables of stages, except those two.
     pub stage: FxHashMap<BuiltinVar, ir::GlobalId>,
     /// Bit i: an `st_assert(.., i)` failed.
     pub failed_asserts: Option<ir::GlobalId>,
@@ -66,18 +66,19 @@ impl Variables {
     }
 }
 
-/// Returns the constant of the program that a folded value is.
+/// Returns the program's constant for a folded value.
 pub(super) fn const_id(id: hir::ConstId) -> ir::ConstId {
     ir::ConstId::new(id.index())
 }
 
-/// The expression that is probed, and where its value is kept.
+/// The probed expression, and the variable that stores its value.
 #[derive(Clone, Copy)]
 pub(super) struct Probed {
     pub expr: hir::ExprId,
     pub visit: u32,
-    /// Its first components, four at most, as floats; not known before the probe has been at the value. No more than it
-    /// has: a loop that carries more along may be compiled another way, which gives its other values other last bits.
+    /// The first components of the value, at most four, as floats; unknown until the probed visit. There are no more
+    /// than the value has: a loop that carries more values may be compiled differently, which changes the last bits of
+    /// its other values.
     pub value: ir::GlobalId,
     pub components: u8,
     /// The number of times that the expression has been evaluated: an `int`.
@@ -94,12 +95,12 @@ impl Probed {
     }
 }
 
-/// The layout of a program, for who comes behind lowering. None of it changes what the program computes.
+/// The layout of a program, chosen for later stages. None of it changes what the program computes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Options {
-    /// The scalars from which on an array or structure is passed by reference; `None`: each is passed by value where it
-    /// can be.
+    /// The number of scalars from which on an array or structure is passed by reference; `None` to pass by value
+    /// wherever possible.
     pub by_reference: Option<u32>,
-    /// The scalars from which on a constant that is passed by one call alone stands for the parameter.
+    /// The number of scalars from which on a constant replaces the parameter although only one call passes it.
     pub table: usize,
 }

@@ -10,11 +10,12 @@ impl Builder<'_, '_> {
     /// Converts a scalar or vector to the same size of another component type.
     pub fn convert(&mut self, value: Value, to: TypeId) -> Value {
         let to = self.cx.hir.types.scalar(to).expect("a scalar or vector");
-        // From float to uint, negative numbers give zero: GLSL leaves it open, Direct3D asks for it, and devices do it.
+        // From float to uint, negative numbers become zero: GLSL leaves it undefined, Direct3D requires it, and devices
+        // do it.
         self.add(Op::Convert { value, to })
     }
 
-    /// `vecN(..)` of scalars, vectors and matrices.
+    /// Lowers `vecN(..)` of scalars, vectors and matrices.
     pub fn vector(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
         let hir = self.cx.hir;
         let size = self.extent(ty) as usize;
@@ -28,7 +29,7 @@ impl Builder<'_, '_> {
             let components = hir.types.components(ty).unwrap_or(1) as usize;
             match hir.types.get(ty) {
                 Type::Scalar(_) => parts.push(value),
-                // Whole vectors stay whole.
+                // Vectors that fit are used whole.
                 Type::Vector { .. } if filled + components <= size => parts.push(value),
                 _ => {
                     let mut all = Vec::new();
@@ -44,7 +45,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// `matCxR(..)` of scalars and vectors, column by column.
+    /// Lowers `matCxR(..)` of scalars and vectors, column by column.
     pub fn matrix(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
         let hir = self.cx.hir;
         let Type::Matrix { columns, rows } = hir.types.get(ty) else { unreachable!("a matrix type") };

@@ -1,13 +1,14 @@
-//! Quotients and remainders of integers, which nothing may trap on.
+//! Quotients and remainders of integers, which must never trap.
 //!
-//! GLSL leaves a division by zero open (section 5.9), and so does SPIR-V, with that of the least int by -1. On x86
-//! either ends the process: in Mesa's drivers already when they fold constants (`idiv` in `nir_constant_expressions.c`
-//! asks for a zero only). So a divisor of which it is not known to be neither becomes 1, and no driver meets one:
-//! WGSL's values hold (section 8.7), `x / 0` is `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the
-//! remainder 0. What divides by -1 is divided by 1 and turned round, which needs no look at the dividend: of one
-//! divisor there is one guard, outside the loop if it stays the same, and `/` and `%` share their quotient.
+//! GLSL leaves division by zero undefined (section 5.9), and so does SPIR-V, as well as the division of the smallest
+//! int by -1. On x86 both end the process: Mesa's drivers trap even when folding constants (`idiv` in
+//! `nir_constant_expressions.c` checks only for zero). Therefore a divisor that could be either is guarded: where it
+//! is, it becomes 1, and no driver encounters it. The results are those of WGSL (section 8.7): `x / 0` is `x`, `x % 0`
+//! is 0, and the smallest int divided by -1 is itself, with the remainder 0. A division by -1 becomes a division by 1
+//! and a negation, which does not depend on the dividend: there is one guard per divisor, outside the loop if it is
+//! invariant, and `/` and `%` share their quotient.
 //!
-//! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
+//! naga has guards too, but as functions that are called, and without using known operands.
 
 use super::{function::Builder, names::Precondition, operators::Typed};
 use crate::{
@@ -18,15 +19,15 @@ use crate::{
 const MINUS_ONE: u32 = -1i32 as u32;
 
 impl Builder<'_, '_> {
-    /// `/` and `%` of ints and uints.
+    /// Lowers `/` and `%` of ints and uints.
     pub fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
         let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
         let signed = self.cx.hir.types.scalar(ty) == Some(Scalar::Int);
         let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
         let mut numbers = Vec::new();
-        // What the divisor may be, the latter where it overflows.
+        // Whether the divisor may be zero, and whether it may be -1, which overflows.
         let (divisor, zero, minus_one) = match self.int_components(right.0, right.1, &mut numbers) {
-            // The divisor that is no divisor, without a division.
+            // Division by -1 without a division.
             Some(()) if signed && numbers.iter().all(|&number| number == MINUS_ONE) => {
                 let zero = self.zero(ty);
                 return if op == BinaryOp::Rem { zero } else { self.op(Binary::Subtract, zero, dividend) };
@@ -46,7 +47,7 @@ impl Builder<'_, '_> {
                 let bad = self.is_minus_one(ty, divisor);
                 self.select(bad, one, divisor)
             }
-            // Both at once: one more is 0 or 1.
+            // Checks both at once: the divisor plus one is 0 or 1.
             (true, true) => {
                 let more = self.op(Binary::Add, divisor, one);
                 let unsigned = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
@@ -97,7 +98,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds the components of a constant; `None` if it is not known, or no constant.
+    /// Adds the components of a constant; returns `None` if they are unknown or it is not a constant.
     fn int_components(&self, ty: TypeId, value: Value, out: &mut Vec<u32>) -> Option<()> {
         let count = self.extent(ty) as usize;
         match &self.f[value] {
@@ -111,7 +112,7 @@ impl Builder<'_, '_> {
             Op::Const(id) => out.extend(&self.cx.out[*id].words),
             _ => out.push(self.integer(value)?),
         }
-        // A zero within a vector that is put together may stand for more than one component.
+        // A zero inside a composed vector may represent several components.
         (out.len() == count).then_some(())
     }
 }

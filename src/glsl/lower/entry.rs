@@ -1,4 +1,4 @@
-//! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
+//! The fragment entry point: the code of Shadertoy's `main` around the author's function, for each kind of pass.
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::{
@@ -7,13 +7,13 @@ use crate::{
     ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},
 };
 
-/// Lowers the entry point; every function is there already.
+/// Lowers the entry point; all functions have been lowered.
 pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
     let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
     let kind = cx.source.kind;
     let mut b = Builder::new(cx, 0, 0);
-    // Lowered before what precedes them: they may reach globals that no function does.
+    // Lowered before the code that precedes them: they may reach globals that no function does.
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reachable));
     let position = b.free(Op::Input(Input::Position));
     let position = if b.cx.source.tiled { b.in_whole_picture(position) } else { position };
@@ -54,7 +54,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
 }
 
 impl Builder<'_, '_> {
-    /// Values of globals that are no constants, in text order.
+    /// Computes the initial values of globals that are not constant, in text order.
     pub(super) fn initialise_globals(&mut self, reachable: &Reachable) {
         let hir = self.cx.hir;
         for (i, global) in hir.globals.iter().enumerate() {
@@ -80,7 +80,7 @@ impl Builder<'_, '_> {
         self.compose(TypeId::VEC4, [vec![moved], rest].concat())
     }
 
-    /// As WebGL has it for a triangle at depth 0: z is one half, w is one.
+    /// Sets `gl_FragCoord` as WebGL does for a triangle at depth 0: z is one half, w is one.
     fn set_frag_coord(&mut self, position: Value) {
         let Some(variable) = self.cx.resources.frag_coord else { return };
         let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
@@ -90,7 +90,7 @@ impl Builder<'_, '_> {
         self.store(pointer, coordinate);
     }
 
-    /// Calls a function whose first parameter is `out vec4`; gives what it left there.
+    /// Calls a function whose first parameter is `out vec4`; returns the value of that argument after the call.
     fn call_with_colour(&mut self, function: ir::FuncId, rest: Vec<Value>) -> Value {
         let colour = self.temporary(TypeId::VEC4);
         let mut arguments = vec![colour];
@@ -99,7 +99,7 @@ impl Builder<'_, '_> {
         self.load(colour)
     }
 
-    /// Alpha is one; a failed assertion paints red, green, blue or yellow, the last of these that failed.
+    /// Sets alpha to one; a failed assertion paints red, green, blue or yellow, by the last of the numbers that failed.
     fn finish_image(&mut self, colour: Value) -> Value {
         let mut rgb = self.swizzle(colour, TypeId::VEC4, Swizzle::new(&[0, 1, 2]));
         if let Some(failed) = self.cx.resources.failed_asserts {
@@ -120,8 +120,8 @@ impl Builder<'_, '_> {
         self.compose(TypeId::VEC4, vec![rgb, one])
     }
 
-    /// Returns the direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0,
-    /// table 3.21, has them, in its order of faces.
+    /// Returns the direction from the centre to a texel of the face in the uniform block: corners and order of faces
+    /// are those of OpenGL ES 3.0, table 3.21.
     fn cube_direction(&mut self, at: Value) -> Value {
         let resolution = self.cx.uniform(Uniform::Resolution);
         let resolution = self.global(resolution);
@@ -162,8 +162,8 @@ impl Builder<'_, '_> {
         self.math(Math::Normalize, direction)
     }
 
-    /// One sample a pixel, row by row of 512: left in red and green, right in blue and alpha, 16 bits each, low byte
-    /// first.
+    /// Returns one sample per pixel, row by row of 512: left in red and green, right in blue and alpha, 16 bits each,
+    /// low byte first.
     fn sound(&mut self, function: ir::FuncId, position: Value) -> Value {
         let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
         let at = self.add(Op::Convert { value: at, to: Scalar::Int });

@@ -1,4 +1,4 @@
-//! Expressions: what they evaluate to, in which order, under which conditions.
+//! Expressions: their values, their order of evaluation, and the conditions under which they are evaluated.
 
 use super::{function::Builder, reachable::known_bool};
 use crate::{
@@ -9,9 +9,9 @@ use crate::{
 impl Builder<'_, '_> {
     /// Returns the value of an expression that is not void.
     pub fn value(&mut self, expr: ExprId) -> Value {
-        // What is computed of several values belongs to the whole, not to the last of them.
+        // Operations on several values have the location of the whole, not of the last operand.
         let outer = self.loc;
-        // Left spines may be thousands of links long: descended by this loop, not by recursion.
+        // Left spines may be thousands of links long, so they are descended by a loop instead of recursion.
         let hir = self.cx.hir;
         let mut spine = Vec::new();
         let mut at = expr;
@@ -67,7 +67,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// One step up a left spine, from the value of the inner expression.
+    /// Evaluates one step up a left spine, from the value of the inner expression.
     fn link(&mut self, link: ExprId, value: Value) -> Value {
         let hir = self.cx.hir;
         self.loc = hir[link].loc;
@@ -140,7 +140,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Evaluates for effects alone; the only way for what is void.
+    /// Evaluates an expression only for its effects; void expressions must be evaluated this way.
     pub fn effect(&mut self, expr: ExprId) {
         let hir = self.cx.hir;
         // A comma chain is a left spine.
@@ -234,7 +234,7 @@ impl Builder<'_, '_> {
         self.add(Op::Binary { op, left, right })
     }
 
-    /// Returns a scalar repeated to a vector of type `ty`; itself if `ty` is a scalar.
+    /// Returns a scalar repeated to a vector of type `ty`, or the scalar itself if `ty` is a scalar.
     pub fn splat(&mut self, value: Value, ty: TypeId) -> Value {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => self.add(Op::Splat { size, value }),

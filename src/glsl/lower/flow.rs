@@ -16,7 +16,7 @@ impl Builder<'_, '_> {
     pub fn statements(&mut self, list: List<StmtId>) {
         let hir = self.cx.hir;
         for &stmt in &hir[list] {
-            // What follows a jump is never reached.
+            // Statements after a jump are unreachable.
             if self.ended {
                 return;
             }
@@ -50,7 +50,7 @@ impl Builder<'_, '_> {
             },
             StmtKind::Break => self.push(Stmt::Break),
             StmtKind::Continue => self.push(Stmt::Continue),
-            // Of a function of Common that the checker let pass.
+            // In a function of Common that the checker accepted.
             StmtKind::Discard if self.cx.source.kind.is_vertex() => {}
             StmtKind::Discard => {
                 self.cx.reflection.discards = true;
@@ -79,8 +79,8 @@ impl Builder<'_, '_> {
         self.declare(local, value);
     }
 
-    /// Lets an array, matrix or structure that is declared once a call begin with its value, and not with zeros before
-    /// that: to fill memory twice is dear, and not every driver sees that the first time is for nothing.
+    /// Initialises an array, matrix or structure that is declared once per call with its value instead of zeros first:
+    /// filling memory twice is expensive, and not every driver removes the first fill.
     fn starts_with_value(&mut self, local: LocalId, init: Option<ExprId>) -> bool {
         let hir = self.cx.hir;
         if (self.cx.marks.undefined && init.is_none())
@@ -165,7 +165,7 @@ impl Builder<'_, '_> {
         for case in cases {
             self.force_declared(case.body);
         }
-        // Each body alone, and whether it runs into the next.
+        // Each body by itself, and whether it falls through into the next.
         let mut bodies = Vec::with_capacity(cases.len());
         for case in cases {
             bodies.push(self.nested(|b| b.statements(case.body)));
@@ -179,7 +179,7 @@ impl Builder<'_, '_> {
         let mut labels = Vec::new();
         for (case, (body, _)) in cases.iter().zip(bodies) {
             labels.extend(self.labels(case));
-            // Without a body of its own: the labels belong to the next one.
+            // A case without a body: its labels belong to the next one.
             if body.is_empty() && !std::ptr::eq(case, &cases[last]) {
                 continue;
             }
@@ -203,9 +203,9 @@ impl Builder<'_, '_> {
         self.push(Stmt::Switch { selector, cases });
     }
 
-    /// Adds a switch in which a body runs into the next one. naga's writers disagree on what they accept there, so a
-    /// first switch finds the number of the body to begin with, and a second, with one case, holds all bodies, each
-    /// under a test that it is reached; a `break` leaves it.
+    /// Adds a switch in which a body falls through into the next one. naga's writers disagree on what they accept
+    /// there, so a first switch determines the number of the first body to run, and a second, with one case, contains
+    /// all bodies, each under a test that it is reached; a `break` leaves it.
     fn switch_with_fall_through(&mut self, selector: Value, cases: &[Case], bodies: Vec<(Block, bool)>) {
         use crate::hir::Scalar;
         let first = self.temporary(TypeId::INT);
@@ -239,7 +239,8 @@ impl Builder<'_, '_> {
         self.push(Stmt::Switch { selector: start, cases: vec![only] });
     }
 
-    /// Locals declared in one case can be named in the next, whose code their declaration does not dominate.
+    /// Makes locals declared in one case memory, because the next case can name them, and their declaration does not
+    /// dominate its code.
     fn force_declared(&mut self, list: List<StmtId>) {
         let hir = self.cx.hir;
         for &stmt in &hir[list] {

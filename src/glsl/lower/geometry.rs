@@ -1,8 +1,8 @@
-//! Geometry, written out in the order in which OpenGL's compilers evaluate it.
+//! Geometric functions, expanded in the order in which OpenGL's compilers evaluate them.
 //!
-//! SPIR-V leaves the order of additions within a dot product or matrix product to the driver, which takes another one
-//! than its OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures
-//! differ. The instructions are as many either way, and drivers may still fuse them.
+//! SPIR-V leaves the order of additions within a dot product or matrix product to the driver, which uses a different
+//! order than its OpenGL counterpart. Real shaders amplify last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the
+//! pictures differ. The number of instructions is the same either way, and drivers may still fuse them.
 
 use super::function::{Builder, PartOf};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl Builder<'_, '_> {
-    /// Adds `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. Terms
+    /// Adds `((w w' + z z') + y y') + x x'`: the side of each sum matters for the terms that drivers fuse. Terms
     /// multiplied by a literal zero are left out.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
@@ -25,7 +25,7 @@ impl Builder<'_, '_> {
                 if !this.cx.marks.undefined {
                     return zero;
                 }
-                // Its value is zero all the same, but what is undefined stays so in a product with zero.
+                // The value is zero anyway, but undefined values must still be detected in a product with zero.
                 let other = if is_zero(this, a) { b } else { a };
                 let other = this.add(Op::Part { base: other, index });
                 return this.op(Binary::Multiply, zero, other);
@@ -56,7 +56,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Multiply, vector, scale)
     }
 
-    /// `i - 2 dot(n, i) n`.
+    /// Returns `i - 2 dot(n, i) n`.
     pub fn reflect(&mut self, ty: TypeId, i: Value, n: Value) -> Value {
         let dot = self.dot(ty, n, i);
         let two = self.float(2.0);
@@ -65,7 +65,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Subtract, i, along)
     }
 
-    /// Section 8.5: zero where all light is reflected.
+    /// Lowers `refract` (section 8.5): zero if all light is reflected.
     pub fn refract(&mut self, ty: TypeId, i: Value, n: Value, eta: Value) -> Value {
         let one = self.float(1.0);
         let dot = self.dot(ty, n, i);
@@ -86,7 +86,7 @@ impl Builder<'_, '_> {
         self.select(total, zero, refracted)
     }
 
-    /// `matCxR * vecC`: columns times components, added from the first on.
+    /// Returns `matCxR * vecC`: columns times components, added from the first on.
     pub fn matrix_times_vector(&mut self, (columns, _): (u8, u8), matrix: Value, vector: Value) -> Value {
         let mut sum = None;
         for index in 0..u32::from(columns) {
@@ -101,7 +101,7 @@ impl Builder<'_, '_> {
         sum.expect("a matrix has columns")
     }
 
-    /// `vecR * matCxR`: the dot product with each column.
+    /// Returns `vecR * matCxR`: the dot product with each column.
     pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let parts = (0..u32::from(columns)).map(|index| {
@@ -112,7 +112,7 @@ impl Builder<'_, '_> {
         self.compose(TypeId::vector(Scalar::Float, columns), parts)
     }
 
-    /// `matKxR * matCxK`: the left one times each column of the right one.
+    /// Returns `matKxR * matCxK`: the left one times each column of the right one.
     pub fn matrix_times_matrix(&mut self, (columns, rows): (u8, u8), inner: u8, left: Value, right: Value) -> Value {
         let columns_of_right = (0..u32::from(columns)).map(|index| {
             let column = self.add(Op::Part { base: right, index });

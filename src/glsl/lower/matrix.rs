@@ -1,4 +1,4 @@
-//! Matrix functions (section 8.6). `inverse` is written out because naga's Metal and HLSL writers have none, and like
+//! Matrix functions (section 8.6). `inverse` is expanded because naga's Metal and HLSL writers lack it, and like
 //! `determinant` in the order of OpenGL's compilers (see [`super::geometry`]).
 
 use super::function::Builder;
@@ -42,7 +42,7 @@ impl Builder<'_, '_> {
         self.expand(&m[0], &cofactors)
     }
 
-    /// `m[c][r]`: column c, row r.
+    /// Returns the elements of a matrix as `m[c][r]`: column c, row r.
     fn elements(&mut self, ty: TypeId, matrix: Value) -> Vec<Vec<Value>> {
         let n = self.extent(ty);
         let part = |this: &mut Self, base, index| this.add(Op::Part { base, index });
@@ -58,7 +58,7 @@ impl Builder<'_, '_> {
     fn expand(&mut self, column: &[Value], cofactors: &[Value]) -> Value {
         let terms: Vec<_> = column.iter().zip(cofactors).map(|(&e, &c)| self.op(Binary::Multiply, e, c)).collect();
         match terms[..] {
-            // Four are added from the end, fewer from the start.
+            // Four terms are added from the end, fewer from the start.
             [a, b, c, d] => {
                 let sum = self.op(Binary::Add, c, d);
                 let sum = self.op(Binary::Add, b, sum);
@@ -109,7 +109,7 @@ impl Builder<'_, '_> {
         self.compose(ty, columns)
     }
 
-    /// Columns are `a` times each component of `b`.
+    /// Returns a matrix whose columns are `a` times each component of `b`.
     pub fn outer_product(&mut self, ty: TypeId, b_ty: TypeId, a: Value, b: Value) -> Value {
         let mut parts = Vec::new();
         self.components(b, b_ty, &mut parts);

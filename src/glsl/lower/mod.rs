@@ -1,20 +1,22 @@
-//! Lowering: the checked program of [`super::hir`] to the intermediate representation ([`super::ir`]), and the
-//! [`Reflection`] of what it reaches.
+//! Lowering: translates the checked program of [`super::hir`] to the intermediate representation ([`super::ir`]), with
+//! the [`Reflection`] of what is reachable.
 //!
-//! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives
-//! to everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
+//! Implements the semantics of running code: evaluation order, copies of `out` and `inout` arguments, the zero that
+//! WebGL uses for everything undefined, clamped indices. It runs only on error-free programs, and reports no errors.
 //!
-//! The form of the generated code, and reasons:
-//! - Only what the entry point reaches is lowered ([`reachable`]). A branch whose condition is a literal is not
-//!   reached.
-//! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
-//! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only
-//!   reads ([`arguments`]).
-//! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
-//! - Every index that is no literal is clamped, as WebGL does; the modules need no bounds checks from naga. Divisors
-//!   of integers that are no literals are guarded ([`divide`]), as no driver's compiler may meet a zero. The optimiser
-//!   drops what is superfluous. Fetches outside a texture are left to the driver's image robustness, which gives the
-//!   zeros WebGL promises.
+//! The generated code, and the reasons for its form:
+//! - Only code reachable from the entry point is lowered ([`reachable`]). A branch that a literal condition excludes is
+//!   unreachable.
+//! - A variable that is never written is a value, not memory. All others are variables of the function or of the
+//!   module.
+//! - A function has one copy for each combination of channels, globals and tables that replace parameters it only reads
+//!   ([`arguments`]).
+//! - A large global array that the program fills with constants before anything else is a constant
+//!   ([`constant_arrays`]).
+//! - Every non-literal index is clamped, as in WebGL; the modules need no bounds checks from naga. Non-literal integer
+//!   divisors are guarded ([`divide`]), as no driver's compiler may encounter a zero. The optimiser removes redundant
+//!   clamps and guards. Fetches outside a texture are left to the driver's image robustness, which returns the zeros
+//!   that WebGL guarantees.
 //! - `&&`, `||` and `?:` are branches.
 
 mod access;
@@ -67,12 +69,12 @@ pub(crate) struct Lowered {
     pub(crate) names: Names,
 }
 
-/// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
-/// module. With a probe the pass draws the value of an expression too, when it is evaluated for the time after so many.
-/// Who walks through the program asks for marks.
+/// Lowers an error-free program. The result satisfies the rules of [`ir::verify`]; a violation is a bug of this module.
+/// With a probe the pass also draws the value of an expression at the requested visit. `marks` are for programs that
+/// the CPU interpreter runs.
 ///
 /// # Panics
-/// If `module` breaks the promises of [`hir`], such as having no entry point.
+/// If `module` violates the guarantees of [`hir`], for example if it has no entry point.
 pub(crate) fn lower(
     module: &hir::Module,
     source: &PassSource<'_>,
@@ -82,7 +84,7 @@ pub(crate) fn lower(
     marks: Marks,
 ) -> Lowered {
     let (reachable, arguments) = Reachable::new(module, options.table);
-    let mut out = begin(module);
+    let mut out = module_without_functions(module);
     let Resources { textures, blocks, struct_names, .. } = &interface.resources;
     (out.textures, out.blocks, out.struct_names) = (textures.clone(), blocks.clone(), struct_names.clone());
     let probed = probe.map(|(expr, visit)| Probed::new(&mut out, (expr, module[expr].ty), visit));
@@ -120,7 +122,7 @@ pub(crate) fn lower(
 }
 
 /// Returns a program without functions: types and constants.
-fn begin(module: &hir::Module) -> ir::Module {
+fn module_without_functions(module: &hir::Module) -> ir::Module {
     let members = |structure: &hir::Struct| module[structure.members].iter().map(|member| member.ty).collect();
     let constant = |constant: &hir::Const| ir::Const { ty: constant.ty, words: module[constant.words].to_vec() };
     ir::Module {

@@ -1,4 +1,4 @@
-//! Names of the author's, for who shows a program while it runs.
+//! The author's names, for tools that show a program while it runs.
 
 use rustc_hash::FxHashMap;
 
@@ -9,14 +9,14 @@ use crate::{
     ir,
 };
 
-/// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
+/// The names in a lowered program. A pass over the program may replace the named values.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
-    /// Variables of the module, each with the place of its name.
+    /// Globals, each with the location of its name.
     pub globals: Vec<(Symbol, ir::GlobalId, Loc)>,
-    /// By function and value: only where they are asked for.
+    /// By function and value: only if requested.
     pub preconditions: FxHashMap<(ir::FuncId, ir::Value), Precondition>,
     /// The members of each structure, by [`StructId::index`](crate::types::StructId::index).
     pub members: Vec<Vec<Symbol>>,
@@ -25,27 +25,27 @@ pub(crate) struct Names {
 /// The names in one function.
 #[derive(Debug, Default)]
 pub(crate) struct FunctionNames {
-    /// None of the code around the author's.
+    /// `None` for generated code.
     pub name: Option<Symbol>,
-    /// Parameters and local variables, in the order of their declarations: each name has a value, or a place.
+    /// Parameters and local variables in declaration order, each with its value or place.
     pub locals: Vec<(Symbol, ir::Value)>,
-    /// Zeros in place of values that GLSL leaves undefined, where these are marked.
+    /// Zeros in place of values that GLSL leaves undefined, if these are marked.
     pub undefined: Vec<Unset>,
     /// The variables of `locals`, in the same order.
     pub ids: Vec<LocalId>,
-    /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
+    /// Values whose only purpose is to mark that control reaches a part of the text; only if requested.
     pub marks: Vec<(ir::Value, StatementEvent)>,
 }
 
-/// A value that GLSL leaves undefined, by the declaration that should have given it one.
+/// A value that GLSL leaves undefined, with the declaration that should have initialised it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unset {
-    /// The zero in its place; or a variable of the function whose declaration a jump of a `switch` may pass over, which
-    /// has no value when the function starts.
+    /// The zero in its place; or a variable of the function whose declaration a `switch` may skip, which has no value
+    /// when the function starts.
     pub value: ir::Value,
     pub kind: UnsetKind,
     pub name: Symbol,
-    /// The place of the name.
+    /// The location of the name.
     pub loc: Loc,
 }
 
@@ -60,39 +60,40 @@ pub enum UnsetKind {
     Result,
 }
 
-/// Operands that GLSL leaves a result undefined for. It is noted of the operation that lowering keeps the device from
-/// them by, or of the result.
+/// A condition on operands without which GLSL leaves a result undefined. It is recorded for the operation with which
+/// lowering guards the operands, or for the result.
 #[derive(Clone, Debug)]
 pub enum Precondition {
-    /// Arguments of a built-in function are in none of its gaps.
+    /// The arguments of a built-in function are in none of its gaps.
     Call(Builtin, Vec<ir::Value>),
     /// The divisor of integers is not zero.
     Divisor(ir::Value),
-    /// The bits that a shift goes by are fewer than there are.
+    /// The shift distance is less than the number of bits.
     Distance(ir::Value),
     /// An index is below a length.
     Index(ir::Value, u32),
 }
 
-/// Control comes to a part of a statement, which [`Statements`](crate::statements::Statements) tells of by this number.
+/// Control reaches a part of a statement, which is identified by its number in
+/// [`Statements`](crate::statements::Statements).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatementEvent {
-    /// It begins.
+    /// The statement starts.
     Begin(u32),
-    /// A loop begins an iteration: with its test, if that stands before its body.
+    /// A loop starts an iteration: with its test, if that comes before its body.
     Iteration(u32),
-    /// A loop comes to the test behind its body.
+    /// A loop reaches the test after its body.
     Test(u32),
-    /// A loop comes to what it does between two iterations.
+    /// A loop reaches the step between two iterations.
     Step(u32),
 }
 
-/// Marks in a program for who walks through it; a device needs none.
+/// The marks in a program for the CPU interpreter; a device needs none.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Marks {
-    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]), and
-    /// preconditions are noted ([`Names::preconditions`]).
+    /// Zeros in place of undefined values are distinguished from zeros that the author wrote
+    /// ([`FunctionNames::undefined`]), and preconditions are recorded ([`Names::preconditions`]).
     pub undefined: bool,
-    /// The beginning of each statement is marked ([`FunctionNames::marks`]).
+    /// The start of each statement is marked ([`FunctionNames::marks`]).
     pub statements: bool,
 }

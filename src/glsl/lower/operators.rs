@@ -81,7 +81,7 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
-        // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
+        // naga supports products of matrices and scalars, and of float vectors and scalars.
         if op == Binary::Multiply {
             let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
             if shape == Shape::Same || types.scalar(scaled) == Some(Scalar::Float) {
@@ -104,7 +104,7 @@ impl Builder<'_, '_> {
         self.op(op, l, r)
     }
 
-    /// Component by component on matrices, where naga has no operator for it.
+    /// Applies an operator component by component on matrices, where naga lacks it.
     fn by_column(&mut self, op: Binary, shape: Shape, (columns, rows): (u8, u8), left: Value, right: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let scalar = match shape {
@@ -127,7 +127,8 @@ impl Builder<'_, '_> {
         self.compose(TypeId::matrix(columns, rows), out)
     }
 
-    /// Distances of 32 and more are undefined in GLSL and refused by naga: the low five bits count, as on all hardware.
+    /// Lowers a shift. Distances of 32 and more are undefined in GLSL and rejected by naga: the low five bits are used,
+    /// as on all hardware.
     fn shift(&mut self, op: Binary, left: Typed, right: Typed) -> Value {
         let hir = self.cx.hir;
         let small = self.integer(right.1).is_some_and(|by| by < 32);
@@ -151,7 +152,7 @@ impl Builder<'_, '_> {
         self.op(op, left.1, by)
     }
 
-    /// `==` of whole values of one type.
+    /// Lowers `==` of whole values of one type.
     pub fn equal(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
         let hir = self.cx.hir;
         let parts: Vec<TypeId> = match hir.types.get(ty) {
@@ -222,7 +223,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the literal an expression is.
+    /// Returns the bits of a literal expression.
     pub fn literal_bits(&self, expr: ExprId) -> Option<u32> {
         match self.cx.hir[expr].kind {
             ExprKind::Literal(bits) => Some(bits),

@@ -1,4 +1,4 @@
-//! A probe: a value of the program is drawn instead of the picture of Image, and beside that of a buffer.
+//! Probes: a value of the program is drawn instead of the picture of Image, or next to that of a buffer.
 
 use super::{
     context::{Lowering, Probed},
@@ -16,7 +16,7 @@ impl Lowering<'_> {
 }
 
 impl Builder<'_, '_> {
-    /// Keeps the value of an expression if it is the one that is probed.
+    /// Stores the value of an expression if it is the probed one.
     pub fn probe(&mut self, expr: ExprId, value: Value) {
         if !self.cx.is_probed(expr) {
             return;
@@ -30,7 +30,7 @@ impl Builder<'_, '_> {
         let (accept, _) = self.nested(|b| {
             let mut scalars = Vec::new();
             b.scalars(value, ty, &mut scalars);
-            // An array or a structure may have fewer.
+            // An array or a structure may have fewer scalars.
             while scalars.len() < usize::from(components) {
                 scalars.push(b.float(if scalars.len() == 3 { 1.0 } else { 0.0 }));
             }
@@ -47,7 +47,7 @@ impl Builder<'_, '_> {
         self.store(visits, after);
     }
 
-    /// Every scalar of a value as a float.
+    /// Adds every scalar of a value as a float.
     fn scalars(&mut self, value: Value, ty: TypeId, out: &mut Vec<Value>) {
         match self.cx.hir.types.get(ty) {
             Type::Scalar(Scalar::Float) => out.push(value),
@@ -62,8 +62,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Loads the value that the pass draws: the probed one, a scalar three times, and what is missing 0, the last 1; or
-    /// four NaN where the probe never was.
+    /// Loads the value that the pass draws: the probed one, with a scalar repeated three times; missing components are
+    /// 0, and the last is 1. Four NaN if the probed visit did not happen.
     pub fn probed_value(&mut self) -> Option<Value> {
         let Probed { visit, value, components, visits, .. } = self.cx.probed?;
         let (value, visits) = (self.global(value), self.global(visits));

@@ -1,8 +1,8 @@
-//! The part of a program that the entry point reaches: functions, once for each combination of channels and tables
-//! passed to them, and globals.
+//! The part of a program that is reachable from the entry point: functions, once for each combination of channels and
+//! tables passed to them, and globals.
 //!
-//! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same
-//! ones. Reads of uniforms and textures are noted while lowering, which visits exactly what is found here.
+//! A branch that a literal condition excludes is unreachable; [`super::flow`] and [`super::expr`] skip the same ones.
+//! Reads of uniforms and textures are recorded during lowering, which visits exactly the code found here.
 
 use rustc_hash::FxHashSet;
 
@@ -23,7 +23,7 @@ pub(super) struct Reachable {
     pub globals: Vec<bool>,
 }
 
-/// Calls in a body, with what they pass.
+/// The calls in a body, with their arguments for specializable parameters.
 type Calls = Vec<(FuncId, Vec<SpecializedArgument>)>;
 
 /// The names in a function body or an initialiser.
@@ -33,12 +33,13 @@ struct Facts {
     globals: Vec<GlobalId>,
     /// Globals that are written, in whole or in part.
     writes: FxHashSet<GlobalId>,
-    /// Expressions and statements.
+    /// The number of expressions and statements.
     nodes: usize,
 }
 
 impl Reachable {
-    /// Finds it; a constant of at least `table` scalars can stand for a parameter though one call alone passes it.
+    /// Finds the reachable part; a constant of at least `table` scalars can replace a parameter even if only one call
+    /// passes it.
     pub fn new(module: &Module, table: usize) -> (Self, Arguments) {
         let entry = module.entry.expect("a program without errors has an entry point");
         let mut facts: Vec<Facts> = module.functions.iter().map(|_| Facts::default()).collect();
@@ -54,7 +55,7 @@ impl Reachable {
                 |&(func, args): &(FuncId, List<ExprId>)| (func, arguments.passed(module, caller, func, &module[args]));
             let mut passed: Calls = calls.iter().map(passed).collect();
             passed.sort_unstable_by_key(|(func, passed)| (func.index(), passed.len()));
-            // Where nothing is specialized one call of a function is as good as all.
+            // Without specializations one call of a function is enough.
             passed.dedup_by(|a, b| a.0 == b.0 && a.1.is_empty());
             passed
         };
@@ -101,7 +102,7 @@ impl Reachable {
             order[func.index()] = i + 1;
         }
         let mut instances: Vec<_> = found.into_iter().collect();
-        // By specializations too, so that the order is the same in every run.
+        // Sorted by specializations too, so that the order is deterministic.
         instances.sort_unstable_by(|a, b| {
             (order[a.func.index()], &a.specializations).cmp(&(order[b.func.index()], &b.specializations))
         });
@@ -109,8 +110,8 @@ impl Reachable {
     }
 }
 
-/// Returns the number of expressions and statements that are reached of a body, and the functions that they call, once
-/// for each call.
+/// Returns the number of reachable expressions and statements of a body, and the functions that they call, once for
+/// each call.
 pub(crate) fn reached(module: &Module, body: List<StmtId>) -> (usize, Vec<FuncId>) {
     let mut walk = Walk::new(module);
     walk.statements(body);
@@ -130,7 +131,7 @@ pub(super) fn known_bool(module: &Module, expr: ExprId) -> Option<bool> {
 struct Walk<'a> {
     module: &'a Module,
     pending: Vec<Node>,
-    /// Empty: room for the parts of an expression.
+    /// A reusable buffer for the operands of an expression; empty between uses.
     within: Vec<ExprId>,
     facts: Facts,
 }

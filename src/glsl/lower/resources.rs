@@ -1,4 +1,4 @@
-//! Module-scope variables: uniforms, the author's globals, tables, and what the entry point hands to functions.
+//! Module-scope variables: uniforms, the author's globals, tables, and values that the entry point passes to functions.
 //!
 //! Each is declared when it is first reached.
 
@@ -25,12 +25,12 @@ impl Lowering<'_> {
     }
 
     pub fn uniform(&mut self, uniform: Uniform) -> ir::GlobalId {
-        // Its arrays were interned by the checker.
+        // The checker has interned its array types.
         let ty = uniform.ty(&mut self.out.types);
         self.read_only(ty, GlobalKind::Uniform(uniform))
     }
 
-    /// Returns the words of one of the author's own uniforms.
+    /// Returns the words of a custom uniform.
     pub fn custom_uniform(&mut self, slot: u16) -> ir::GlobalId {
         self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::CustomUniform(slot))
     }
@@ -65,8 +65,8 @@ impl Lowering<'_> {
         made
     }
 
-    /// Returns the memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its
-    /// constant value where it has one. What is not constant the entry point computes.
+    /// Returns the memory of one of the author's globals (storage `Private` or `Out`, in a stage also `In`), set to its
+    /// constant value if it has one. The entry point computes non-constant values.
     pub fn global(&mut self, id: GlobalId) -> ir::GlobalId {
         if let Some(made) = self.resources.globals[id.index()] {
             return made;
@@ -105,7 +105,7 @@ impl Lowering<'_> {
         self.hir.structs.iter().map(names).collect()
     }
 
-    /// Returns the author's variables of the module that are reached.
+    /// Returns the author's globals that are reachable.
     pub(super) fn named_globals(&self) -> Vec<(Symbol, ir::GlobalId, Loc)> {
         let made = self.hir.globals.iter().zip(&self.resources.globals);
         made.filter_map(|(global, made)| Some((global.name.symbol, (*made)?, global.name.loc()))).collect()

@@ -1,5 +1,5 @@
-//! The entry points of stages: what lies between the author's `main` and the pipeline. Inputs are put into the
-//! variables the author reads, and what the author left in others is handed on.
+//! The entry points of stages: the code between the author's `main` and the pipeline. It copies inputs into the
+//! variables that the author reads, and outputs from those that the author writes.
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     stages::slots,
 };
 
-/// Lowers the entry point; every function is there already.
+/// Lowers the entry point; all functions have been lowered.
 pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
     let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
@@ -46,7 +46,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
 }
 
 impl Builder<'_, '_> {
-    /// Pointers to the slots of a variable, with their types, in the order of their locations.
+    /// Adds pointers to the slots of a variable, with their types, in the order of their locations.
     fn slot_pointers(&mut self, pointer: Value, ty: TypeId, out: &mut Vec<(Value, TypeId)>) {
         match self.cx.hir.types.get(ty) {
             Type::Matrix { columns, rows } => {
@@ -75,7 +75,7 @@ impl Builder<'_, '_> {
         all
     }
 
-    /// Puts what lies at `location` and behind it into an input.
+    /// Stores the values at `location` and the following ones in an input.
     fn input(&mut self, id: GlobalId, location: u32, is_vertex: bool) {
         let flat = self.cx.hir[id].flat;
         for (n, (pointer, ty)) in self.slots_of(id).into_iter().enumerate() {
@@ -88,7 +88,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// `gl_VertexID` and `gl_InstanceID`, where they are read.
+    /// Sets `gl_VertexID` and `gl_InstanceID`, if they are read.
     fn numbers(&mut self) {
         for (variable, input) in
             [(BuiltinVar::VertexId, Input::VertexIndex), (BuiltinVar::InstanceId, Input::InstanceIndex)]
@@ -110,7 +110,7 @@ impl Builder<'_, '_> {
                 self.store(pointer, position);
             }
             if let Some(depth) = depth {
-                // What it is where the author leaves it alone.
+                // Its value if the author does not write it.
                 let z = self.add(Op::Part { base: position, index: 2 });
                 let pointer = self.global(depth);
                 self.store(pointer, z);
@@ -123,7 +123,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Turns a position in OpenGL's clip space into one in WebGPU's.
+    /// Converts a position from OpenGL's clip space to WebGPU's.
     fn clip_space(&mut self, position: Value) -> Value {
         let source = self.cx.source;
         let clip_space = if source.kind.is_plain() { source.plain.clip_space } else { ClipSpace::GL_TEXTURE };
@@ -171,7 +171,7 @@ impl Builder<'_, '_> {
             let value = match self.cx.hir.types.components(ty).unwrap_or(1) as usize {
                 4 => written,
                 size => {
-                    // As a format reads what it lacks.
+                    // Missing components are those that a texture format returns.
                     let mut components = vec![match size {
                         1 => written,
                         _ => self.swizzle(written, ty, Swizzle::new(&[0, 1, 2][..size])),

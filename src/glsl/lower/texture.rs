@@ -22,7 +22,7 @@ impl Builder<'_, '_> {
         self.cx.out.textures[usize::from(channel)].dim
     }
 
-    /// Components of a coordinate of the channel, of which one more is what is compared.
+    /// Returns the number of components of a coordinate of the channel, including the reference value of a comparison.
     fn dimensions(&self, channel: u8) -> u8 {
         let dimensions = match self.kind(channel) {
             SamplerDim::D2 => 2,
@@ -47,7 +47,8 @@ impl Builder<'_, '_> {
         self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, size))
     }
 
-    /// `texelFetch(sampler, coordinate, level[, offset])`. Outside the texture it gives zeros: the driver sees to it.
+    /// Lowers `texelFetch(sampler, coordinate, level[, offset])`. Outside the texture it returns zeros: the driver
+    /// ensures that.
     fn texel_fetch(&mut self, channel: u8, args: &[ExprId]) -> Value {
         let mut coordinate = self.value(args[1]);
         let level = self.value(args[2]);
@@ -88,7 +89,7 @@ impl Builder<'_, '_> {
             level = Level::Bias(self.value(bias));
         }
         if self.cx.source.kind.is_vertex() && matches!(level, Level::Auto | Level::Bias(_)) {
-            // Section 8.8: without derivatives it is the base level that is read.
+            // Section 8.8: without derivatives the base level is read.
             level = Level::Exact(self.float(0.0));
         }
         match level {
@@ -104,7 +105,7 @@ impl Builder<'_, '_> {
         self.add(Op::Sample { channel, coordinate, level, offset })
     }
 
-    /// Returns a constant offset, in the form naga's validator takes for constant.
+    /// Returns a constant offset, in a form that naga's validator accepts as constant.
     fn constant_offset(&mut self, offset: ExprId) -> Value {
         debug_assert!(matches!(self.cx.hir[offset].kind, ExprKind::Const(_) | ExprKind::Literal(_)));
         self.value(offset)
@@ -115,7 +116,7 @@ impl Builder<'_, '_> {
         let divisor = self.add(Op::Part { base: coordinate, index: last });
         let components: Vec<u8> = (0..dimensions).collect();
         let numerator = self.swizzle(coordinate, ty, Swizzle::new(&components));
-        // Times the reciprocal, as drivers do that read with a projection themselves.
+        // Times the reciprocal, as in drivers that implement projective reads themselves.
         let one = self.float(1.0);
         let scale = self.op(Binary::Divide, one, divisor);
         self.op(Binary::Multiply, numerator, scale)

@@ -1,4 +1,5 @@
-//! All that statements and expressions consist of, reached or not, without recursion; and the places that they write.
+//! Visits all operands and children of statements and expressions, reachable or not, without recursion; and the places
+//! that they write.
 
 use crate::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
 
@@ -8,7 +9,7 @@ pub(super) enum Node {
     Expr(ExprId),
 }
 
-/// Calls `visit` for these and everything within them, in no particular order, with how many others each lies in.
+/// Calls `visit` for these and everything within them, in no particular order, with the nesting depth of each.
 pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visit: impl FnMut(Node, usize)) {
     let mut pending: Vec<(Node, usize)> = Vec::new();
     let (mut stmts, mut exprs) = (stmts.to_vec(), exprs.to_vec());
@@ -51,7 +52,7 @@ pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visi
     }
 }
 
-/// Calls `visit` for each place that an expression writes by itself: what it consists of and what it calls left out.
+/// Calls `visit` for each place that an expression itself writes, not including its operands and callees.
 pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId)) {
     match module[expr].kind {
         ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {

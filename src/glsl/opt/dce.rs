@@ -1,5 +1,5 @@
-//! Dead code elimination: drops what is computed and used by nothing that has an effect. The passes before it leave the
-//! operations that they replaced.
+//! Dead code elimination: removes operations whose results are not used by anything that has an effect. Earlier passes
+//! leave the operations that they replaced.
 
 use crate::ir::{Block, Function, Module, Op, Stmt};
 
@@ -13,7 +13,7 @@ pub(super) fn run(module: &mut Module) {
     }
 }
 
-/// Marks what statements use, from the last to the first, and drops those that compute what nothing does.
+/// Marks the values that statements use, from the last to the first, and removes statements whose values are unused.
 fn block(f: &Function, body: &mut Block, live: &mut [bool]) {
     let mut kept = Vec::with_capacity(body.len());
     for mut stmt in std::mem::take(body).into_iter().rev() {
@@ -24,8 +24,8 @@ fn block(f: &Function, body: &mut Block, live: &mut [bool]) {
             f[value].operands(|operand| live[operand.index()] = true);
         }
         stmt.operands_mut(|operand| live[operand.index()] = true);
-        // Values are used where they dominate: what a round of a loop computes, no earlier statement of the next one
-        // uses.
+        // Values are used where they dominate: a value computed in one iteration of a loop is not used by earlier
+        // statements of the next one.
         if let Stmt::Loop { body, continuing, .. } = &mut stmt {
             block(f, continuing, live);
             block(f, body, live);

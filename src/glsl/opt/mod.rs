@@ -1,8 +1,8 @@
 //! The optimiser: passes over the intermediate representation, in one list.
 //!
-//! Owns what makes programs smaller, quicker, or alike to what other compilers make of them; their meaning it leaves
-//! alone. Each pass is a function over a whole program that keeps the rules of [`ir::verify`]: in debug builds they are
-//! checked after each. `docs/compiler.md` says what each pass is worth, and how to add one.
+//! Passes make programs smaller or faster, or more similar to what other compilers generate, without changing their
+//! meaning. Each pass is a function over a whole program that preserves the rules of [`ir::verify`]: in debug builds
+//! they are checked after each. `docs/compiler.md` documents the benefit of each pass, and how to add one.
 
 mod dce;
 #[cfg(test)]
@@ -19,7 +19,7 @@ use super::ir::{self, Module};
 /// A step of the optimiser.
 pub struct Pass {
     pub name: &'static str,
-    /// One line: what it does, and what for.
+    /// One line: what the pass does, and why.
     pub purpose: &'static str,
     run: fn(&mut Module),
 }
@@ -45,14 +45,14 @@ pub const PASSES: &[Pass] = &[
     },
 ];
 
-/// Some of the passes, by their places in [`PASSES`].
+/// A set of passes, by their indices in [`PASSES`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PassSet(u32);
 
 const _: () = assert!(PASSES.len() <= u32::BITS as usize);
 
 impl PassSet {
-    /// Returns the pass of this name; an error names those there are.
+    /// Returns the pass of this name; an error lists the available ones.
     pub fn of(name: &str) -> Result<Self, String> {
         match PASSES.iter().position(|pass| pass.name == name) {
             Some(index) => Ok(Self(1 << index)),
@@ -63,7 +63,7 @@ impl PassSet {
         }
     }
 
-    /// Returns these and those.
+    /// Returns the union of two sets.
     #[must_use]
     pub fn with(self, others: Self) -> Self {
         Self(self.0 | others.0)
@@ -74,8 +74,8 @@ impl PassSet {
     }
 }
 
-/// Runs all passes but those that are left out. `seen` gets the program as lowering made it, under the name `lower`,
-/// and after each pass under its name.
+/// Runs all passes except those in `without`. `seen` is called with the lowered program under the name `lower`, and
+/// after each pass with its name.
 pub(super) fn optimise(program: &mut Module, without: PassSet, mut seen: impl FnMut(&str, &Module)) {
     ir::verify::assert_kept(program, "lower");
     seen("lower", program);

@@ -1,11 +1,11 @@
-//! Value ranges: what is known of ints makes clamps of indices, guards of divisors, and tests of either superfluous.
+//! Value ranges: known bounds of ints make clamps of indices, guards of divisors, and tests of either redundant.
 //!
-//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so a bound
-//! must hold wherever it is used. A value's range follows from its op and the ranges of its operands. What a variable
-//! holds follows from the only stores to it ([`Counters`]): what holds of all of them is known from then on, and what a
-//! loop's test says of its counter is known in the loop's body, behind the test and before the step.
+//! Nothing else keeps a generated program from accessing memory out of bounds, or from a trapping division: so a bound
+//! must hold wherever it is used. A value's range follows from its op and the ranges of its operands. The value of a
+//! variable follows from the only stores to it ([`Counters`]): what holds for all of them is known from then on, and
+//! the bounds that a loop's test implies for its counter hold in the loop's body, after the test and before the step.
 //!
-//! `tests/it/glsl_bounds.rs` has each way in which a bound could be used where it does not hold.
+//! `tests/it/glsl_bounds.rs` covers each way in which a bound could be used where it does not hold.
 
 use crate::{
     builtins::Uniform,
@@ -17,8 +17,9 @@ use crate::{
     types::{Scalar, TypeId},
 };
 
-/// More pixels than a side of any target has (`maxImageDimension2D` is 32,768 at most today). None is empty.
-const LARGEST_CANVAS: u32 = 1 << 20;
+/// An upper bound for the number of pixels on a side of any target (`maxImageDimension2D` is 32,768 at most today). No
+/// target is empty.
+const MAX_TARGET_SIZE: u32 = 1 << 20;
 
 pub(super) fn run(module: &mut Module) {
     for index in 0..module.functions.len() {
@@ -39,7 +40,7 @@ pub(super) fn run(module: &mut Module) {
                 current: vec![None; vars],
                 from_test: vec![None; vars],
                 loops: Vec::new(),
-                begun_loops: 0,
+                entered_loops: 0,
                 tested: None,
             };
             rewrite::function(module, index, &mut ranges);
@@ -51,16 +52,16 @@ struct Ranges {
     counters: Counters,
     /// The bounds of ints and uints, by [`Value::index`].
     values: Vec<Option<Interval>>,
-    /// The bounds of what was first stored to a variable, by [`VarId::index`](crate::ir::VarId::index).
+    /// The bounds of the first value stored to a variable, by [`VarId::index`](crate::ir::VarId::index).
     first_stored: Vec<Option<Interval>>,
-    /// The bounds of variables at the code at hand; for a counted float, those of `int(x)`.
+    /// The bounds of variables at the current code; for a float counter, those of `int(x)`.
     current: Vec<Option<Interval>>,
     /// The bounds of counters from the test of their loop on.
     from_test: Vec<Option<Interval>>,
-    /// Loops around the code at hand, by their numbers.
+    /// The loops around the current code, by their numbers.
     loops: Vec<usize>,
-    /// The number of loops that have begun.
-    begun_loops: usize,
+    /// The number of loops entered so far.
+    entered_loops: usize,
     /// A loop whose test comes next.
     tested: Option<usize>,
 }
@@ -115,15 +116,15 @@ impl Ranges {
             Op::Global(id) => r.module[id].kind == GlobalKind::Uniform(Uniform::Resolution),
             _ => false,
         };
-        let canvas = Some(Interval::between(1.0, LARGEST_CANVAS.into()));
+        let size = Some(Interval::between(1.0, MAX_TARGET_SIZE.into()));
         match r.f[value] {
             Op::Load { place } => match r.f[place] {
                 Op::Var(var) => self.current[var.index()],
-                Op::Part { base, index: 0 | 1 } if is_resolution(base) => canvas,
+                Op::Part { base, index: 0 | 1 } if is_resolution(base) => size,
                 _ => None,
             },
             Op::Part { base, index: 0 | 1 } => match r.f[base] {
-                Op::Load { place } if is_resolution(place) => canvas,
+                Op::Load { place } if is_resolution(place) => size,
                 _ => None,
             },
             _ => None,
@@ -176,15 +177,15 @@ impl Rule for Ranges {
     }
 
     fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
-        self.loops.push(self.begun_loops);
-        self.tested = Some(self.begun_loops);
-        // Nothing is known of it in later rounds before their test.
+        self.loops.push(self.entered_loops);
+        self.tested = Some(self.entered_loops);
+        // Nothing is known about it in later iterations before their test.
         for (var, written) in self.current.iter_mut().zip(&self.counters.vars) {
-            if matches!(written, Definition::Counted { number, .. } if *number == self.begun_loops) {
+            if matches!(written, Definition::Counted { number, .. } if *number == self.entered_loops) {
                 *var = None;
             }
         }
-        self.begun_loops += 1;
+        self.entered_loops += 1;
     }
 
     fn after_if(&mut self, r: &Rewriter<'_>) {
@@ -210,8 +211,8 @@ impl Rule for Ranges {
 }
 
 impl Ranges {
-    /// Returns the bounds of a counter behind its loop's test and before its step, and those from the test on, in the
-    /// loop and behind it.
+    /// Returns the bounds of a counter after its loop's test and before its step, and those from the test on, in the
+    /// loop and after it.
     fn counted(&self, r: &Rewriter<'_>, var: usize, ty: TypeId, by: Step) -> Option<(Interval, Interval)> {
         let (test, bound) = self.counters.test(var)?;
         let (least, most, all) = match by {
@@ -237,17 +238,17 @@ impl Ranges {
             Step::Float { start, by } => {
                 let Op::Literal(Scalar::Float, bits) = r.f[bound] else { return None };
                 let (least, most) = counted_in_floats(test, start, by, f32::from_bits(bits))?;
-                // Behind the loop nobody asks.
+                // They are not used after the loop.
                 (least, most, Interval::ANY)
             }
         };
-        // A loop without a round has a counter without a value: nothing follows from what its body does with it.
+        // A loop without iterations has a counter without values: nothing follows for the code in its body.
         (least <= most).then(|| (Interval::between(least, most), all))
     }
 }
 
-/// Returns the bounds of `int(x)` in the rounds of a loop that counts a float. `int` cuts off towards zero. Sums are
-/// rounded, but never to the other side of where they began.
+/// Returns the bounds of `int(x)` in the iterations of a loop with a float counter. `int` truncates towards zero. Sums
+/// are rounded, but never past their starting value.
 fn counted_in_floats(test: Binary, start: f32, by: f32, bound: f32) -> Option<(f64, f64)> {
     let (first, last) = (f64::from(start.trunc()), f64::from(bound.trunc()));
     let before = f64::from(u8::from(bound.fract() == 0.0));

@@ -1,8 +1,8 @@
-//! Vector arithmetic, written out by component.
+//! Expands vector arithmetic to components.
 //!
-//! A driver joins other terms of sums and products where it looks before it splits vectors than where it looks after.
-//! OpenGL drivers split first, Vulkan ones later, so last bits differ; here it is done beforehand. Devices that compute
-//! by component have as much to do either way.
+//! A driver that fuses operations before it splits vectors combines different terms of sums and products than one that
+//! fuses afterwards. OpenGL drivers split first, Vulkan ones later, so last bits differ; here vectors are split in
+//! advance. Devices that compute by component have the same amount of work either way.
 
 use crate::ir::rewrite::{self, Rewriter, Rule};
 use crate::{
@@ -44,7 +44,7 @@ impl Rule for Scalarize {
     }
 }
 
-/// Returns a component of an operand; a scalar meets each.
+/// Returns a component of an operand; a scalar is used for each.
 fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
     match r.module.types.get(r.f.ty(operand)) {
         Type::Vector { .. } => match known_part(r, operand, index) {
@@ -55,7 +55,7 @@ fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
     }
 }
 
-/// Returns a part of a value that was put together from as many.
+/// Returns a part of a value that was composed of that many parts.
 fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     match r.f[value] {
         Op::Compose { ty, ref parts } if parts.len() == r.module.extent(ty) as usize => Some(parts[index as usize]),
@@ -64,7 +64,7 @@ fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     }
 }
 
-/// Drivers write these out themselves (`spirv_to_nir` in Mesa), so they stay whole.
+/// Returns whether drivers expand a function themselves (`spirv_to_nir` in Mesa), so that it is not split.
 fn is_hyperbolic(fun: Math) -> bool {
     use Math::*;
     matches!(fun, Sinh | Cosh | Tanh | Asinh | Acosh | Atanh)

@@ -1,11 +1,11 @@
-//! Small programs before and after a pass, as snapshots that a person can read. `cargo insta review`, or
-//! `INSTA_UPDATE=always`, takes a change over.
+//! Small programs before and after a pass, as readable snapshots. `cargo insta review`, or `INSTA_UPDATE=always`,
+//! accepts a change.
 
 use super::{PASSES, identity};
 use crate::{Driver, Link, PassSource, compile::compile_seen, dump_ir, ir, opt::PassSet};
 
-/// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before
-/// it.
+/// Returns the program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes
+/// before it.
 fn around(pass: &str, body: &str) -> String {
     let code = format!("void mainImage(out vec4 o, vec2 p) {{ {body} }}");
     dump_ir(&PassSource::image(&code), &Link::default(), None, Some(pass)).expect("a program without errors")
@@ -16,7 +16,7 @@ fn vectors_are_written_out() {
     insta::assert_snapshot!(around("scalarize", "o = vec4(p * 2.0 + iTime, normalize(p));"));
 }
 
-/// The example of `docs/compiler.md` is in no list, so that no dump shows it: it is called here, and nowhere else.
+/// The example of `docs/compiler.md` is in no list, so that no dump shows it: it is called only here.
 #[test]
 fn products_with_one_are_dropped() {
     let code = "void mainImage(out vec4 o, vec2 p) { o = vec4(p.x * 1.0, 1.0 * p.y, p.x + 0.0, p.x * 2.0); }";
@@ -31,8 +31,8 @@ fn products_with_one_are_dropped() {
 }
 
 #[test]
-fn the_page_shows_the_example() {
-    // A package alone has no page.
+fn docs_show_the_example() {
+    // A packaged crate has no documentation page.
     let Ok(page) = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/compiler.md")) else {
         return;
     };
@@ -61,8 +61,8 @@ fn every_pass_can_be_left_out() {
     assert!(PassSet::of("nonesuch").is_err());
 }
 
-/// Returns the functions of a program after the last pass, and the statements of all of them, each with those of what
-/// it calls.
+/// Returns the functions of a program after the last pass, and the number of statements of all of them, each including
+/// those of its callees.
 fn inlined(code: &str) -> (usize, u64) {
     let mut last = None;
     compile_seen(&PassSource::image(code), &Link::default(), None, |_, seen| last = Some(seen.clone()))
@@ -71,9 +71,9 @@ fn inlined(code: &str) -> (usize, u64) {
     (last.functions.len(), last.inlined_sizes().iter().sum())
 }
 
-/// A driver that inlines everything holds all of these statements: of a chain half the square of its length.
+/// A driver that inlines everything keeps all of these statements: for a chain half the square of its length.
 #[test]
-fn what_drivers_copy_of_a_chain_grows_as_its_length() {
+fn inlined_size_of_a_chain_grows_linearly() {
     let chain = |length: usize, link: &str| {
         let links: String = (1..length)
             .map(|i| format!("float f{i}(float x) {{ {} }}", link.replace("f(", &format!("f{}(", i - 1))))
@@ -89,12 +89,12 @@ fn what_drivers_copy_of_a_chain_grows_as_its_length() {
     ] {
         let [one, four] = [1_000, 4_000].map(|length| chain(length, link));
         assert!(four.0 < 4_000 / 32, "{link}: {four:?}");
-        // Groups of bounded length become one, and their number grows.
+        // Groups of bounded length are merged, and their number grows.
         assert!(four.1 < 16 * one.1 && four.1 < 2_500_000, "{link}: {one:?}, {four:?}");
     }
 }
 
-/// A function that a driver copies seldom stays as it is written: inlining it saves nothing.
+/// A function that a driver copies rarely stays as it is written: inlining it does not help.
 #[test]
 fn programs_without_long_chains_are_not_inlined() {
     let calls: String = (0..50).map(|i| format!("float f{i}(float x) {{ return sin(x) * {i}.5; }}")).collect();

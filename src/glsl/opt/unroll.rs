@@ -1,9 +1,10 @@
-//! Loop unrolling: a short loop is written out where it sets the limits of a loop within that goes through an array.
+//! Loop unrolling: unrolls a short loop whose counter limits an inner loop over an array.
 //!
-//! A driver knows the rounds of the inner loop of de Casteljau's algorithm, `for (int n = 4; n > 0; n--) for (int i = 0;
-//! i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);`, only when the outer one is gone. Then it unrolls that as well, and
-//! the elements become registers; before, the array lies in memory, which llvmpipe stores to pixel by pixel. Mesa's GLSL
-//! compiler unrolls such loops (`loop_unroll.cpp`), and does not where it gets SPIR-V. Other loops are left to the driver.
+//! A driver knows the number of iterations of the inner loop of de Casteljau's algorithm, `for (int n = 4; n > 0; n--)
+//! for (int i = 0; i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);`, only when the outer one is unrolled. Then it
+//! unrolls the inner one as well, and the elements become registers; otherwise the array stays in memory, to which
+//! llvmpipe stores pixel by pixel. Mesa's GLSL compiler unrolls such loops (`loop_unroll.cpp`), but not if it gets
+//! SPIR-V. Other loops are left to the driver.
 
 use rustc_hash::FxHashMap;
 
@@ -13,11 +14,11 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// The most rounds that are written out.
-const MOST_ROUNDS: usize = 8;
+/// The maximum number of iterations that are unrolled.
+const MAX_ITERATIONS: usize = 8;
 
-/// The most statements that a loop becomes.
-const MOST_STATEMENTS: usize = 512;
+/// The maximum number of statements of an unrolled loop.
+const MAX_STATEMENTS: usize = 512;
 
 pub(super) fn run(module: &mut Module) {
     for index in 0..module.functions.len() {
@@ -44,24 +45,24 @@ pub(super) fn run(module: &mut Module) {
 
 struct Unroller<'a> {
     f: &'a mut Function,
-    /// In rising order.
+    /// In ascending order.
     elements: Vec<Value>,
 }
 
-/// A loop that is written out.
+/// A loop to unroll.
 struct Plan {
     counter: VarId,
     start: i32,
     by: i32,
     rounds: usize,
-    /// The place of its test in the body.
+    /// The index of its test in the body.
     test: usize,
 }
 
 impl Unroller<'_> {
     fn block(&mut self, block: Block) -> Block {
         let mut out = Block::with_capacity(block.len());
-        // What variables hold here.
+        // The known values of variables here.
         let mut known: FxHashMap<VarId, i32> = FxHashMap::default();
         for mut stmt in block {
             let plan = self.plan(&stmt, &known);
@@ -125,15 +126,15 @@ impl Unroller<'_> {
         while compare(op, count, bound)? == goes_on_if {
             rounds += 1;
             count = count.checked_add(by)?;
-            if rounds > MOST_ROUNDS {
+            if rounds > MAX_ITERATIONS {
                 return None;
             }
         }
         let statements = size(body) + size(continuing);
-        (statements * rounds <= MOST_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
+        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
     }
 
-    /// Returns what each round adds to a counter, if that is all that is written to it.
+    /// Returns the increment of a counter per iteration, if nothing else is written to it.
     fn step(&self, counter: VarId, body: &[Stmt], continuing: &Block) -> Option<i32> {
         let steps: Vec<Value> = body.iter().chain(continuing).filter_map(|stmt| self.stores(stmt, counter)).collect();
         let mut written = FxHashMap::from_iter([(counter, 0)]);
@@ -158,7 +159,7 @@ impl Unroller<'_> {
         }
     }
 
-    /// Returns whether a loop within is limited by the counter and goes through an array.
+    /// Returns whether an inner loop is limited by the counter and iterates over an array.
     fn bounds_inner_loop(&self, block: &[Stmt], counter: VarId) -> bool {
         block.iter().any(|stmt| {
             if let Stmt::Loop { body, .. } = stmt {
@@ -212,7 +213,7 @@ impl Unroller<'_> {
         block.iter().filter_map(|stmt| self.copy(copy, stmt)).collect()
     }
 
-    /// Returns a statement with values of its own. A load of the counter becomes no statement.
+    /// Returns a copy of a statement with new values. A load of the counter needs no statement.
     fn copy(&mut self, copy: &mut Copy, stmt: &Stmt) -> Option<Stmt> {
         Some(match stmt {
             &Stmt::Let(value) => {
@@ -251,12 +252,12 @@ impl Unroller<'_> {
     }
 }
 
-/// A round that is being written out.
+/// An iteration that is being copied.
 struct Copy {
     counter: VarId,
-    /// The value that the counter has.
+    /// The value of the counter.
     count: Value,
-    /// The value that stands for each one that the loop computes.
+    /// The copy of each value that the loop computes.
     map: FxHashMap<Value, Value>,
 }
 
@@ -278,13 +279,13 @@ fn compare(op: Binary, left: i32, right: i32) -> Option<bool> {
     })
 }
 
-/// Returns whether a statement may end a round of the loop around.
+/// Returns whether a statement may end an iteration of the enclosing loop.
 fn leaves_round(stmt: &Stmt) -> bool {
     let any = |block: &Block| block.iter().any(leaves_round);
     match stmt {
         Stmt::Break | Stmt::Continue => true,
         Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        // A `Break` leaves the switch alone; none of these loops has one.
+        // A `Break` leaves only the switch; none of these loops contains one.
         Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
         _ => false,
     }
@@ -296,7 +297,7 @@ fn size(block: &Block) -> usize {
     sum
 }
 
-/// Drops what a statement may write.
+/// Removes the variables that a statement may write.
 fn forget(f: &Function, stmt: &Stmt, known: &mut FxHashMap<VarId, i32>) {
     stores(f, std::slice::from_ref(stmt), &mut |place| {
         if let Op::Var(var) = f[f.root(place)] {

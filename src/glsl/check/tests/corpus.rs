@@ -18,7 +18,7 @@ fn text<'j>(pass: &'j serde_json::Value, key: &str) -> &'j str {
     pass.get(key).and_then(|v| v.as_str()).unwrap_or("")
 }
 
-/// Returns what fails in one file: the pass and its messages.
+/// Returns the failures in one file: the pass and its messages.
 fn failures(json: &serde_json::Value, passes_seen: &mut u32) -> Vec<(String, String)> {
     let json = json.get(0).unwrap_or(json);
     let json = json.get("Shader").unwrap_or(json);
@@ -53,7 +53,7 @@ fn failures(json: &serde_json::Value, passes_seen: &mut u32) -> Vec<(String, Str
 
 #[test]
 #[ignore = "needs folders of Shadertoy's JSON"]
-fn every_real_shader_checks() {
+fn real_shaders_check_without_errors() {
     let folders = env::var_os("EDDY_GLSL_CORPUS").expect("EDDY_GLSL_CORPUS names the folders");
     let mut files: Vec<PathBuf> = env::split_paths(&folders)
         .flat_map(|folder| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()))

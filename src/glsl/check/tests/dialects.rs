@@ -1,4 +1,4 @@
-//! Texts for other programs: what they may say beyond GLSL ES 3.00, and what they may not name.
+//! Texts for other programs: the extensions of GLSL ES 3.00 they may use, and the names they may not.
 
 use crate::{Dialect, PassKind, PassSource, Text, compile, diagnose};
 use eddy_diag::SourceId;
@@ -16,7 +16,7 @@ fn body(statements: &str) -> String {
     format!("float half_of(float x) {{ return x / 2; }}\nvoid mainImage(out vec4 c, in vec2 p) {{ {statements} }}\n")
 }
 
-/// Statements that GLSL 4.30 takes (sections 4.1.10, 5.4 and 6.1) and GLSL ES 3.00 does not.
+/// Statements that are valid in GLSL 4.30 (sections 4.1.10, 5.4 and 6.1) but not in GLSL ES 3.00.
 const CONVERTED: [&str; 13] = [
     "float x = 1; c = vec4(x);",
     "c = vec4(2 * p, p + 1);",
@@ -34,7 +34,7 @@ const CONVERTED: [&str; 13] = [
 ];
 
 #[test]
-fn numbers_convert_where_the_language_says_so() {
+fn numbers_are_converted_implicitly() {
     for statements in CONVERTED {
         let text = body(statements);
         assert!(!errors(Dialect::Shadertoy, &text).is_empty(), "{statements}");
@@ -46,7 +46,7 @@ fn numbers_convert_where_the_language_says_so() {
 }
 
 #[test]
-fn nothing_converts_to_less() {
+fn narrowing_conversions_are_rejected() {
     for statements in [
         "int i = 1.0; c = vec4(i);",
         "int i = 2u; c = vec4(i);",
@@ -57,7 +57,7 @@ fn nothing_converts_to_less() {
     ] {
         assert!(!errors(Dialect::Ghostty, &body(statements)).is_empty(), "{statements}");
     }
-    // What a function gives back must fit as it is.
+    // `inout` arguments are not converted.
     let text = "void f(inout float x) { x = 1; }\nvoid mainImage(out vec4 c, in vec2 p) { int i; f(i); c = vec4(i); }";
     assert!(!errors(Dialect::Ghostty, text).is_empty());
 }
@@ -84,7 +84,7 @@ fn lists_in_braces_are_constructors() {
     }
     let text = "struct S { vec2 at; int n; };\nconst S ALL[2] = { {{1, 2}, 3}, {{4, 5}, 6} };\n\
                 void mainImage(out vec4 c, in vec2 p) { c = vec4(0); }";
-    // Lists in lists are those of an array's elements alone.
+    // Nested lists are only allowed for an array's elements.
     assert!(!errors(Dialect::Ghostty, text).is_empty());
     for wrong in
         ["float a[3] = {1, 2}; c = vec4(a[0]);", "float x = {}; c = vec4(x);", "float a[2] = {1, 2; c = vec4(a[0]);"]
@@ -94,7 +94,7 @@ fn lists_in_braces_are_constructors() {
 }
 
 #[test]
-fn globals_begin_with_any_value() {
+fn non_constant_global_initialisers_are_accepted() {
     let text = "float at = sin(iTime) + iResolution.x;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(at); }";
     assert_eq!(errors(Dialect::Isf, text), [""; 0]);
     compile(&source(Dialect::Isf, text)).unwrap();
@@ -102,7 +102,7 @@ fn globals_begin_with_any_value() {
 }
 
 #[test]
-fn ghostty_gives_one_channel_and_sets_no_uniforms_of_the_author() {
+fn ghostty_has_one_channel_and_no_author_uniforms() {
     let texture = |n: u32| body(&format!("c = texture(iChannel{n}, p / iResolution.xy);"));
     assert_eq!(errors(Dialect::Ghostty, &texture(0)), [""; 0]);
     assert_eq!(errors(Dialect::Ghostty, &texture(1)).len(), 1);
@@ -115,7 +115,7 @@ fn ghostty_gives_one_channel_and_sets_no_uniforms_of_the_author() {
 }
 
 #[test]
-fn the_version_is_that_of_the_language() {
+fn version_macro_matches_the_language() {
     for (dialect, version) in [(Dialect::Shadertoy, 300), (Dialect::Ghostty, 430), (Dialect::Isf, 120)] {
         let text = format!(
             "#if __VERSION__ != {version}\n#error other\n#endif\n{}",
@@ -126,7 +126,7 @@ fn the_version_is_that_of_the_language() {
 }
 
 #[test]
-fn what_both_stages_declare_is_one_variable() {
+fn variable_declared_in_both_stages_is_one_variable() {
     let text = "vec2 left;\nvoid before() { left = vec2(1.0); }\nvec2 left;\n\
                 void mainImage(out vec4 c, in vec2 p) { before(); c = vec4(left.xy, 0.0, 1.0); }";
     assert_eq!(errors(Dialect::Isf, text), [""; 0]);
@@ -135,7 +135,7 @@ fn what_both_stages_declare_is_one_variable() {
 }
 
 #[test]
-fn a_text_may_replace_functions_of_the_language() {
+fn builtin_functions_can_be_replaced() {
     let text = "float round(float x) { return floor(x + 0.5); }\nvec2 normalize(vec2 v, float most) { return v * most; }\n\
                 int sign(vec2 a, vec2 b) { return 3; }\n\
                 void mainImage(out vec4 c, in vec2 p) { float one = round(0.75); int three = sign(p, p); \
@@ -150,15 +150,15 @@ fn a_text_may_replace_functions_of_the_language() {
 }
 
 #[test]
-fn a_function_that_takes_the_arguments_as_they_are_comes_before_conversions() {
-    // The built-in has an `int` overload, which is called though the text has one for `float`.
+fn exact_builtin_overload_precedes_conversions() {
+    // The built-in has an `int` overload, which is called although the text has one for `float`.
     let text = "vec2 max(float a, float b) { return vec2(a, b); }\n\
                 void mainImage(out vec4 c, in vec2 p) { int of_ints = max(1, 2); vec2 own = max(1.0, 2.0); c = vec4(own, of_ints, 1); }";
     assert_eq!(errors(Dialect::Ghostty, text), [""; 0]);
 }
 
 #[test]
-fn names_of_shadertoys_uniforms_are_free_in_isf() {
+fn isf_shaders_can_redefine_shadertoy_uniforms() {
     let text = "vec2 size() { return iResolution.xy; }\nvec3 iResolution = vec3(size(), 1.0);\nconst float iTime = 2.0;\n\
                 void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, iTime, 1.0); }";
     assert_eq!(errors(Dialect::Isf, text), [""; 0]);
@@ -168,7 +168,7 @@ fn names_of_shadertoys_uniforms_are_free_in_isf() {
 }
 
 #[test]
-fn messages_name_the_program_whose_header_it_is() {
+fn messages_name_the_host_program() {
     let said = |dialect| {
         errors(dialect, "#version 330\nvoid main() {}\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }")
             .join("\n")
@@ -179,7 +179,7 @@ fn messages_name_the_program_whose_header_it_is() {
         (Dialect::Isf, "the ISF host's header"),
     ] {
         let said = said(dialect);
-        // A version means nothing in ISF.
+        // ISF ignores versions.
         let count = if dialect == Dialect::Isf { 1 } else { 2 };
         assert_eq!(said.matches(header).count(), count, "{said}");
         assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");
@@ -187,7 +187,7 @@ fn messages_name_the_program_whose_header_it_is() {
 }
 
 #[test]
-fn extensions_and_versions_are_taken_as_the_host_takes_them() {
+fn version_and_extension_directives_follow_the_host() {
     let main = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fwidth(p), 0.0, 1.0); }";
     let extension =
         |behaviour: &str| format!("float a = 1.0;\n#extension GL_OES_standard_derivatives : {behaviour}\n{main}");

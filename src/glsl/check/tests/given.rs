@@ -1,4 +1,4 @@
-//! Declarations of what the header gives.
+//! Redeclarations of names that the header declares.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};
@@ -17,7 +17,7 @@ fn declared(declarations: &str) -> (bool, usize, String) {
 }
 
 #[test]
-fn a_uniform_of_the_site_that_is_declared_again_is_taken_with_a_warning() {
+fn redeclared_uniforms_are_accepted_with_a_warning() {
     for declarations in [
         "uniform vec3 iResolution;",
         "uniform float iTime;",
@@ -50,7 +50,7 @@ fn a_uniform_of_the_site_that_is_declared_again_is_taken_with_a_warning() {
 }
 
 #[test]
-fn with_another_type_it_is_one_error_that_says_its_own() {
+fn redeclaration_with_another_type_is_one_error() {
     for (declarations, own) in [
         ("uniform vec2 iResolution;", "`iResolution` is a `vec3`, but this declares a `vec2`"),
         ("uniform vec2 iMouse;", "`iMouse` is a `vec4`"),
@@ -75,7 +75,7 @@ fn with_another_type_it_is_one_error_that_says_its_own() {
 }
 
 #[test]
-fn inputs_and_outputs_that_only_shadow_do_no_harm() {
+fn unused_inputs_and_outputs_are_accepted() {
     let (failed, count, messages) = declared("in vec2 p;\nout vec4 o;\nlayout(location = 0) out vec4 fragColor;");
     assert!(!failed && count == 3, "{messages}");
     assert!(messages.contains("`fragColor` cannot be an output"), "{messages}");

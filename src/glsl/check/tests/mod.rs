@@ -1,4 +1,4 @@
-//! The checker against tables of small programs, by section of the specification, and against folders of real ones.
+//! Tests of the checker with tables of small programs, by section of the specification, and with folders of real ones.
 
 mod corpus;
 mod dialects;
@@ -13,7 +13,8 @@ use super::{Checked, check};
 use crate::{ChannelKind, PassKind, PassSource, Text, parse};
 use eddy_diag::{SourceId, SourceMap, render_all};
 
-/// Parses and checks a pass alone; parser's and checker's messages in caret form, and whether one is an error.
+/// Parses and checks a single pass; returns the rendered messages of the parser and the checker, and whether one is an
+/// error.
 fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, code: &str) -> (Checked, bool, String) {
     let mut sources = SourceMap::default();
     let common = common.map(|text| Text { id: sources.add("common.glsl", text), text });

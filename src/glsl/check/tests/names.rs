@@ -1,4 +1,4 @@
-//! Tests what editors are told: every use of a name and what it refers to.
+//! Tests the side table for editors: every use of a name and its target.
 
 use super::checked;
 use crate::hir::{BuiltinVar, DeclRef, Uniform};
@@ -15,7 +15,7 @@ void mainImage(out vec4 c, in vec2 f) {
 }";
 
 #[test]
-fn every_use_names_its_declaration() {
+fn uses_refer_to_their_declarations() {
     let source = crate::PassSource::image(CODE);
     let parsed = crate::parse::parse(&source, None);
     let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
@@ -72,7 +72,7 @@ fn every_use_names_its_declaration() {
 }
 
 #[test]
-fn common_alone_knows_two_uniforms() {
+fn common_alone_has_two_uniforms() {
     let common = "#define NOW iTime\nfloat f() { return iDate.w + iSampleRate; }\nfloat g() { return iTime; }\n\
                   vec4 h(vec2 p) { return texture(iChannel0, p) + iResolution.x + iTime; }\n\
                   void i(out vec4 c) { mainImage(c, vec2(0)); }\n";

@@ -1,4 +1,4 @@
-//! Expressions may nest as deep as browsers read them, and what is deeper is refused by name.
+//! Expressions may nest as deep as in browsers, and deeper ones are rejected with an error.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};
@@ -9,13 +9,13 @@ fn image(body: &str) -> (bool, String) {
     (failed, messages)
 }
 
-/// A value in so many pairs.
+/// Returns a value in `depth` pairs of brackets.
 fn within(open: &str, value: &str, close: &str, depth: usize) -> String {
     format!("o = vec4({}{value}{});", open.repeat(depth), close.repeat(depth))
 }
 
 #[test]
-fn parentheses_and_constants_nest_as_deep_as_the_parser_reads() {
+fn parentheses_and_constants_nest_up_to_the_parser_limit() {
     for (open, value, close) in [
         ("(", "p.x", ")"),
         ("- ", "1.0", ""),
@@ -30,11 +30,11 @@ fn parentheses_and_constants_nest_as_deep_as_the_parser_reads() {
 }
 
 #[test]
-fn a_tree_that_is_too_deep_is_refused_once() {
+fn too_deep_expressions_are_reported_once() {
     for (open, close) in
         [("- ", ""), ("g(", ")"), ("(p.y + ", ")"), ("(p.x > 0.0 ? ", " : 0.0)"), ("float(", ")"), ("sin(", ")")]
     {
-        // ANGLE refuses 256 levels.
+        // ANGLE rejects 256 levels.
         let (failed, messages) = image(&within(open, "p.x", close, 255));
         assert!(!failed, "{open}: {messages}");
         for depth in [400, 9_000, 100_000] {

@@ -1,5 +1,5 @@
-//! Tests what `hir` promises to lowering, checked on every program that has no error: post-order, one parent a node, no
-//! type and node of an error, types that fit, places that are places, constants folded.
+//! Tests the guarantees of `hir` to lowering, for every error-free program: post-order, at most one parent per node, no
+//! error types and nodes, types that match, valid places, folded constants.
 
 use crate::{
     ast::List,
@@ -8,7 +8,7 @@ use crate::{
     },
 };
 
-/// Panics with what is broken.
+/// Panics if a guarantee is violated.
 pub(super) fn assert_kept(module: &Module) {
     let mut walk = Walk { module, parents: vec![false; module.exprs.len()] };
     assert!(module.entry.is_some(), "no entry");
@@ -51,7 +51,7 @@ fn words(module: &Module, ty: TypeId) -> u32 {
 
 struct Walk<'m> {
     module: &'m Module,
-    /// Expressions that have been met.
+    /// Expressions that have been visited.
     parents: Vec<bool>,
 }
 
@@ -114,7 +114,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The expression's type, after it and all below it were found right.
+    /// Checks an expression and its operands, and returns its type.
     fn expr(&mut self, root: ExprId, locals: std::ops::Range<u32>) -> TypeId {
         let mut stack = vec![root];
         while let Some(id) = stack.pop() {
@@ -126,7 +126,7 @@ impl Walk<'_> {
         self.module[root].ty
     }
 
-    /// Looks at one node; its children come back.
+    /// Checks one node, and returns its children.
     fn node(&self, id: ExprId, locals: &std::ops::Range<u32>) -> Vec<ExprId> {
         let module = self.module;
         let expr = module[id];

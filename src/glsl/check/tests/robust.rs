@@ -1,4 +1,4 @@
-//! Nothing a user types may panic, hang or overflow the stack: long and deep programs, and ours with pieces torn out.
+//! No input may panic, hang or overflow the stack: long and deep programs, and valid ones with pieces removed.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};
@@ -12,7 +12,7 @@ fn image(code: &str) -> (bool, String) {
 }
 
 #[test]
-fn long_programs() {
+fn long_programs_do_not_overflow_the_stack() {
     let mut chain = String::from("void mainImage(out vec4 c, in vec2 f) { float x = f.x; c = vec4(x");
     for i in 0..20_000 {
         let _ = write!(chain, " + x * {i}.0");
@@ -35,7 +35,7 @@ fn long_programs() {
     assert!(failed && messages.contains("16 MiB") && messages.contains("nested"));
 }
 
-/// Numbers that look random and are the same each time.
+/// Pseudo-random numbers with a fixed seed.
 struct Random(u64);
 
 impl Random {
@@ -46,7 +46,7 @@ impl Random {
 }
 
 #[test]
-fn torn_programs() {
+fn damaged_programs_do_not_panic() {
     let texts = [4, 5, 6, 7, 8].map(|i| {
         std::fs::read_to_string(format!("{}/check/tests/spec/section_{i}.glsl", env!("CARGO_MANIFEST_DIR"))).unwrap()
     });
@@ -59,7 +59,7 @@ fn torn_programs() {
     let rounds = std::env::var("EDDY_TORN_ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000);
     let mut random = Random(7);
     for _ in 0..rounds {
-        // Two programs, cut into words, some of which go missing, come twice or change places.
+        // Splits two programs into words, some of which are removed, repeated or swapped.
         let mut words: Vec<&str> = Vec::new();
         for _ in 0..2 {
             let case = cases[random.below(cases.len())];

@@ -1,7 +1,7 @@
-//! Long values that are stored as a whole: copies, by loops, and constructors that hold such.
+//! Long values that are stored as a whole: copies by loops, and constructors that contain them.
 //!
-//! Elements that a constructor computes stay a store each: to put them into short arrays that loops copy was tried,
-//! which made arrays of numbers faster to compile, and arrays of structures slower.
+//! Elements that a constructor computes remain one store each. Storing them in short arrays that loops copy was tried:
+//! arrays of numbers compiled faster, and arrays of structures slower.
 
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Range, Span, Statement, Type,
@@ -10,16 +10,16 @@ use naga::{
 
 use super::writer::{LEAST_ARRAY, Value, Writer};
 
-/// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop
-/// counts lane by lane, which takes up to twice as long.
+/// The number of scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element
+/// with a loop index lane by lane, which takes up to twice as long.
 pub(crate) const LEAST_COPY: u32 = 128;
 
-/// Loads since which nothing has written what they read, each with its pointer's root.
+/// Loads whose memory has not been written since, each with its pointer's root.
 #[derive(Default)]
 pub(super) struct Loads(Vec<(Value, Value)>);
 
 impl Loads {
-    /// Adds those among expressions that are computed now.
+    /// Adds the loads among expressions that are computed now.
     pub fn note(&mut self, range: Range<Expression>, function: &Function) {
         self.0.extend(range.filter_map(|value| match function.expressions[value] {
             Expression::Load { pointer } => Some((value, root(function, pointer))),
@@ -27,7 +27,7 @@ impl Loads {
         }));
     }
 
-    /// Forgets the loads of what is stored by this pointer.
+    /// Removes the loads of memory that is stored to by this pointer.
     pub fn forget(&mut self, pointer: Value, function: &Function) {
         let written = root(function, pointer);
         self.0.retain(|&(_, read)| are_apart(function, written, read));
@@ -38,7 +38,7 @@ impl Loads {
     }
 }
 
-/// Returns the variable, or the argument, that a pointer leads from.
+/// Returns the variable, or the argument, that a pointer is derived from.
 fn root(function: &Function, mut pointer: Value) -> Value {
     while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = function.expressions[pointer] {
         pointer = base;
@@ -46,7 +46,7 @@ fn root(function: &Function, mut pointer: Value) -> Value {
     pointer
 }
 
-/// Returns whether two roots are different memory for sure. A pointer argument may point to any variable.
+/// Returns whether two roots are certainly different memory. A pointer argument may point to any variable.
 fn are_apart(function: &Function, a: Value, b: Value) -> bool {
     use Expression::{GlobalVariable, LocalVariable};
     match (&function.expressions[a], &function.expressions[b]) {
@@ -58,7 +58,7 @@ fn are_apart(function: &Function, a: Value, b: Value) -> bool {
 }
 
 impl Writer<'_> {
-    /// Stores a value by loops; `false` if it is to be stored as it was.
+    /// Stores a value by loops; returns `false` if the original store must be kept.
     pub fn store_long(&mut self, pointer: Value, value: Value, loads: &Loads, block: &mut Block) -> bool {
         let Some(ty) = self.pointee(pointer) else { return false };
         if self.sizes.longest(ty) < LEAST_ARRAY {
@@ -68,7 +68,7 @@ impl Writer<'_> {
             self.fill(pointer, ty, block);
             return true;
         }
-        if !self.is_dear(ty, value, loads) {
+        if !self.should_use_loops(ty, value, loads) {
             return false;
         }
         if let Expression::Load { pointer: from } = self.function.expressions[value] {
@@ -83,8 +83,8 @@ impl Writer<'_> {
         true
     }
 
-    /// Returns whether loops are the better way to store this value, and can be.
-    fn is_dear(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
+    /// Returns whether storing this value by loops is possible and better.
+    fn should_use_loops(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
         let is_long = self.sizes.longest(ty) >= LEAST_COPY;
         is_long
             && match self.function.expressions[value] {
@@ -103,7 +103,7 @@ impl Writer<'_> {
             }
     }
 
-    /// Returns whether a constructor's long parts are read from memory that it is stored to, or from anyone's.
+    /// Returns whether a constructor's long parts are read from memory that may overlap the target.
     fn reads(&self, value: Value, target: Value) -> bool {
         match &self.function.expressions[value] {
             Expression::Load { pointer } => {
@@ -117,11 +117,11 @@ impl Writer<'_> {
 
     /// Stores a constructor's parts.
     fn construct(&mut self, pointer: Value, ty: Handle<Type>, value: Value, loads: &Loads, block: &mut Block) {
-        let dear = self.is_dear(ty, value, loads);
+        let use_loops = self.should_use_loops(ty, value, loads);
         let components = match self.function.expressions[value] {
-            Expression::Load { pointer: from } if dear => return self.copy(pointer, from, ty, block),
+            Expression::Load { pointer: from } if use_loops => return self.copy(pointer, from, ty, block),
             Expression::ZeroValue(_) => return self.fill(pointer, ty, block),
-            Expression::Compose { ref components, .. } if dear => components.clone(),
+            Expression::Compose { ref components, .. } if use_loops => components.clone(),
             _ => return block.push(Statement::Store { pointer, value }, Span::UNDEFINED),
         };
         let parts: Vec<_> = match self.types[ty].inner {
@@ -135,7 +135,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Copies what `from` points to.
+    /// Copies the value that `from` points to.
     fn copy(&mut self, to: Value, from: Value, ty: Handle<Type>, block: &mut Block) {
         match self.types[ty].inner {
             TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
@@ -159,7 +159,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Returns a number that no driver knows, so that none unrolls a loop of so many turns.
+    /// Returns a number that no driver knows, so that none unrolls a loop with this number of iterations.
     fn unknown(&mut self, number: u32, block: &mut Block) -> Value {
         let number = self.uint(number);
         let Some(opaque) = self.opaque else { return number };
@@ -168,7 +168,7 @@ impl Writer<'_> {
         self.emit(Expression::Binary { op: BinaryOperator::Add, left: number, right }, block)
     }
 
-    /// Returns the type that a pointer leads to; `None` of a component.
+    /// Returns the type that a pointer points to; `None` for a component.
     fn pointee(&self, pointer: Value) -> Option<Handle<Type>> {
         let part = |base: Value, index: Option<u32>| match &self.types[self.pointee(base)?].inner {
             TypeInner::Array { base, .. } => Some(*base),

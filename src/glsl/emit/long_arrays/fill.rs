@@ -1,4 +1,4 @@
-//! A walk over one function that gives its long arrays their forms; zeros, written by loops.
+//! Rewrites one function so that its long arrays are filled and copied by loops.
 
 use rustc_hash::FxHashSet;
 
@@ -12,7 +12,7 @@ use super::{
     writer::{LEAST_ARRAY, Value, Writer},
 };
 
-/// Scalars that one block of zeros writes.
+/// The number of scalars that one block of zeros writes.
 const BLOCK: u32 = 32;
 
 impl Writer<'_> {
@@ -30,8 +30,8 @@ impl Writer<'_> {
         block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
     }
 
-    /// Fills these globals and all long locals but those of `written_first` at the start, behind `block`, and makes
-    /// loops of the long values that are stored.
+    /// Fills these globals, and all long locals except those in `written_first`, at the start, after `block`, and
+    /// replaces stores of long values with loops.
     pub fn rewrite(
         mut self,
         globals: &[(Handle<GlobalVariable>, Handle<Type>)],
@@ -94,7 +94,7 @@ impl Writer<'_> {
         *block = self.block(inner);
     }
 
-    /// Writes zeros to all of what `pointer` points to.
+    /// Writes zeros to all of the memory that `pointer` points to.
     pub fn fill(&mut self, pointer: Value, ty: Handle<Type>, block: &mut Block) {
         match self.types[ty].inner {
             TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
@@ -124,7 +124,7 @@ impl Writer<'_> {
         }
     }
 
-    /// `do { pointer[0] = 0; pointer[1] = 0; ... } while (opaque != 0);` for each few elements.
+    /// Writes `do { pointer[0] = 0; pointer[1] = 0; ... } while (opaque != 0);` for each few elements.
     fn fill_by_blocks(
         &mut self,
         opaque: Handle<GlobalVariable>,

@@ -1,13 +1,14 @@
-//! Long arrays in the forms that Mesa's lavapipe compiles soon.
+//! Long arrays in forms that Mesa's lavapipe compiles quickly.
 //!
-//! Mesa writes a store or a copy of a whole array, and the initialiser of zeros that naga's SPIR-V writer gives every
-//! variable, as one access of memory a scalar, all of them of one variable. LLVM's time for these grows faster than
-//! their square (`InstCombinePass` looks at all accesses of a variable whenever it has changed one): a local `float
-//! a[500]` takes half a minute to the first frame. A program with long arrays therefore
-//! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
+//! Mesa expands a store or a copy of a whole array, and the zero initialiser that naga's SPIR-V writer adds to every
+//! variable, to one memory access per scalar, all of them of one variable. LLVM's time for these grows faster than
+//! their square (`InstCombinePass` visits all accesses of a variable whenever it has changed one): a local `float
+//! a[500]` delays the first frame by half a minute. A program with long arrays therefore
+//! - writes the initial zeros of arrays by loops ([`fill`]), and reports this, so that the initialisers can be left out
 //!   ([`crate::Compiled::initialized_arrays`]);
-//! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
-//!   constants are emitted, and calls pass and return long values by pointer, [`super::context::Emitter::is_long`]).
+//! - copies long arrays by loops, and tables into those that are initialised with constants ([`copy`]; the tables are
+//!   created where constants are emitted, and calls pass and return long values by pointer,
+//!   [`super::context::Emitter::is_long`]).
 
 mod copy;
 mod fill;
@@ -25,20 +26,20 @@ pub(crate) use copy::LEAST_COPY;
 use sizes::Sizes;
 use writer::{LEAST_ARRAY, Writer};
 
-/// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4
-/// s, 160 take 1.5 s, 256 take 6 s.
-const FEWEST_SCALARS: u32 = 128;
+/// The total number of scalars in a program's uninitialised arrays from which on the program is changed at all. 100
+/// zeros take lavapipe 0.4 s, 160 take 1.5 s, 256 take 6 s.
+const MIN_SCALARS: u32 = 128;
 
-/// Scalars up to which a program's arrays get their zeros by blocks of a few known elements, each of them a loop of one
-/// round that no driver can see to be one. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops; frames are then
-/// as quick as with initialisers, and take up to twice as long with loops.
-const MOST_IN_BLOCKS: u32 = 512;
+/// The number of scalars up to which a program's arrays are zeroed by blocks of a few known elements, each of them a
+/// loop of one iteration that drivers cannot recognise as such. 500 take lavapipe 3 s, 800 take 7 s, and a second by
+/// loops; frames are then as fast as with initialisers, and take up to twice as long with loops.
+const MAX_IN_BLOCKS: u32 = 512;
 
-/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, `written_first`
-/// variables of each function, the entry point last, that are written before they are read.
+/// Rewrites all long arrays to these forms. `filled` are globals that are stored as a whole before anything else,
+/// `written_first` variables of each function, the entry point last, that are written before they are read.
 ///
-/// Returns the length in scalars from which on every array has its zeros, or another value, before anything reads it,
-/// though its variable had no initialiser; `None` if the program has few and was left as it is.
+/// Returns the length in scalars from which on every array is zeroed, or has another value, before it is read, although
+/// its variable had no initialiser; `None` if the program has few of them and was left unchanged.
 pub(super) fn write(
     module: &mut Module,
     filled: &FxHashSet<Handle<GlobalVariable>>,
@@ -56,7 +57,7 @@ pub(super) fn write(
     let locals = functions.flat_map(|f| f.local_variables.iter().filter(|(_, v)| v.init.is_none()).map(|(_, v)| v.ty));
     let long = globals.iter().map(|(_, ty)| *ty).chain(locals.filter(|ty| sizes.longest(*ty) >= LEAST_ARRAY));
     let scalars = long.fold(0u32, |sum, ty| sum.saturating_add(sizes.scalars(ty)));
-    if scalars < FEWEST_SCALARS {
+    if scalars < MIN_SCALARS {
         return None;
     }
     let uint = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
@@ -67,7 +68,7 @@ pub(super) fn write(
     });
     let Module { types, global_variables, functions, entry_points, .. } = module;
     let variables: Vec<_> = global_variables.iter().map(|(_, v)| (v.ty, v.space)).collect();
-    let in_blocks = scalars <= MOST_IN_BLOCKS;
+    let in_blocks = scalars <= MAX_IN_BLOCKS;
     let mut written_first = written_first.iter();
     let mut write = |function, opaque_bit, filled: &[_]| {
         let written_first = written_first.next().expect("a set for each function");
@@ -90,7 +91,7 @@ pub(super) fn write(
     Some(LEAST_ARRAY)
 }
 
-/// Initialisers that are zeros in one piece are none: they are what naga writes without them.
+/// Removes initialisers that are a single zero value: naga writes zeros without them.
 fn drop_zero_initialisers(module: &mut Module) {
     let Module { global_expressions, constants, global_variables, functions, entry_points, .. } = module;
     let is_zero = |mut init: Handle<Expression>| loop {
@@ -115,8 +116,8 @@ fn drop_zero_initialisers(module: &mut Module) {
     }
 }
 
-/// Returns an argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of
-/// a vertex.
+/// Returns an argument whose first bit is never set, although no driver knows that: the pixel position, or the vertex
+/// index.
 fn never_negative(entry: &EntryPoint) -> Option<(u32, BuiltIn)> {
     (0..).zip(&entry.function.arguments).find_map(|(index, argument)| match argument.binding {
         Some(Binding::BuiltIn(built_in @ (BuiltIn::Position { .. } | BuiltIn::VertexIndex))) => Some((index, built_in)),

@@ -2,10 +2,10 @@
 
 use naga::{ArraySize, Handle, Type, TypeInner, UniqueArena};
 
-/// The memory that types take, by [`Handle::index`].
+/// The sizes of types, by [`Handle::index`].
 pub(super) struct Sizes {
     scalars: Vec<u32>,
-    /// Scalars of the longest array within.
+    /// The number of scalars in the longest array within each type.
     longest: Vec<u32>,
 }
 

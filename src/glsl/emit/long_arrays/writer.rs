@@ -1,4 +1,4 @@
-//! Statements and expressions that are added to one function: the loops of long arrays are made of these.
+//! Adds statements and expressions to a function: the building blocks of the loops over long arrays.
 
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal, LocalVariable, Range,
@@ -10,18 +10,18 @@ use super::sizes::Sizes;
 /// An expression of a function.
 pub(super) type Value = Handle<Expression>;
 
-/// Scalars from which on an array of a program with long arrays gets its zeros by a loop. A loop also costs a driver
-/// time.
+/// The number of scalars from which on an array of a program with long arrays is zeroed by a loop. A loop also costs a
+/// driver time.
 pub(super) const LEAST_ARRAY: u32 = 16;
 
 /// Writes loops into one function.
 pub(super) struct Writer<'a> {
     pub types: &'a UniqueArena<Type>,
     pub sizes: &'a Sizes,
-    /// Types and places of the module's variables, by [`Handle::index`].
+    /// The types and address spaces of the module's variables, by [`Handle::index`].
     pub globals: &'a [(Handle<Type>, AddressSpace)],
     pub uint: Handle<Type>,
-    /// Holds a zero that no driver knows.
+    /// A zero that no driver knows.
     pub opaque: Option<Handle<GlobalVariable>>,
     /// Zeros are written by blocks of a few known elements.
     pub in_blocks: bool,
@@ -29,8 +29,8 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// `for (uint i = 0; i < len; i++) { turn(i) }`
-    pub fn count(&mut self, len: Value, block: &mut Block, turn: impl FnOnce(&mut Self, Value, &mut Block)) {
+    /// Adds `for (uint i = 0; i < len; i++) { iteration(i) }`.
+    pub fn count(&mut self, len: Value, block: &mut Block, iteration: impl FnOnce(&mut Self, Value, &mut Block)) {
         let counter = LocalVariable { name: None, ty: self.uint, init: None };
         let counter = self.function.local_variables.append(counter, Span::UNDEFINED);
         let counter = self.expression(Expression::LocalVariable(counter));
@@ -42,7 +42,7 @@ impl Writer<'_> {
         let condition = self.emit(binary(BinaryOperator::Less, len), &mut body);
         let leave = Block::from_vec(vec![Statement::Break]);
         body.push(Statement::If { condition, accept: Block::new(), reject: leave }, Span::UNDEFINED);
-        turn(self, index, &mut body);
+        iteration(self, index, &mut body);
         let next = self.emit(binary(BinaryOperator::Add, one), &mut body);
         body.push(Statement::Store { pointer: counter, value: next }, Span::UNDEFINED);
         block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);

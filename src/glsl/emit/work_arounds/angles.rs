@@ -1,8 +1,8 @@
-//! The angle of (0, 0), where the device has no number for it.
+//! The angle of (0, 0), which is undefined on the device.
 //!
 //! GLSL leaves `atan(0, 0)` undefined (section 8.1), and constants fold to 0. Direct3D's `atan2` is defined "for every
-//! point other than the origin" (reference of HLSL), and naga writes `atan` as that (`back/hlsl/writer.rs`); drivers
-//! give NaN. So the angle of (0, 1) is asked for instead, unless an argument is known to be no zero.
+//! point other than the origin" (HLSL reference), and naga translates `atan` to that (`back/hlsl/writer.rs`); drivers
+//! return NaN. Therefore the angle of (0, 1) is used instead, unless an argument is known to be nonzero.
 
 use crate::{
     ir::{
@@ -39,7 +39,7 @@ impl Rule for Angles {
     }
 }
 
-/// Returns whether no component of a value is zero, as far as literals tell.
+/// Returns whether no component of a value is zero, as far as literals show.
 fn is_nonzero(r: &Rewriter<'_>, value: Value) -> bool {
     match &r.f[value] {
         Op::Literal(_, bits) => bits << 1 != 0,

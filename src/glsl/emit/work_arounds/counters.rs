@@ -1,8 +1,8 @@
-//! Counters of loops in loops, hidden where they index an array.
+//! Hides counters of nested loops where they index an array.
 //!
-//! Mesa writes a loop out that indexes a variable by its counter and has as many rounds as that has elements, whatever
-//! it costs (`force_unroll_array_access` in `nir_loop_analyze.c`). Of a loop in a loop, as sorting has them, that is the
-//! square of the elements: LLVM takes 15 s for twelve structures of four numbers, and minutes for twenty.
+//! Mesa unrolls a loop that indexes a variable by its counter and has as many iterations as the variable has elements,
+//! whatever the cost (`force_unroll_array_access` in `nir_loop_analyze.c`). For a nested loop, as in sorting, that is
+//! the square of the number of elements: LLVM takes 15 s for twelve structures of four numbers, and minutes for twenty.
 
 use crate::{
     ir::{
@@ -12,8 +12,8 @@ use crate::{
     types::Type,
 };
 
-/// As many bodies may be written out: more than a matrix takes, or a kernel of eight by eight.
-const BODIES: u32 = 64;
+/// The number of loop bodies that may be unrolled: more than for a matrix, or for an eight by eight kernel.
+const MAX_BODIES: u32 = 64;
 
 pub(super) fn run(program: &mut Module) {
     rewrite::each_function(program, Counters::default);
@@ -21,7 +21,7 @@ pub(super) fn run(program: &mut Module) {
 
 #[derive(Default)]
 struct Counters {
-    /// Loops that one is in.
+    /// The number of enclosing loops.
     depth: u32,
 }
 
@@ -29,7 +29,7 @@ impl Rule for Counters {
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
         let Op::Element { base, index } = *op else { return None };
         let Type::Array { len, .. } = r.module.types.get(r.f.ty(base)) else { return None };
-        let mesa_unrolls = self.depth > 1 && len.saturating_pow(self.depth) > BODIES;
+        let mesa_unrolls = self.depth > 1 && len.saturating_pow(self.depth) > MAX_BODIES;
         if !mesa_unrolls || !r.f.is_place(base) || !matches!(r.f[index], Op::Load { .. }) {
             return None;
         }

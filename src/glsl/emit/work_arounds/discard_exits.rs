@@ -1,9 +1,9 @@
-//! Loops that end where the fragment is discarded.
+//! Ends loops where the fragment is discarded.
 //!
-//! `discard` ends a shader (GLSL ES 3.00, 6.4), and [`Stmt::Discard`] has that meaning. Mesa's gallivm takes the
-//! fragment out of what is drawn and goes on with it (`discard` in `lp_bld_nir_soa.c`), as long as a loop has rounds to
-//! run: a pass that discards what it does not need takes the time of the whole picture. Mesa's GLSL compiler
-//! therefore ends loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; nothing does so for SPIR-V.
+//! `discard` ends a shader (GLSL ES 3.00, 6.4), and [`Stmt::Discard`] has that meaning. Mesa's gallivm only masks the
+//! fragment and continues running it (`discard` in `lp_bld_nir_soa.c`), as long as a loop has iterations to run: a pass
+//! that discards the pixels it does not need takes the time of the whole picture. Therefore Mesa's GLSL compiler ends
+//! loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; nothing does so for SPIR-V.
 
 use crate::{
     ast::Loc,
@@ -43,7 +43,7 @@ fn discards(program: &Module) -> Vec<bool> {
     discards
 }
 
-/// Says whether a block may discard; `discards`: the functions that do.
+/// Returns whether a block may discard; `discards` are the functions that do.
 fn may_discard(f: &Function, block: &Block, discards: &[bool]) -> bool {
     block.iter().any(|stmt| {
         let mut may = match stmt {
@@ -56,12 +56,12 @@ fn may_discard(f: &Function, block: &Block, discards: &[bool]) -> bool {
     })
 }
 
-/// The loops that a discarded fragment may come to.
+/// The loops that a discarded fragment may reach.
 struct Marked<'a> {
     discards: &'a [bool],
-    /// By function: it may be called for a fragment that is discarded.
+    /// By function: whether it may be called for a discarded fragment.
     called: Vec<bool>,
-    /// By function: its loops, in the order of the text.
+    /// By function: its loops, in text order.
     loops: Vec<Vec<bool>>,
 }
 
@@ -69,7 +69,7 @@ impl Marked<'_> {
     fn of<'a>(program: &'a Module, discards: &'a [bool]) -> Marked<'a> {
         let count = program.functions.len();
         let mut marked = Marked { discards, called: vec![false; count], loops: vec![Vec::new(); count] };
-        // Callers come behind their callees.
+        // Callers come after their callees.
         for index in (0..count).rev() {
             let f = &program.functions[index];
             marked.block(f, index, &f.body, marked.called[index]);
@@ -77,7 +77,7 @@ impl Marked<'_> {
         marked
     }
 
-    /// Returns whether the fragment may be discarded behind a block.
+    /// Returns whether the fragment may be discarded after a block.
     fn block(&mut self, f: &Function, index: usize, block: &Block, mut is_discarded: bool) -> bool {
         for stmt in block {
             match stmt {
@@ -118,7 +118,7 @@ fn set_flag(f: &mut Function, block: &mut Block, flag: GlobalId) {
     }
 }
 
-/// Begins loops with an exit for discarded fragments.
+/// Adds an exit for discarded fragments at the start of loops.
 struct Exits {
     flag: GlobalId,
     loops: std::vec::IntoIter<bool>,

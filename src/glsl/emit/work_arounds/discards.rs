@@ -1,8 +1,8 @@
-//! A discard that never is, in fragment stages.
+//! Adds a discard that is never executed to fragment stages.
 //!
-//! Mesa's llvmpipe leaves its conversion of colours to 16-bit floats early where a fragment fails the depth test
-//! (`generate_unswizzled_blend` in `lp_state_fs.c`), and no longer takes denormal numbers for zeros then. Programs that
-//! may discard test depth on another way.
+//! Mesa's llvmpipe returns early from its conversion of colours to 16-bit floats if a fragment fails the depth test
+//! (`generate_unswizzled_blend` in `lp_state_fs.c`), and then no longer treats denormal numbers as zeros. Programs that
+//! may discard test depth in a different way.
 
 use crate::ir::{
     Module, Stmt,

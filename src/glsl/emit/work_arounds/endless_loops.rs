@@ -1,10 +1,10 @@
-//! Loops that may never end, ended: a driver of a GPU cannot always stop a shader, and one that never ends then keeps the
-//! device from every program. An H100 and an H200 (driver 580.159) stood still for minutes, each after some 1,300 public
-//! shaders; a loop without end is the likely cause.
+//! Ends loops that may be endless: a GPU driver cannot always stop a shader, and an endless one then blocks the device
+//! for every program. An H100 and an H200 (driver 580.159) hung for minutes, each after some 1,300 public shaders; an
+//! endless loop is the likely cause.
 //!
-//! The specification leaves to the platform what such a loop does (GLSL ES 3.00, section 6.3). Rounds of all loops of an
-//! invocation that no counter ends are counted together. (Mesa's llvmpipe leaves each loop after 65,535 rounds by
-//! itself: `LP_MAX_TGSI_LOOP_ITERATIONS`.)
+//! The specification leaves the behaviour of such a loop to the platform (GLSL ES 3.00, section 6.3). Iterations of all
+//! loops of an invocation that no counter ends are counted together. (Mesa's llvmpipe itself leaves each loop after
+//! 65,535 iterations: `LP_MAX_TGSI_LOOP_ITERATIONS`.)
 
 use crate::{
     ast::Loc,
@@ -36,7 +36,7 @@ fn block(program: &mut Module, f: &mut Function, stmts: &mut Block, (rounds, mos
     }
 }
 
-/// Returns statements that count a round, and leave the loop where there were enough.
+/// Returns statements that count an iteration, and leave the loop when the limit is reached.
 fn counted(f: &mut Function, rounds: GlobalId, most: u32) -> [Stmt; 5] {
     let mut add = |op, ty| f.append(op, ty, Loc::default());
     let place = add(Op::Global(rounds), TypeId::UINT);
@@ -59,7 +59,7 @@ mod tests {
     use crate::{Driver, PassSource};
 
     #[test]
-    fn loops_that_no_counter_ends_are_bounded() {
+    fn loops_without_a_counter_are_bounded() {
         let module = |body: &str, bounded: bool| {
             let code = format!(
                 "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \

@@ -1,8 +1,8 @@
-//! Filtering by hand, for channels whose texture the device cannot filter ([`PassSource::bilinear_by_hand`]).
+//! Manual filtering, for channels whose texture the device cannot filter ([`PassSource::bilinear_by_hand`]).
 //!
-//! Four reads of texel centres through the channel's own (nearest) sampler, which wraps them as it is told to, and a
-//! mix with the weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip
-//! levels, the same in both.
+//! Four reads at texel centres with the channel's own (nearest) sampler, which applies its wrap mode, and a mix with
+//! the weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip levels, the
+//! same is done in both.
 //!
 //! [`PassSource::bilinear_by_hand`]: crate::PassSource::bilinear_by_hand
 
@@ -14,12 +14,12 @@ use crate::{
     types::{Scalar, TypeId},
 };
 
-/// Writes every filtered read of these channels out. Only reads of 2D textures are filtered.
+/// Expands every filtered read of these channels. Only reads of 2D textures are filtered.
 pub(super) fn run(program: &mut Module, channels: [bool; 4]) {
     rewrite::each_function(program, || ByHand(channels));
 }
 
-/// The channels that are filtered by hand.
+/// The channels that are filtered manually.
 struct ByHand([bool; 4]);
 
 impl Rule for ByHand {
@@ -32,7 +32,7 @@ impl Rule for ByHand {
     }
 }
 
-/// Code for a filtered read that is being written.
+/// The code for one filtered read.
 struct Reads<'r, 'm> {
     r: &'r mut Rewriter<'m>,
     channel: u8,
@@ -71,7 +71,7 @@ impl Reads<'_, '_> {
         self.lod(x, y)
     }
 
-    /// Section 8.14 (3.8.10 in older editions): the logarithm of the longer of the two footprints in texels.
+    /// Computes the logarithm of the longer of the two footprints in texels (section 8.14, 3.8.10 in older editions).
     fn lod(&mut self, x: Value, y: Value) -> Value {
         let size = self.size(None);
         let [x, y] = [x, y].map(|side| {
@@ -82,7 +82,7 @@ impl Reads<'_, '_> {
         self.math(Math::Log2, longer, [None, None])
     }
 
-    /// Texels along each axis, as floats.
+    /// Returns the number of texels along each axis, as floats.
     fn size(&mut self, level: Option<Value>) -> Value {
         let level = level.map(|value| self.r.add(Op::Convert { value, to: Scalar::Int }));
         let ty = TypeId::vector(Scalar::Int, 2);

@@ -1,10 +1,10 @@
-//! Limits that loops count down to, hidden from drivers that take their largest value for their least.
+//! Hides the limits that loops count down to from drivers that mistake their largest value for their smallest.
 //!
-//! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were
-//! `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The
-//! comparison may lie in any exit of the loop, and the `min` in a variable, so each limit that is no constant is
-//! hidden. A variable that the loop does not change is no counter: in `i < n` nothing counts down to `i`, and a hidden
-//! `i` would keep drivers from knowing the rounds.
+//! Mesa's `nir_loop_analyze.c` bounds the iterations of a loop whose counter is compared with `min(c, x)` as if the
+//! limit were `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no iterations
+//! at all. The comparison may be in any exit of the loop, and the `min` in a variable, so each non-constant limit is
+//! hidden. A variable that the loop does not change is not a counter: in `i < n` nothing counts down to `i`, and hiding
+//! `i` would keep drivers from knowing the number of iterations.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -28,12 +28,12 @@ pub(super) fn run(program: &mut Module) {
 
 #[derive(Default)]
 struct Limits {
-    /// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes
-    /// on while that is greater.
+    /// Comparisons, and whether their left and right sides are limits: values for which a loop continues while the
+    /// other side is greater.
     found: FxHashMap<Value, [bool; 2]>,
-    /// The values that variables may hold.
+    /// The values that variables may have.
     stores: FxHashMap<VarId, Vec<Value>>,
-    /// Variables whose tests are noted, and whether a loop goes on where they hold.
+    /// Variables whose tests have been visited, and whether a loop continues if they hold.
     followed: FxHashSet<(VarId, bool)>,
 }
 
@@ -49,11 +49,11 @@ impl Limits {
         }
     }
 
-    /// `loops`: what each loop around changes, the outermost first.
+    /// Visits a block; `loops` are the variables that each enclosing loop changes, the outermost first.
     fn block(&mut self, f: &Function, block: &Block, loops: &[&Written]) {
         for stmt in block {
             if let (Some(innermost), Stmt::If { condition, accept, reject }) = (loops.last(), stmt) {
-                for (jump, goes_on) in [(accept.last(), false), (reject.last(), true)] {
+                for (jump, continues) in [(accept.last(), false), (reject.last(), true)] {
                     let left = match jump {
                         Some(Stmt::Break) => innermost,
                         // It leaves all of them.
@@ -61,7 +61,7 @@ impl Limits {
                         _ => continue,
                     };
                     self.followed.clear();
-                    self.compared(f, *condition, goes_on, left);
+                    self.compared(f, *condition, continues, left);
                 }
             }
             if let Stmt::Loop { body, continuing, break_if } = stmt {
@@ -80,24 +80,24 @@ impl Limits {
         }
     }
 
-    /// Notes the limits in a condition of a loop; `goes_on`: the loop goes on where it holds.
-    fn compared(&mut self, f: &Function, condition: Value, goes_on: bool, written: &Written) {
+    /// Records the limits in a condition of a loop; `continues` is whether the loop continues if it holds.
+    fn compared(&mut self, f: &Function, condition: Value, continues: bool, written: &Written) {
         match f[condition] {
-            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on, written),
-            // Of `&&` and `||`, whose sides are stored one after the other, or a test that the author keeps.
+            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !continues, written),
+            // For `&&` and `||`, whose sides are stored one after the other, or a test in a variable of the author.
             Op::Load { place } => {
                 let Op::Var(var) = f[place] else { return };
                 // A variable may be computed from itself.
-                if self.followed.insert((var, goes_on)) {
+                if self.followed.insert((var, continues)) {
                     for value in self.stores.get(&var).cloned().unwrap_or_default() {
-                        self.compared(f, value, goes_on, written);
+                        self.compared(f, value, continues, written);
                     }
                 }
             }
             Op::Binary { op, left, right } if op.is_comparison() => {
                 let is_greater = match op {
-                    Binary::Greater | Binary::GreaterEqual => goes_on,
-                    Binary::Less | Binary::LessEqual => !goes_on,
+                    Binary::Greater | Binary::GreaterEqual => continues,
+                    Binary::Less | Binary::LessEqual => !continues,
                     _ => return,
                 };
                 let (counter, limit) = if is_greater { (left, right) } else { (right, left) };
@@ -113,13 +113,13 @@ impl Limits {
 /// The variables that a loop writes.
 #[derive(Default)]
 struct Written {
-    /// Those that are stored to or given to calls.
+    /// Those that are stored to or passed to calls.
     roots: FxHashSet<Root>,
     /// Functions may write global variables.
     has_call: bool,
 }
 
-/// A variable, by which a store or a load names it.
+/// The variable named by a store or a load.
 #[derive(PartialEq, Eq, Hash)]
 enum Root {
     Var(VarId),

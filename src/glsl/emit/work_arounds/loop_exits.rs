@@ -1,7 +1,8 @@
-//! Loops that begin with an exit: Mesa's gallivm runs a loop until its last pixel leaves, and does not bring it into
-//! loop-closed SSA form (`nir_to_lcssa.c`). A value that all exits agree on, and which needs no phi for that, is
-//! computed anew for pixels that have left. With an exit before anything changes, each variable that the loop changes
-//! has two values at its exits, the one with which a round began and a new one, and needs a phi after the loop.
+//! Adds an exit at the start of loops: Mesa's gallivm runs a loop until its last pixel leaves, and does not convert it
+//! to loop-closed SSA form (`nir_to_lcssa.c`). A value that is the same at all exits, and therefore needs no phi, is
+//! recomputed for pixels that have already left. With an exit before anything changes, each variable that the loop
+//! changes has two values at its exits, that at the start of an iteration and a new one, and needs a phi after the
+//! loop.
 
 use crate::ir::{
     Block, Function, Module, Op, Stmt,
@@ -16,14 +17,14 @@ struct LoopExits;
 
 impl Rule for LoopExits {
     fn begin_body(&mut self, r: &mut Rewriter<'_>, body: &Block) {
-        if !begins_with_exit(&r.f, body) {
+        if !starts_with_exit(&r.f, body) {
             r.seem_to(Stmt::Break);
         }
     }
 }
 
 /// Returns whether nothing is written before the first exit.
-fn begins_with_exit(f: &Function, body: &Block) -> bool {
+fn starts_with_exit(f: &Function, body: &Block) -> bool {
     let leaves = |block: &Block| matches!(block.first(), Some(Stmt::Break));
     let first = body.iter().find(|stmt| match stmt {
         Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),

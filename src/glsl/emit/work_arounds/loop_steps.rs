@@ -1,13 +1,14 @@
-//! Loops whose step ends the body: Mesa's loop analysis (`nir_loop_analyze.c`) knows the rounds of such a loop, and so
-//! unrolls it, and of fewer loops with a `continuing` part that several places jump to. Its own GLSL compiler repeats
-//! the step of a `for` before each `continue`; here a short one is repeated as well.
+//! Moves the step of loops to the end of the body: Mesa's loop analysis (`nir_loop_analyze.c`) knows the number of
+//! iterations of such a loop, and so unrolls it, but knows that of fewer loops whose `continuing` part is the target of
+//! several jumps. Mesa's own GLSL compiler repeats the step of a `for` before each `continue`; here a short one is
+//! repeated as well.
 
 use rustc_hash::FxHashMap;
 
 use crate::ir::{Block, Function, Module, Op, Stmt, Value, analysis::leaves};
 
-/// Statements of a step that is repeated.
-const LONGEST: usize = 16;
+/// The maximum number of statements of a step that is repeated.
+const MAX_STATEMENTS: usize = 16;
 
 pub(super) fn run(program: &mut Module) {
     for f in &mut program.functions {
@@ -33,7 +34,7 @@ fn block(f: &mut Function, stmts: &mut Block) {
     }
 }
 
-/// Returns whether a round of the loop around may end in a block.
+/// Returns whether an iteration of the enclosing loop may end in a block.
 fn continues(block: &Block) -> bool {
     block.iter().any(|stmt| match stmt {
         Stmt::Continue => true,
@@ -49,10 +50,10 @@ fn is_short(f: &Function, step: &Block) -> bool {
         Stmt::Store { .. } => true,
         _ => false,
     };
-    step.len() <= LONGEST && step.iter().all(is_simple)
+    step.len() <= MAX_STATEMENTS && step.iter().all(is_simple)
 }
 
-/// Repeats a step before each `Continue` of the loop around.
+/// Repeats a step before each `Continue` of the enclosing loop.
 fn before_continues(f: &mut Function, block: &mut Block, step: &Block) {
     for stmt in block.iter_mut() {
         if !matches!(stmt, Stmt::Loop { .. }) {
@@ -66,7 +67,7 @@ fn before_continues(f: &mut Function, block: &mut Block, step: &Block) {
     }
 }
 
-/// Copies statements that hold no others.
+/// Copies statements that contain no other statements.
 fn copy(f: &mut Function, step: &Block, out: &mut Block) {
     let mut new: FxHashMap<Value, Value> = FxHashMap::default();
     for stmt in step {

@@ -1,6 +1,6 @@
 //! Work-arounds for drivers, as changes of the program before it is emitted. Each file names the driver and its fault,
-//! or what the device lacks. None changes what a program computes that ends. ([`super::long_arrays`] is the one that
-//! works on the emitted module.)
+//! or the feature that the device lacks. None of them changes what a terminating program computes.
+//! ([`super::long_arrays`] is the only one that changes the emitted module.)
 
 mod angles;
 mod counters;
@@ -17,7 +17,7 @@ mod zero_divisors;
 
 use crate::{PassKind, PassSource, ir::Module};
 
-/// Applies those that a device and its driver need.
+/// Applies the work-arounds that a device and its driver need.
 pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
     if driver.small_arrays {

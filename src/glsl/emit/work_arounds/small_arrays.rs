@@ -1,9 +1,9 @@
-//! Small arrays that are made at once and then read by a changing index, as `vec2[](a, b, c)[i]`: each read chooses
-//! among the elements.
+//! Small arrays that are constructed at once and then read with a varying index, as `vec2[](a, b, c)[i]`: each read
+//! selects among the elements.
 //!
-//! Mesa's gallivm keeps an array that is indexed in memory, and stores to it pixel by pixel, with a branch for each
+//! Mesa's gallivm keeps an indexed array in memory, and stores to it pixel by pixel, with a branch for each
 //! (`emit_mask_scatter` in `lp_bld_nir_soa.c`): six elements of two floats are 96 branches. Comparing the index with
-//! each place needs none. Mesa's GLSL compiler makes if-ladders or uniforms of such arrays
+//! each position needs none. Mesa's GLSL compiler turns such arrays into if-ladders or uniforms
 //! (`lower_const_arrays_to_uniforms.cpp`); nothing does so for SPIR-V.
 
 use rustc_hash::FxHashMap;
@@ -16,11 +16,11 @@ use crate::{
     types::Type,
 };
 
-/// The most elements of such an array.
-const MOST_ELEMENTS: usize = 8;
+/// The maximum number of elements of such an array.
+const MAX_ELEMENTS: usize = 8;
 
-/// The most choices that the reads of an array may take together, so that the code does not grow out of proportion.
-const MOST_CHOICES: usize = 64;
+/// The maximum number of selects for all reads of an array together, so that the code does not grow out of proportion.
+const MAX_SELECTS: usize = 64;
 
 pub(super) fn run(program: &mut Module) {
     for index in 0..program.functions.len() {
@@ -40,14 +40,14 @@ pub(super) fn run(program: &mut Module) {
 struct Array {
     elements: Option<Box<[Value]>>,
     reads: usize,
-    /// It is used in another way, or may be read before it is filled.
+    /// The array is used in another way, or may be read before it is filled.
     is_bad: bool,
 }
 
 struct Arrays<'a> {
     f: &'a Function,
     arrays: FxHashMap<VarId, Array>,
-    /// The arrays that are filled where the walk is.
+    /// The arrays that are filled at the current statement.
     filled: Vec<VarId>,
 }
 
@@ -56,7 +56,7 @@ impl Arrays<'_> {
     fn of(program: &Module, f: &Function) -> FxHashMap<VarId, Box<[Value]>> {
         let is_array = |ty| match program.types.get(ty) {
             Type::Array { element, len } => {
-                len as usize <= MOST_ELEMENTS
+                len as usize <= MAX_ELEMENTS
                     && matches!(program.types.get(element), Type::Scalar(_) | Type::Vector { .. })
             }
             _ => false,
@@ -69,7 +69,7 @@ impl Arrays<'_> {
         let mut walk = Arrays { f, arrays, filled: Vec::new() };
         walk.block(&f.body);
         let is_worth =
-            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MOST_CHOICES;
+            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MAX_SELECTS;
         let arrays = walk.arrays.into_iter();
         arrays
             .filter_map(|(var, array)| {
@@ -130,7 +130,7 @@ impl Arrays<'_> {
     }
 }
 
-/// Returns the array, the index, and the component, of a place that is an element of a variable or one of its components.
+/// Returns the array, the index and the component of a place that is an element of a variable or one of its components.
 fn element(f: &Function, place: Value) -> Option<(VarId, Value, Option<u32>)> {
     let of = |place: Value| match f[place] {
         Op::Element { base, index } => match f[base] {

@@ -1,8 +1,8 @@
-//! Uniforms that the driver takes for values of the pixel: Mesa's lavapipe compiles a program anew for every frame, and
-//! keeps what it made, where a branch depends on uniforms alone (`lvp_inline_uniforms.c`).
+//! Makes uniforms look like per-pixel values: Mesa's lavapipe recompiles a program for every frame, and keeps the
+//! result, where a branch depends only on uniforms (`lvp_inline_uniforms.c`).
 //!
-//! Each is read once, before all else that its function does: an operation more in a loop or branch can be what keeps
-//! the driver from writing it out, or from making it a select.
+//! Each is read once, at the start of its function: one more operation in a loop or branch can keep the driver from
+//! unrolling it, or from turning it into a select.
 
 use rustc_hash::FxHashMap;
 
@@ -18,7 +18,7 @@ pub(super) fn run(program: &mut Module) {
     rewrite::each_function(program, Uniforms::default);
 }
 
-/// Uniforms that were read at the start: members and indices that lead there, and the value.
+/// Uniforms that were read at the start: the members and indices of the access, and the value.
 #[derive(Default)]
 struct Uniforms(FxHashMap<(GlobalId, Vec<u32>), Value>);
 
@@ -48,7 +48,7 @@ impl Rule for Uniforms {
     }
 }
 
-/// Returns the members and constant indices that lead to a place.
+/// Returns the members and constant indices of the access to a place.
 fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
     let mut path = Vec::new();
     loop {
@@ -65,11 +65,11 @@ fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
     Some(path)
 }
 
-/// Loads the contents of a place, in a way that the driver does not see through.
+/// Loads the contents of a place in a way that is opaque to the driver.
 fn load(r: &mut Rewriter<'_>, place: Value, ty: TypeId) -> Value {
     if !matches!(r.module.types.get(ty), Type::Array { .. } | Type::Matrix { .. } | Type::Struct(_)) {
         let value = r.add_typed(Op::Load { place }, ty);
-        // A bool is made of a number, which nothing knows of.
+        // A bool is computed from a number, which is already opaque.
         return if r.module.types.scalar(ty) == Some(Scalar::Bool) { value } else { r.opaque(value) };
     }
     let parts = (0..r.module.extent(ty)).map(|index| {

@@ -1,4 +1,4 @@
-//! Literals, zeros and folded composites, each made once a function; memory of the module.
+//! Literals, zeros and folded composites, each created once per function; memory of the module.
 
 use super::Builder;
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// One component of a value, as far as it can be told.
+/// One component of a value, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::lower) enum Part {
     Known(f32),
@@ -35,7 +35,7 @@ impl Builder<'_, '_> {
         self.literal(Scalar::Float, value.to_bits())
     }
 
-    /// Returns the number that a value is, if it is a literal float.
+    /// Returns the number of a value that is a literal float.
     pub fn number(&self, value: Value) -> Option<f32> {
         match self.f[value] {
             Op::Literal(Scalar::Float, bits) => Some(f32::from_bits(bits)),
@@ -63,9 +63,8 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Returns the zero that WebGL gives to what GLSL leaves undefined: a variable that nothing was written to, the
-    /// result of a function that ends without one.
-    /// `name` is that of the declaration which should have given it a value.
+    /// Returns the zero that WebGL uses where GLSL leaves a value undefined: a variable that was never written, the
+    /// result of a function that ends without one. `name` is that of the declaration which should have initialised it.
     pub fn undefined(&mut self, ty: TypeId, kind: UnsetKind, name: Ident) -> Value {
         if !self.cx.marks.undefined {
             return self.zero(ty);
@@ -75,12 +74,12 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Returns the same for a local variable, or for a parameter.
+    /// As [`Builder::undefined`], for a local variable or a parameter.
     pub fn undefined_local(&mut self, kind: UnsetKind, local: LocalId) -> Value {
         let declared = &self.cx.hir[local];
         match declared.name {
             Some(name) => self.undefined(declared.ty, kind, name),
-            // A parameter without a name: what it is copied to is undefined all the same.
+            // An unnamed parameter: the value that is copied from it is still undefined.
             None => {
                 let function = self.func.map(|func| self.cx.hir[func].name);
                 match function {
@@ -107,7 +106,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Returns whether a variable can begin with a constant: it is not long, and holds numbers alone.
+    /// Returns whether a variable can be initialised with a constant: it is not long, and contains only finite numbers.
     pub fn is_initialiser(&mut self, id: ConstId) -> bool {
         let constant = &self.cx.out[const_id(id)];
         let ty = constant.ty;
@@ -119,7 +118,7 @@ impl Builder<'_, '_> {
         self.add(Op::Compose { ty, parts: parts.into() })
     }
 
-    /// Returns the place that a variable of the module is.
+    /// Returns the place of a global.
     pub fn global(&mut self, global: ir::GlobalId) -> Value {
         if let Some(&value) = self.globals.get(&global) {
             return value;
@@ -129,7 +128,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Returns the components of a float constant; one for a scalar or a repeated one.
+    /// Returns the components of a float constant; one for a scalar or a splat.
     pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
         match &self.f[value] {
             Op::Literal(..) => Some(vec![self.number(value)?]),

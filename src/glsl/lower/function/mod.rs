@@ -1,5 +1,5 @@
 //! The body of one function under construction, from its parameters to its last expression; statements, constants and
-//! locals have files of their own.
+//! locals are in their own files.
 
 mod constants;
 mod variables;
@@ -22,13 +22,13 @@ use rustc_hash::FxHashMap;
 /// The form of a parameter or local variable in the generated code.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Slot {
-    /// Its declaration was not met yet.
+    /// Its declaration has not been reached yet.
     Unset,
-    /// Never written: a value.
+    /// Never written, so it is a value.
     Value(Value),
     /// A place.
     Memory(Value),
-    /// Never written, and its value is a constant that is indexed.
+    /// Never written; its value is a constant that is indexed.
     Table(ir::ConstId),
     /// A sampler parameter.
     Channel(u8),
@@ -38,26 +38,26 @@ pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: ir::Function,
     block: Block,
-    /// The part of the text that the code at hand is lowered from.
+    /// The location in the text that the current code is lowered from.
     pub loc: Loc,
-    /// The built-in function that the code at hand is written out for.
+    /// The built-in function that the current code is an expansion of.
     pub builtin: Option<Builtin>,
-    /// Control cannot reach the end of the block: nothing more belongs into it.
+    /// Control cannot reach the end of the block, so no more code is added to it.
     pub ended: bool,
     first_local: usize,
     slots: Vec<Slot>,
-    /// Locals that are memory though nobody writes them: their uses are not dominated by their declaration.
+    /// Locals that are memory although nothing writes them: their uses are not dominated by their declaration.
     forced: Vec<bool>,
     literals: FxHashMap<(u8, u32), Value>,
     zeros: FxHashMap<TypeId, Value>,
     constants: FxHashMap<u32, Value>,
     globals: FxHashMap<ir::GlobalId, Value>,
-    /// The number of loops that the code at hand lies in.
+    /// The number of loops around the current code.
     pub loops: usize,
     pub result: TypeId,
     /// The author's function; `None` for the code around the entry point.
     pub func: Option<FuncId>,
-    /// The specializations of this copy, one for each parameter that can have one.
+    /// The specializations of this copy, one per specializable parameter.
     pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
     pub undefined: Vec<Unset>,
@@ -69,7 +69,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     let hir = cx.hir;
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
-    // About as many as the function has expressions.
+    // About as many values as the function has expressions.
     builder.f.reserve(function.exprs.len());
     builder.result = function.result;
     builder.f.result = function.result;
@@ -83,7 +83,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     });
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
-        // Falling off the end gives zero.
+        // Reaching the end returns zero.
         let value = builder.undefined(function.result, UnsetKind::Result, function.name);
         builder.push(Stmt::Return(Some(value)));
     }
@@ -92,7 +92,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
 }
 
 impl<'m, 'a> Builder<'m, 'a> {
-    /// Returns a builder of a function whose locals are `count` from `first_local`.
+    /// Creates a builder for a function whose locals are `count` from `first_local`.
     pub fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
         Self {
             cx,
@@ -158,20 +158,20 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Adds an operation, computed here.
+    /// Adds an operation that is computed here.
     pub fn add(&mut self, op: Op) -> Value {
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.add_typed(op, ty)
     }
 
-    /// Adds an operation of this type, computed here.
+    /// Adds an operation of this type that is computed here.
     pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
         let value = self.f.append(op, ty, ir::Origin { loc: self.loc, builtin: self.builtin });
         self.block.push(Stmt::Let(value));
         value
     }
 
-    /// Notes a precondition of an operation, where somebody asks for them.
+    /// Records a precondition of an operation, if preconditions are requested.
     pub fn note(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
         if self.cx.marks.undefined {
             let function = ir::FuncId::new(self.cx.out.functions.len());
@@ -179,7 +179,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Marks that control comes to a part of the text, where statements are marked.
+    /// Marks that control reaches a part of the text, if statements are marked.
     pub fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
@@ -187,7 +187,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Adds a free operation: one that no statement computes.
+    /// Adds a free operation, which no statement computes.
     pub fn free(&mut self, op: Op) -> Value {
         debug_assert!(op.is_free());
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
@@ -211,18 +211,18 @@ impl Builder<'_, '_> {
         self.push(Stmt::Store { place, value });
     }
 
-    /// Statements that were lowered before.
+    /// Appends statements that were lowered before.
     pub fn splice(&mut self, mut block: Block) {
         self.block.append(&mut block);
     }
 
-    /// Calls a function; the value of a void one is none.
+    /// Calls a function; the result of a void one is not a value.
     pub fn push_call(&mut self, function: ir::FuncId, args: Vec<Value>) -> Value {
         let ty = self.cx.out[function].result;
         self.add_typed(Op::Call { function, args: args.into() }, ty)
     }
 
-    /// Returns a nested block, filled by `fill`, and whether its end cannot be reached.
+    /// Returns a nested block, filled by `fill`, and whether its end is unreachable.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);

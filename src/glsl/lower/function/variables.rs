@@ -1,4 +1,4 @@
-//! Locals: what each stands for, and what is known of where values come from.
+//! Local variables: their forms in the generated code, and the known origins of values.
 
 use super::{Builder, Slot};
 use crate::{
@@ -16,17 +16,17 @@ impl Builder<'_, '_> {
         self.slots[local.index() - self.first_local] = slot;
     }
 
-    /// Makes a local memory whatever is done to it.
+    /// Makes a local memory, whether or not it is written.
     pub fn force_memory(&mut self, local: LocalId) {
         self.forced[local.index() - self.first_local] = true;
     }
 
-    /// Returns whether a local is memory whatever is done to it.
+    /// Returns whether a local is memory, whether or not it is written.
     pub fn is_forced(&self, local: LocalId) -> bool {
         self.forced[local.index() - self.first_local]
     }
 
-    /// Gives a local its first value.
+    /// Initialises a local.
     pub fn declare(&mut self, local: LocalId, value: Value) {
         if self.needs_memory(local) {
             let pointer = self.address_of(local);
@@ -36,7 +36,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns whether a local is written, or indexed in a way values cannot be.
+    /// Returns whether a local is written, or indexed in a way that values cannot be.
     pub fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];
         declared.flags.contains(VarFlags::WRITTEN)
@@ -63,7 +63,7 @@ impl Builder<'_, '_> {
         pointer
     }
 
-    /// Lets a variable of the function begin with a constant.
+    /// Initialises a variable of the function with a constant.
     pub fn begin_with(&mut self, variable: Value, value: Value) {
         if let Op::Var(id) = self.f[variable] {
             self.f.vars[id.index()].init = Some(value);
@@ -80,7 +80,7 @@ impl Builder<'_, '_> {
         matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
     }
 
-    /// Returns the author's names in a function whose body is done, with what each stands for.
+    /// Returns the author's names in a completed function, each with its value or place.
     pub(in crate::lower) fn names(&self, func: FuncId) -> FunctionNames {
         let function = &self.cx.hir[func];
         let local = |index: u32| {

@@ -1,29 +1,30 @@
-//! The choice of the functions that become part of their callers: those that are called at one place, in programs whose
-//! chains of calls a driver would copy too often; and the ways in which control leaves a function.
+//! Chooses the functions to inline: those that are called at one place, in programs whose call chains a driver would
+//! copy too often; and analyses how control leaves a function.
 
 use crate::{
     ir::{Block, FuncId, Function, Module, Op, Stmt},
     types::TypeId,
 };
 
-/// Statements that a driver may hold of functions that it has inlined others into, for nothing to be done. Mesa takes
+/// The number of statements that a driver may keep of functions after inlining up to which nothing is done. Mesa uses
 /// about half a kilobyte for each.
 const FEW_COPIES: u64 = 1 << 17;
 
-/// Functions that become one at most: a part is copied once for each function that it comes to lie in.
-const LONGEST_CHAIN: usize = 128;
+/// The maximum number of functions that are merged: a part is copied once for each function that contains it.
+const MAX_CHAIN: usize = 128;
 
-/// Blocks that may come to lie in one another. Mesa's compilers for the processor count to 80 (`LP_MAX_TGSI_NESTING`).
-const DEEPEST: usize = 64;
+/// The maximum nesting depth of blocks. Mesa's CPU compilers support up to 80 (`LP_MAX_TGSI_NESTING`).
+const MAX_DEPTH: usize = 64;
 
-/// Facts of a function's body.
+/// Properties of a function's body.
 #[derive(Default)]
 struct Facts {
-    /// Called functions, each as often as it is called, with how deep the call nests.
+    /// The called functions, once per call, with the nesting depth of the call.
     calls: Vec<(FuncId, usize)>,
-    /// Blocks around the innermost statement, and one for each `Return` but the last: what follows one becomes a branch.
+    /// The number of blocks around the innermost statement, plus one for each `Return` except the last: the code after
+    /// one becomes a branch.
     depth: usize,
-    /// It always ends in a `Discard`, which nothing may follow.
+    /// The body always ends in a `Discard`, which must be the last statement.
     discards: bool,
 }
 
@@ -56,10 +57,9 @@ impl Facts {
     }
 }
 
-/// Returns which functions are inlined, by [`FuncId::index`]; none where drivers have little to copy.
+/// Returns which functions are inlined, by [`FuncId::index`]; none if drivers have little to copy.
 pub(super) fn inlined(module: &Module) -> Vec<bool> {
-    // A driver that inlines everything has them all, before it drops what nothing calls any more
-    // (`nir_inline_functions`).
+    // A driver that inlines everything keeps them all, before it removes unused functions (`nir_inline_functions`).
     let copies = module.inlined_sizes().into_iter().fold(0, u64::saturating_add);
     if copies <= FEW_COPIES {
         return Vec::new();
@@ -75,13 +75,13 @@ pub(super) fn inlined(module: &Module) -> Vec<bool> {
         depths[index] = facts.depth;
         for (callee, depth) in facts.calls.iter().map(|(callee, depth)| (callee.index(), depth)) {
             if inlined[callee] {
-                // Its body lies in the block of the call.
+                // Its body is in the block of the call.
                 depths[index] = depths[index].max(depth - 1 + depths[callee]);
                 lengths[index] += lengths[callee];
             }
         }
         inlined[index] =
-            places[index] == 1 && !facts.discards && depths[index] <= DEEPEST && lengths[index] < LONGEST_CHAIN;
+            places[index] == 1 && !facts.discards && depths[index] <= MAX_DEPTH && lengths[index] < MAX_CHAIN;
     }
     inlined
 }
@@ -107,8 +107,8 @@ pub(super) fn always_leaves(block: &Block) -> bool {
     }
 }
 
-/// Returns whether some `Return` is followed by statements that no branch beside it can hold: what then is left out
-/// depends on a variable.
+/// Returns whether some `Return` is followed by statements that cannot be moved into the other branch, so that skipping
+/// them depends on a variable.
 pub(super) fn needs_flag(block: &Block) -> bool {
     block.iter().filter(|stmt| returns(stmt)).any(|stmt| match stmt {
         Stmt::If { accept, reject, .. } => {

@@ -1,12 +1,12 @@
-//! Inlining of long chains of calls: a call is replaced by what the function does.
+//! Inlining of long chains of calls: a call is replaced with the body of the function.
 //!
-//! Drivers inline everything in any case, callees first, and keep each function with all that became part of it until
-//! the last one is done: `nir_inline_functions` of Mesa. Of a chain, where each function calls the one before, that is
-//! half the square of its length. Here such functions become one, as long as they are called at one place, which makes
-//! the program no larger. Programs without such chains are left alone: for them inlining saves nothing.
+//! Drivers inline everything in any case, callees first, and keep each function with all its inlined callees until the
+//! last one is done: `nir_inline_functions` of Mesa. For a chain, where each function calls the previous one, that is
+//! half the square of its length. Here such functions are merged, as long as they are called at one place, which does
+//! not enlarge the program. Programs without such chains are left unchanged: inlining would not help them.
 //!
-//! Control flow is structured, so that a `Return` in the middle of a function becomes a branch: what follows it moves
-//! into the other branch, or is skipped where a flag says that the function has returned. In a loop a `Return` is a
+//! Control flow is structured, so a `Return` in the middle of a function becomes a branch: the code after it moves into
+//! the other branch, or is skipped if a flag indicates that the function has returned. In a loop a `Return` is a
 //! `Break`.
 
 mod choose;
@@ -34,7 +34,7 @@ pub(super) fn run(module: &mut Module) {
     module.drop_uncalled();
 }
 
-/// Replaces calls in one function, whose callees have been through this. What is inlined is taken out of `callees`.
+/// Replaces calls in one function, whose callees have been processed. Inlined functions are removed from `callees`.
 fn inline_calls(caller: &mut Function, callees: &mut [Function], inlined: &[bool]) {
     let body = std::mem::take(&mut caller.body);
     let map = (0..caller.len()).map(Value::new).collect();
@@ -49,10 +49,10 @@ struct Inliner<'a> {
     f: &'a mut Function,
     callees: &'a mut [Function],
     inlined: &'a [bool],
-    /// The value that stands for each one that the caller had: the results of calls change.
+    /// The new value for each of the caller's values: the results of calls change.
     map: Vec<Value>,
     out: Block,
-    /// Loops around the code at hand.
+    /// The number of loops around the current code.
     loops: usize,
 }
 
@@ -60,19 +60,19 @@ struct Inliner<'a> {
 struct Site<'a> {
     callee: &'a Function,
     args: Box<[Value]>,
-    /// The caller has the callee's values from this number on, and its variables from that.
+    /// The caller has the callee's values from this index on, and its variables from `first_var`.
     first_value: usize,
     first_var: usize,
-    /// The place of the result.
+    /// The variable for the result.
     result: Option<Value>,
-    /// The place that says whether the function has returned.
+    /// The variable that indicates whether the function has returned.
     flag: Option<Value>,
-    /// Loops and switches of the callee around the code at hand.
+    /// The number of loops and switches of the callee around the current code.
     breakable: usize,
 }
 
 impl Site<'_> {
-    /// Returns the value that one of the callee became.
+    /// Returns the caller's value for one of the callee's.
     fn value(&self, old: Value) -> Value {
         match self.callee[old] {
             Op::Param(index) => self.args[index as usize],
@@ -145,7 +145,7 @@ impl Inliner<'_> {
         *block = self.nested(|s| s.block(old));
     }
 
-    /// Puts a function here; `call` is the value that the caller had of it.
+    /// Inlines a function here; `call` is the caller's value for its result.
     fn inline(&mut self, function: usize, args: Box<[Value]>, call: Value) {
         let callee = &std::mem::take(&mut self.callees[function]);
         let (first_value, first_var) = (self.f.len(), self.f.vars.len());
@@ -179,7 +179,7 @@ impl Inliner<'_> {
     fn values(&mut self, site: &Site<'_>) {
         for (value, op) in site.callee.values() {
             let op = match *op {
-                // An argument stands for it.
+                // It is replaced with the argument.
                 Op::Param(_) => Op::OpaqueZero,
                 Op::Var(id) => Op::Var(VarId::new(site.first_var + id.index())),
                 ref op => {
@@ -192,7 +192,7 @@ impl Inliner<'_> {
         }
     }
 
-    /// Adds the callee's variables. In a loop they begin anew in each round.
+    /// Adds the callee's variables. In a loop they are initialised again in each iteration.
     fn variables(&mut self, site: &Site<'_>) {
         let first = self.f.vars.len();
         let is_repeated = self.loops > 0;
@@ -211,8 +211,8 @@ impl Inliner<'_> {
         }
     }
 
-    /// Writes statements of the callee outside of its loops and switches: what follows one that may return becomes part
-    /// of a branch.
+    /// Adds statements of the callee that are outside its loops and switches: the statements after one that may return
+    /// become part of a branch.
     fn body<'a>(&mut self, site: &mut Site<'_>, mut list: Vec<&'a Stmt>) {
         let Some(at) = list.iter().position(|stmt| returns(stmt)) else {
             return list.into_iter().for_each(|stmt| self.statement(site, stmt));
@@ -253,7 +253,7 @@ impl Inliner<'_> {
         self.nested(|s| block.iter().for_each(|stmt| s.statement(site, stmt)))
     }
 
-    /// Writes a statement of the callee. A `Return` in it stands at the end, or in a loop or switch.
+    /// Adds a statement of the callee. A `Return` in it is at the end, or in a loop or switch.
     fn statement(&mut self, site: &mut Site<'_>, stmt: &Stmt) {
         let copy = match stmt {
             Stmt::Let(value) => Stmt::Let(site.value(*value)),
@@ -284,7 +284,7 @@ impl Inliner<'_> {
             }
         };
         self.out.push(copy);
-        // A loop or switch within another one: that too is left.
+        // A loop or switch within another one: the outer one is left too.
         if let (Some(flag), true) = (site.flag, site.breakable > 0)
             && matches!(stmt, Stmt::Loop { .. } | Stmt::Switch { .. })
             && returns(stmt)

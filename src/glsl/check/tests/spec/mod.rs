@@ -1,6 +1,5 @@
-//! Tests what the specification allows and forbids, section by section: `spec/*.glsl` hold small programs, each behind
-//! a line `//ok title` or `//error title | part of the message`. A program that defines no entry point gets an empty
-//! one.
+//! Tests the rules of the specification, section by section: `spec/*.glsl` contain small programs, each after a line
+//! `//ok title` or `//error title | part of the message`. A program without an entry point gets an empty one.
 
 use super::checked;
 use crate::{ChannelKind, PassKind};
@@ -14,7 +13,7 @@ const SECTIONS: [(&str, &str); 5] = [
 ];
 
 #[test]
-fn every_section_allows_and_forbids_what_it_says() {
+fn spec_examples_are_accepted_or_rejected() {
     let mut wrong = String::new();
     let mut count = 0;
     for (section, text) in SECTIONS {

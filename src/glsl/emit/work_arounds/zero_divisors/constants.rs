@@ -1,12 +1,12 @@
-//! Finds what a driver's constant propagation may know of values, once it has inlined functions and unrolled loops.
+//! Computes what a driver's constant propagation may know of values, once it has inlined functions and unrolled loops.
 //!
-//! A variable is followed through its function in the order of the statements. Where two ways meet that an unknown
-//! condition parts, only a number that both bring is known. A loop is taken to be unrolled, so that a variable that it
-//! counts has all numbers that are stored to it; if an unknown condition leaves the loop, none is known behind it. A
-//! parameter has the numbers of all calls that pass known ones; where these differ, the function is looked at once more
-//! for each call. What a parameter refers to, and a variable of the module, have all known numbers that are stored to
-//! them anywhere; one of the module also has the first it holds, if that may be read ([`exposed`]). Vectors, arrays and
-//! structures have one interval, that of all their parts.
+//! A variable is followed through its function in the order of the statements. Where two paths of an unknown condition
+//! meet, only a number that is the same on both is known. A loop is assumed to be unrolled, so that its counter has all
+//! numbers that are stored to it; if an unknown condition leaves the loop, none is known after it. A parameter has the
+//! numbers of all calls that pass known ones; if these differ, the function is analysed again for each call. Variables
+//! that parameters refer to, and globals, have all known numbers that are stored to them anywhere; a global also has
+//! its initial value, if that may be read ([`exposed`]). Vectors, arrays and structures have one interval for all their
+//! parts.
 
 use super::{
     same::is_same,
@@ -23,33 +23,33 @@ use crate::{
     types::{Scalar, Type},
 };
 
-/// The most times that the functions are looked at, as a mean, and that the statements of a loop are. One time more is
-/// needed for each step by which a constant gets from variable to variable against the order of the program, so that a
-/// chain of ten thousand would take as many.
-const MOST_ROUNDS: usize = 64;
+/// The maximum number of times that the functions are analysed, on average, and that the statements of a loop are. One
+/// more iteration is needed for each step by which a constant propagates between variables against the order of the
+/// program, so a chain of ten thousand would take as many.
+const MAX_ROUNDS: usize = 64;
 
-/// The most calls of a function that are looked at one by one.
-const MOST_CALLS: usize = 16;
+/// The maximum number of calls of a function that are analysed individually.
+const MAX_CALLS: usize = 16;
 
-/// The knowledge of every value of a program.
+/// The known state of every value of a program.
 pub(super) struct Constants {
     /// By function and [`Value::index`].
     values: Vec<Vec<State>>,
-    /// The arguments of all calls that pass known ones, and what is stored to those that refer to variables.
+    /// The arguments of all calls that pass known ones, and the values stored through those that refer to variables.
     params: Vec<Vec<Merged>>,
     globals: Vec<Merged>,
     results: Vec<State>,
-    /// By function: those that call it.
+    /// By function: its callers.
     callers: Vec<Vec<usize>>,
-    /// By variable of the module: the functions that read it.
+    /// By global: the functions that read it.
     readers: Vec<Vec<usize>>,
-    /// By function: something that its values follow from has changed since they were found.
+    /// By function: the inputs of its values have changed since they were computed.
     stale: Vec<bool>,
-    /// `MOST_ROUNDS` through a loop were not enough.
+    /// `MAX_ROUNDS` through a loop were not enough.
     gave_up: bool,
-    /// All is found: what a function is looked at for again stays there.
+    /// The analysis is complete: analysing a function again does not affect others.
     is_found: bool,
-    /// The components of each parameter, where a function is looked at for one call and they are known one by one.
+    /// The components of each parameter, while a function is analysed for one call and they are known individually.
     components: Vec<Vec<State>>,
 }
 
@@ -59,7 +59,7 @@ impl Constants {
         let first = exposed(program).into_iter().zip(&program.globals);
         let first = first.map(|(is_exposed, global)| match global.kind {
             GlobalKind::Private(_) if !is_exposed => Unseen,
-            _ => begin(program, global),
+            _ => initial_state(program, global),
         });
         let mut constants = Constants {
             values: program.functions.iter().map(|f| vec![Unseen; f.len()]).collect(),
@@ -74,10 +74,10 @@ impl Constants {
             components: Vec::new(),
         };
         constants.find_readers(program);
-        // Callers come behind their callees, and hand them what they know.
+        // Callers come after their callees, and pass known arguments to them.
         (0..count).rev().for_each(|index| constants.function(program, index));
-        // A caller that reads several results is looked at again when all of them are there.
-        for _ in 0..MOST_ROUNDS * count {
+        // A caller that reads several results is analysed again when all of them are known.
+        for _ in 0..MAX_ROUNDS * count {
             match constants.stale.iter().position(|&is_stale| is_stale) {
                 _ if constants.gave_up => break,
                 Some(index) => constants.function(program, index),
@@ -87,7 +87,7 @@ impl Constants {
                 }
             }
         }
-        // Any value may be a zero: that costs an instruction a division.
+        // Any value may be a zero: that costs one instruction per division.
         constants.values.iter_mut().for_each(|values| values.fill(State::Range(Interval::ANY)));
         let any = Merged { state: State::Range(Interval::ANY), grown: 0 };
         constants.params.iter_mut().for_each(|params| params.fill(any));
@@ -115,15 +115,15 @@ impl Constants {
         }
     }
 
-    /// Drops the divisions of a function, by [`Value::index`], that divide by a zero in none of its calls: numbers that
-    /// come together are told apart from those of another call, as a driver does that inlines the function.
+    /// Removes the divisions of a function, by [`Value::index`], whose divisor is not zero in any of its calls: the
+    /// arguments of each call are analysed separately, as in a driver that inlines the function.
     pub(super) fn look_at_each_call(&mut self, program: &Module, function: usize, divisions: &mut [bool]) {
         let differs = |held: &Merged| matches!(held.state, State::Range(known) if !known.is_exact());
         if !self.is_found || !self.params[function].iter().any(differs) {
             return;
         }
         let calls = self.calls(program, function);
-        if calls.len() < 2 || calls.len() > MOST_CALLS {
+        if calls.len() < 2 || calls.len() > MAX_CALLS {
             return;
         }
         let f = &program.functions[function];
@@ -158,7 +158,7 @@ impl Constants {
         calls
     }
 
-    /// Returns what is known of each component of a vector; nothing where they are not told apart.
+    /// Returns the state of each component of a vector; none if they are not known individually.
     fn components(&self, program: &Module, function: usize, value: Value) -> Vec<State> {
         let f = &program.functions[function];
         let is_scalar = |&part: &Value| matches!(program.types.get(f.ty(part)), Type::Scalar(_));
@@ -190,11 +190,11 @@ impl Constants {
         }
     }
 
-    /// Adds a known number to those that a parameter has, or that are where it refers to.
+    /// Adds a known number to those of a parameter, or of the variable it refers to.
     fn pass(&mut self, program: &Module, function: usize, param: usize, state: State) {
         if !self.is_found && matches!(state, State::Range(_)) && self.params[function][param].add(state) {
             self.stale[function] = true;
-            // Callers read what it has left there.
+            // Callers read the value that is stored there.
             if program.functions[function].params[param].by_reference {
                 mark(&self.callers[function], &mut self.stale);
             }
@@ -240,27 +240,27 @@ impl Constants {
     }
 }
 
-/// The variables that a block changes, by rising index, and what is known of them behind it.
+/// The variables that a block changes, in ascending order, and their states after it.
 type Changes = Vec<(usize, State)>;
 
-/// A way through the statements of a function.
+/// A walk through the statements of a function.
 struct Walk<'a> {
     program: &'a Module,
     f: &'a Function,
     index: usize,
     values: Vec<State>,
-    /// The knowledge of each variable where the way is.
+    /// The current state of each variable.
     held: Vec<State>,
-    /// The variables that have been set on the way, and what was known of them before.
+    /// The variables that have been set during the walk, and their previous states.
     trail: Vec<(usize, State)>,
-    /// All that is stored to a variable in loops.
+    /// All values stored to each variable in loops.
     stored: Vec<Merged>,
     /// The number of times that `stored` has grown.
     growths: usize,
     result: State,
-    /// Loops around the statement.
+    /// The number of enclosing loops.
     loops: u32,
-    /// Unknown conditions around the statement, within the innermost loop.
+    /// The number of enclosing unknown conditions within the innermost loop.
     uncertain: u32,
     /// An unknown condition leaves the innermost loop.
     leaves: bool,
@@ -277,7 +277,7 @@ impl Walk<'_> {
             Op::Global(global) => self.constants.globals[global.index()].state(),
             Op::Var(var) => self.held[var.index()],
             Op::Input(_) => Unknown,
-            // Places are named by no statement.
+            // Places are not named by statements.
             Op::Part { base, .. } if self.f.is_place(value) => self.state(base),
             Op::Element { base, index } if self.f.is_place(value) => match self.state(index) {
                 State::Range(_) => self.state(base),
@@ -315,12 +315,12 @@ impl Walk<'_> {
                 self.uncertain += u32::from(!is_known);
                 let mut changes = Changes::new();
                 for case in cases {
-                    // A case may begin where the one before it ends.
+                    // A case may be entered from the end of the previous one.
                     let after = self.branch(&changes, is_known, &case.body);
                     changes = self.joined(after, &changes, is_known);
                 }
                 self.uncertain -= u32::from(!is_known);
-                // No case may be chosen.
+                // Possibly no case is chosen.
                 for (var, state) in changes {
                     self.set(var, state.join(self.held[var], is_known));
                 }
@@ -332,7 +332,7 @@ impl Walk<'_> {
                     self.note(var, self.held[var]);
                 }
                 self.loops += 1;
-                // What it stores is found by going through it again.
+                // The values stored in the loop are found by iterating over it.
                 for round in 0.. {
                     let growths = self.growths;
                     (self.uncertain, self.leaves) = (0, false);
@@ -344,7 +344,7 @@ impl Walk<'_> {
                     if self.growths == growths {
                         break;
                     }
-                    if round == MOST_ROUNDS {
+                    if round == MAX_ROUNDS {
                         self.constants.gave_up = true;
                         break;
                     }
@@ -391,24 +391,24 @@ impl Walk<'_> {
         self.trail.push((var, before));
     }
 
-    /// Goes through a block that may also begin behind others, which have made `changes`. Returns what it changes, and
-    /// takes that back.
+    /// Analyses a block that may also be entered after others, whose changes are `changes`. Returns its changes, and
+    /// reverts them.
     fn branch(&mut self, changes: &Changes, is_known: bool, block: &Block) -> Changes {
-        let begin = self.trail.len();
+        let start = self.trail.len();
         for &(var, state) in changes {
             self.set(var, state.join(self.held[var], is_known));
         }
         self.block(block);
-        let trail: Vec<_> = self.trail.drain(begin..).rev().collect();
+        let trail: Vec<_> = self.trail.drain(start..).rev().collect();
         let mut changes: Changes =
             trail.into_iter().map(|(var, before)| (var, std::mem::replace(&mut self.held[var], before))).collect();
-        // The first of a variable is its newest.
+        // The first entry of a variable is its newest.
         changes.sort_by_key(|&(var, _)| var);
         changes.dedup_by_key(|&mut (var, _)| var);
         changes
     }
 
-    /// Returns what is changed where two ways meet; a driver knows which it is if `is_known`.
+    /// Returns the changes where two paths meet; a driver knows which one was taken if `is_known`.
     fn joined(&self, mut one: Changes, other: &Changes, is_known: bool) -> Changes {
         let known = one.len();
         for &(var, state) in other {
@@ -466,12 +466,12 @@ impl Walk<'_> {
             Op::Unary { op, operand } => self.state(operand).map(|known| known.unary(op, scalar(value))),
             Op::Convert { value: of, to } => self.state(of).map(|known| known.converted(to)),
             Op::Bitcast { value: of, .. } | Op::All(of) | Op::Any(of) => self.state(of).map(|_| Interval::ANY),
-            // Of the same expression, though it is not known.
+            // The difference of equal expressions is zero, even if their value is unknown.
             Op::Binary { op: Binary::Subtract, left, right } if is_same(f, left, right) => State::ZERO,
             Op::Binary { op, left, right } => {
                 let scalar = scalar(left);
                 match (self.state(left), self.state(right)) {
-                    // What a zero is multiplied or divided by need not be known.
+                    // The value that a zero is multiplied with or divided by need not be known.
                     (Unknown, State::Range(known)) if known.zero && is_zero_of_zero(op).1 => State::ZERO,
                     (State::Range(known), Unknown) if known.zero && is_zero_of_zero(op).0 => State::ZERO,
                     (left, right) => left.zip(right, |l, r| l.binary(op, r, scalar)),
@@ -486,7 +486,7 @@ impl Walk<'_> {
                     [Some(low), Some(high), None] if fun == Math::Clamp => first
                         .zip(low, |x, y| x.function(Math::Max, Some(y), scalar))
                         .zip(high, |x, y| x.function(Math::Min, Some(y), scalar)),
-                    // Which mix of both it is need not be known where they are one number.
+                    // If both ends are the same number, the mix factor need not be known.
                     [Some(second), Some(Unknown), None] if fun == Math::Mix => first.met(second),
                     others => {
                         others.into_iter().flatten().fold(first, |all, other| all.zip(other, |_, _| Interval::ANY))
@@ -514,7 +514,7 @@ impl Walk<'_> {
     }
 }
 
-/// Adds a function to a list of functions that is made in their order.
+/// Adds a function to a sorted list, if it is not the last entry.
 fn add_once(functions: &mut Vec<usize>, function: usize) {
     if functions.last() != Some(&function) {
         functions.push(function);
@@ -525,8 +525,8 @@ fn mark(functions: &[usize], stale: &mut [bool]) {
     functions.iter().for_each(|&function| stale[function] = true);
 }
 
-/// Returns what a variable of the module holds at first.
-fn begin(program: &Module, global: &Global) -> State {
+/// Returns the initial state of a global.
+fn initial_state(program: &Module, global: &Global) -> State {
     match global.kind {
         GlobalKind::Private(Some(init)) | GlobalKind::Table(init) => of_const(program, init),
         GlobalKind::Private(None) => State::ZERO,
@@ -547,7 +547,7 @@ fn of_const(program: &Module, id: ConstId) -> State {
     known.map_or(Unknown, State::Range)
 }
 
-/// Says whether an operation is 0 where its left side is, and where its right side is.
+/// Returns whether an operation is 0 if its left side is, and if its right side is.
 fn is_zero_of_zero(op: Binary) -> (bool, bool) {
     match op {
         Binary::Multiply | Binary::And => (true, true),

@@ -1,16 +1,17 @@
-//! Divisors that may be a zero which is known before a program runs.
+//! Hides divisors that may be a zero that is known at compile time.
 //!
 //! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k =
-//! 0.0` chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero
-//! (`lp_build_div` in `gallivm/lp_bld_arit.c`), after it has inlined functions, unrolled loops, and folded and spread
-//! constants. So what may be such a zero is kept out of its sight: one that is written, or that comes of other constants
-//! ([`constants`]), as `1.0 - k` with `k = 1.0`, or `float(i)` in a loop that counts through zero. What is hidden is not
-//! folded into its quotient any more, which may change a last bit: so no more is hidden than may be a zero.
+//! 0.0` selects a side. Mesa's llvmpipe treats a quotient as undefined once it knows that the divisor is zero
+//! (`lp_build_div` in `gallivm/lp_bld_arit.c`), after inlining functions, unrolling loops, and folding and propagating
+//! constants. Therefore divisors that may be such a zero are hidden from it: literal zeros, and those computed from
+//! other constants ([`constants`]), as `1.0 - k` with `k = 1.0`, or `float(i)` in a loop that counts through zero. A
+//! hidden divisor is no longer folded into its quotient, which may change a last bit: so only those that may be a zero
+//! are hidden.
 //!
-//! Shaders also use `smoothstep` as a step, with edges that are equal: the quotient is then infinite, and is clamped to 0
-//! or 1. Mesa's `nir_opt_algebraic.py` makes a zero of `b - a` once it sees that the two are one value. Which edges become
-//! equal is not known here, so the width of each `smoothstep` that lowering wrote out is hidden; where edges are constants
-//! that differ, lowering leaves `smoothstep` to the driver.
+//! Shaders also use `smoothstep` as a step, with equal edges: the quotient is then infinite, and is clamped to 0 or 1.
+//! Mesa's `nir_opt_algebraic.py` replaces `b - a` with zero once it knows that the two are one value. Which edges
+//! become equal is not known here, so the width of each `smoothstep` that lowering expanded is hidden; where edges are
+//! constants that differ, lowering leaves `smoothstep` to the driver.
 
 mod constants;
 mod same;
@@ -48,7 +49,7 @@ pub(super) fn run(program: &mut Module) {
     }
 }
 
-/// Returns what a division of floats divides by, unless it is a number that is no zero.
+/// Returns the divisor of a float division, unless it is a nonzero literal.
 fn divisor(program: &Module, f: &Function, (value, op): (Value, &Op)) -> Option<Value> {
     let Op::Binary { op: Binary::Divide, right, .. } = *op else { return None };
     let is_of_floats = program.types.scalar(f.ty(value)) == Some(Scalar::Float);

@@ -1,16 +1,16 @@
-//! Knowledge of a value, and of something that is written in several places.
+//! The known state of a value, and of memory that is written in several places.
 
 use State::{Unknown, Unseen};
 
 use crate::ir::analysis::Interval;
 
-/// The knowledge of a value.
+/// The known state of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum State {
-    /// No statement that computes it has been looked at yet.
+    /// No statement that computes it has been analysed yet.
     #[default]
     Unseen,
-    /// It is one number of an interval: a driver may know which.
+    /// The value is one number of an interval: a driver may know which.
     Range(Interval),
     Unknown,
 }
@@ -18,7 +18,7 @@ pub(super) enum State {
 impl State {
     pub const ZERO: State = State::Range(Interval::ZERO);
 
-    /// Returns what holds of both, where a driver knows which of the two it is.
+    /// Returns the union of both, where a driver knows which of the two it is.
     pub fn or(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
@@ -27,7 +27,7 @@ impl State {
         }
     }
 
-    /// Returns what is known where an unknown condition has chosen between both.
+    /// Returns the known state where an unknown condition has selected one of both.
     pub fn met(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
@@ -36,7 +36,7 @@ impl State {
         }
     }
 
-    /// Returns what is known where two ways meet; a driver knows which it is if `is_known`.
+    /// Returns the known state where two paths meet; a driver knows which one was taken if `is_known`.
     pub fn join(self, other: State, is_known: bool) -> State {
         if is_known { self.or(other) } else { self.met(other) }
     }
@@ -57,7 +57,7 @@ impl State {
     }
 }
 
-/// The knowledge of something that is written in several places.
+/// The known state of memory that is written in several places.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Merged {
     pub state: State,
@@ -66,10 +66,11 @@ pub(super) struct Merged {
 }
 
 impl Merged {
-    /// The number of times that an interval grows by as much as it must. What calls count up would grow for ever.
-    const MOST_GROWN: u8 = 3;
+    /// The number of times that an interval grows by no more than necessary. Values that calls count up would grow
+    /// forever.
+    const MAX_GROWN: u8 = 3;
 
-    /// Returns what is known where it is read.
+    /// Returns the known state where it is read.
     pub fn state(&self) -> State {
         match self.state {
             Unseen => Unknown,
@@ -77,12 +78,13 @@ impl Merged {
         }
     }
 
-    /// Adds what is stored; says whether that is new.
+    /// Adds a stored value; returns whether that changes the state.
     pub fn add(&mut self, state: State) -> bool {
-        self.add_growing(state, Self::MOST_GROWN)
+        self.add_growing(state, Self::MAX_GROWN)
     }
 
-    /// Adds what a round of a loop stores. What grows in one most likely grows in each: it is taken to grow without end.
+    /// Adds a value that an iteration of a loop stores. A value that grows in one most likely grows in each, so it is
+    /// assumed to be unbounded.
     pub fn add_in_loop(&mut self, state: State) -> bool {
         self.add_growing(state, 0)
     }
