@@ -1,12 +1,12 @@
-//! Finds the variables of the module whose first value may be read.
+//! Finds the variables of the module whose initial value may be read.
 //!
-//! Most are set at the beginning of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
-//! sees that the zero that such a variable begins with gets nowhere.
+//! Most are set at the start of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
+//! sees that the initial zero of such a variable is never read.
 
 use super::leaves;
 use crate::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
 
-/// Returns for each variable of the module whether something may read it before it is written as a whole.
+/// Returns for each variable of the module whether it may be read before it is written as a whole.
 pub fn exposed(program: &Module) -> Vec<bool> {
     let mut functions: Vec<Summary> = Vec::with_capacity(program.functions.len());
     for f in &program.functions {
@@ -43,10 +43,10 @@ struct Summary {
 struct Walk<'a> {
     program: &'a Module,
     f: &'a Function,
-    /// The callees.
+    /// Summaries of the callees.
     functions: &'a [Summary],
     exposed: Set,
-    /// All that is written wherever the function returns.
+    /// The variables that are written on every path that returns.
     returned: Option<Set>,
 }
 
@@ -101,7 +101,7 @@ impl Walk<'_> {
                         (false, false) => keep_common(written, &other),
                     }
                 }
-                // A block of these may not be run, or be left anywhere.
+                // These blocks may not run, or may be left at any point.
                 Stmt::Loop { .. } | Stmt::Switch { .. } => {
                     stmt.blocks(|block| self.block(block, &mut written.clone()));
                 }
