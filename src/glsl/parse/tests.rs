@@ -1,4 +1,4 @@
-//! Trees, and what is said about texts that have none.
+//! Syntax trees, and the messages for invalid texts.
 #![cfg(test)]
 
 use super::*;
@@ -18,7 +18,7 @@ fn messages(text: &str) -> Vec<String> {
     parsed.report.diagnostics.iter().map(|d| d.message.clone()).collect()
 }
 
-/// The tree as nested parentheses; the text must be without mistakes.
+/// Returns the tree as nested parentheses; the text must be valid.
 #[track_caller]
 fn tree(text: &str) -> String {
     let parsed = parse_text(text);
@@ -27,14 +27,14 @@ fn tree(text: &str) -> String {
     parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect::<Vec<_>>().join(" ")
 }
 
-/// The tree of one expression.
+/// Returns the tree of one expression.
 #[track_caller]
 fn expr_tree(text: &str) -> String {
     let whole = tree(&format!("void f() {{ {text}; }}"));
     whole.strip_prefix("(fn void f () {").unwrap().strip_suffix("})").unwrap().to_owned()
 }
 
-/// Exactly these messages, each with a part.
+/// Checks that exactly these messages are reported, each containing the given part.
 #[track_caller]
 fn refuses(text: &str, parts: &[&str]) {
     let found = messages(text);
@@ -183,7 +183,7 @@ fn stmt(p: &Parsed, id: StmtId) -> String {
     }
 }
 
-/// Checks what the tree's documentation promises to everyone.
+/// Checks the invariants that the documentation of the tree promises.
 pub(super) fn check_guarantees(p: &Parsed) {
     let tokens = p.origins.tokens.len();
     let loc = |l: Loc| assert!(l.first <= l.last && (l.last.0 as usize) < tokens);
@@ -363,7 +363,7 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
-    // As deep as ANGLE's parser goes, which keeps 10,000 symbols.
+    // As deep as ANGLE's parser, which keeps 10,000 symbols.
     for (open, close) in [("(", ")"), ("- ", ""), ("abs(", ")"), ("float(", ")"), ("(1.0 + ", ")"), ("a[", "]")] {
         let text = format!("void f() {{ x = {}a{}; }}", open.repeat(9_990), close.repeat(9_990));
         assert_eq!(messages(&text), [""; 0], "{open}");
@@ -371,7 +371,7 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
 }
 
 #[test]
-fn one_mistake_is_one_message() {
+fn one_error_has_one_message() {
     refuses_stmt("float a = 1.0", &["missing `;` after `1.0`"]);
     refuses_stmt("a = b", &["missing `;` after `b`"]);
     refuses_stmt("f(a)", &["missing `;` after `)`"]);
@@ -442,7 +442,7 @@ fn mistakes_at_file_scope() {
     refuses("float a = 1.0\nfloat b;", &["missing `;` after `1.0`"]);
     refuses("a = 1.0;\nfloat b;", &["statements belong inside functions"]);
     refuses("float f(float a { return a; }\nfloat b;", &["missing `)` after `a`"]);
-    // `a` may be a type: the checker knows.
+    // `a` may be a type: the checker decides.
     refuses("float f(a) { return b; }\nfloat b;", &[]);
     refuses("float f(float a = 1.0) { return a; }\nfloat b;", &["no default parameter values"]);
     refuses("float f(float& a) { return a; }\nfloat b;", &["no pointers"]);
@@ -468,7 +468,7 @@ fn mistakes_at_file_scope() {
 }
 
 #[test]
-fn several_mistakes_are_several_messages() {
+fn several_errors_have_several_messages() {
     refuses(
         "void f() {\n float a = ;\n b = c d;\n if (e f) { g; }\n for (int i = 0; i < 3; i++ { j }\n}\nfloat k = (1.0;\nvoid l() { m( ; }",
         &[
@@ -486,14 +486,14 @@ fn several_mistakes_are_several_messages() {
 }
 
 #[test]
-fn what_was_declared_before_a_mistake_stays_declared() {
+fn declarators_before_an_error_stay_declared() {
     let parsed = parse_text("void f() { float a = 1.0 +, b = 2.0; }");
     let shown: Vec<String> = parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect();
     assert_eq!(shown, ["(fn void f () {(var float a=<error>,b=2.0)})"]);
 }
 
 #[test]
-fn qualifiers_behind_a_type_are_told_of_once_and_taken() {
+fn qualifiers_after_a_type_are_reported_once_and_accepted() {
     for (text, mend) in [
         ("vec3 const k = vec3(1.0);", "write `const vec3 k`"),
         ("float highp x;", "write `highp float x`"),
@@ -516,12 +516,12 @@ fn qualifiers_behind_a_type_are_told_of_once_and_taken() {
         assert_eq!(found.len(), parsed.report.diagnostics.len(), "{text}: {:?}", parsed.report.diagnostics);
         assert!(!found.is_empty() && found[0].hints == [mend], "{text}: {found:?}");
     }
-    // The declaration holds: a size that is `const` is one.
+    // The declaration is valid: a size that is `const` is accepted.
     assert_eq!(messages("int const n = 2;\nfloat a[n];\nS\nconst int m = 1;").len(), 2);
 }
 
 #[test]
-fn words_of_older_shaders_become_those_of_the_stage() {
+fn old_keywords_have_fixes_for_the_stage() {
     for (kind, text, hint) in [
         (PassKind::PlainVertex, "attribute vec3 p;", "GLSL ES 3.00 uses `in` instead"),
         (PassKind::PlainVertex, "varying vec2 uv;", "GLSL ES 3.00 uses `out` instead"),
