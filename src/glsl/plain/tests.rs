@@ -1,8 +1,8 @@
-//! Shaders of our own, compiled, validated, written as WGSL, and read again.
+//! Shaders of our own, compiled, validated, written as WGSL, and parsed again.
 
 use crate::{ClipSpace, Compiled, Link, PassKind, PassSource, Reflection, compile, compile_linked};
 
-/// Compiles a shader, and checks that naga accepts the module and what is written of it.
+/// Compiles a shader, and checks that naga accepts the module and the WGSL written from it.
 fn made(source: &PassSource<'_>) -> (Compiled, String) {
     linked(source, &Link::default())
 }
@@ -26,7 +26,8 @@ fn wgsl(compiled: &Compiled) -> String {
     naga::back::wgsl::write_string(&compiled.module, &validated(&compiled.module), flags).unwrap()
 }
 
-/// Offsets of all that lies in uniform buffers, which must be the same after a round through a text without offsets.
+/// Returns the offsets of everything in uniform buffers, which must be the same after a round trip through a text
+/// without offsets.
 fn buffers(module: &naga::Module) -> Vec<String> {
     fn add(module: &naga::Module, ty: naga::Handle<naga::Type>, at: u32, out: &mut Vec<String>) {
         match &module.types[ty].inner {
@@ -52,13 +53,13 @@ fn fragment(text: &str) -> (Compiled, String) {
     made(&PassSource::fragment(text))
 }
 
-/// The members of all buffers, as `name: type @ offset + size`.
+/// Returns the members of all buffers, as `name: type @ offset + size`.
 fn uniforms(reflection: &Reflection) -> Vec<String> {
     let all = reflection.shader.buffers.iter().flat_map(|buffer| &buffer.members);
     all.map(|u| format!("{}: {} @ {} + {}", u.name, u.ty, u.offset, u.size)).collect()
 }
 
-/// The messages of the errors of a text that must not compile, with what is underlined.
+/// Returns the messages of the errors of an invalid text, with the underlined parts.
 fn errors(kind: PassKind, text: &str) -> Vec<(String, String)> {
     let source = match kind {
         PassKind::PlainVertex => PassSource::vertex(text),
@@ -76,7 +77,7 @@ fn refused(text: &str, message: &str, at: &str) {
 }
 
 #[test]
-fn scalars_vectors_and_matrices_lie_as_std140_has_them() {
+fn scalars_vectors_and_matrices_have_std140_offsets() {
     let (compiled, text) = fragment(
         "#version 300 es
         precision highp float;
@@ -118,7 +119,7 @@ fn scalars_vectors_and_matrices_lie_as_std140_has_them() {
 }
 
 #[test]
-fn arrays_and_structures_lie_as_std140_has_them() {
+fn arrays_and_structures_have_std140_offsets() {
     let (compiled, text) = fragment(
         "struct Light { vec3 at; float power; bool on; vec2 spread[2]; };
         struct Tiny { float x; };
@@ -199,7 +200,7 @@ fn a_block_has_a_buffer_of_its_own() {
 }
 
 #[test]
-fn samplers_are_a_texture_and_a_sampler_each() {
+fn each_sampler_becomes_a_texture_and_a_sampler() {
     let (compiled, text) = fragment(
         "precision highp sampler3D;
         precision highp isampler2D;
@@ -280,7 +281,7 @@ fn inputs_and_outputs_have_locations() {
     assert_eq!(shader.buffers[0].group, 1);
     assert!(text.contains("@vertex") && text.contains("@builtin(instance_index)"), "{text}");
 
-    // The inputs in another order are found by their names.
+    // Inputs in a different order are matched by name.
     let text = "in vec3 v_normal;
         flat in uint v_kind;
         layout(location = 1) out uvec2 ids;
@@ -304,7 +305,7 @@ fn inputs_and_outputs_have_locations() {
 }
 
 #[test]
-fn clip_space_is_as_the_option_says() {
+fn clip_space_follows_the_option() {
     let text = "in vec4 at; void main() { gl_Position = at; }";
     let with = |clip_space| {
         let mut source = PassSource::vertex(text);
@@ -319,7 +320,7 @@ fn clip_space_is_as_the_option_says() {
 }
 
 #[test]
-fn a_value_from_outside_is_a_constant() {
+fn given_value_is_a_constant() {
     let values = [crate::UniformValue { name: "level".into(), value: crate::UntypedValue::Number(0.25) }];
     let source = PassSource {
         values: &values,
@@ -373,7 +374,7 @@ fn every_uniform_may_be_hidden_from_the_driver() {
 }
 
 #[test]
-fn what_cannot_be_had_says_so() {
+fn unsupported_features_are_rejected() {
     refused(
         "uniform sampler2D all[2]; out vec4 c; void main() { c = texture(all[1], vec2(0)); }",
         "an array of samplers",
@@ -398,7 +399,7 @@ fn what_cannot_be_had_says_so() {
 }
 
 #[test]
-fn old_glsl_gets_its_mend() {
+fn old_glsl_has_a_fix() {
     let hints = |kind, text: &str| {
         let source = if kind == PassKind::PlainVertex { PassSource::vertex(text) } else { PassSource::fragment(text) };
         let all = compile(&source).expect_err(text);
