@@ -1,4 +1,4 @@
-//! Passes behind a Common that was read before, against the same passes that read it themselves.
+//! Passes with a precompiled Common, compared with the same passes that parse it themselves.
 
 use super::*;
 use crate::{
@@ -12,7 +12,7 @@ const CODE: SourceId = SourceId(1);
 const INCLUDED: SourceId = SourceId(2);
 const IMAGE: &str = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x), p, 1.0); }";
 
-/// The part of Common that is read before.
+/// The part of Common that is precompiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
     Nothing,
@@ -20,7 +20,7 @@ enum Kept {
     Checked,
 }
 
-/// A Common and a pass behind it.
+/// A Common and a pass that follows it.
 struct Case<'a> {
     kind: PassKind,
     common: &'a str,
@@ -48,7 +48,7 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Compiles both ways, compares all that comes out, and returns what was kept and the messages.
+    /// Compiles both ways, compares all results, and returns what was kept and the messages.
     #[track_caller]
     fn run(&self) -> (Kept, Vec<String>) {
         let source = self.source();
@@ -75,7 +75,7 @@ impl<'a> Case<'a> {
         (kept, diagnostics.into_iter().map(|d| d.message).collect())
     }
 
-    /// Compares the editor's answers for each place.
+    /// Compares the editor's answers for each position.
     #[track_caller]
     fn compare_analyses(&self, preamble: Option<&Preamble>) {
         let (own, behind) = (Analysis::new(&self.source()), Analysis::behind(&self.source(), preamble));
@@ -101,7 +101,7 @@ fn is(common: &str, code: &str, kept: Kept, messages: &[&str]) {
 }
 
 #[test]
-fn declarations_are_read_once() {
+fn declarations_are_parsed_once() {
     let common = "
 #define PI 3.14
 struct Ray { vec3 at; float t[2]; };
@@ -124,17 +124,17 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p), h(Ray(vec3(0), float[2](p
 }
 
 #[test]
-fn macros_of_common_hold_in_the_pass() {
+fn macros_of_common_apply_in_the_pass() {
     let common = "#define A(x) ((x) + B)\n#define B 2.0\nfloat f(float x) { return A(x); }";
     is(common, IMAGE, Kept::Checked, &[]);
     is(common, "void mainImage(out vec4 c, in vec2 p) { c = vec4(A(p.x), B, f(A(B)), 1.0); }", Kept::Checked, &[]);
-    // Only where it is used does a macro name something of the pass.
+    // A macro that names something of the pass does so only where it is used.
     let common = "#define T iTime\n#define READ(p) texture(iChannel0, p)\nfloat f(float x) { return x; }";
     is(common, "void mainImage(out vec4 c, in vec2 p) { c = READ(p) * T; }", Kept::Checked, &[]);
 }
 
 #[test]
-fn a_macro_of_common_is_defined_otherwise_in_the_pass() {
+fn pass_may_redefine_a_macro_of_common() {
     let common = "#define A 1.0\nfloat f(float x) { return x + A; }";
     let twice = format!("#define A 2.0\n{IMAGE}");
     is(common, &twice, Kept::Checked, &["the macro `A` is already defined differently"]);
@@ -151,7 +151,7 @@ fn an_entry_point_may_be_a_macro_of_common() {
 }
 
 #[test]
-fn what_spans_the_border_is_read_with_each_pass() {
+fn text_that_spans_the_border_is_parsed_with_each_pass() {
     is(
         "float f(float x) ",
         "{ return x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }",
@@ -178,7 +178,7 @@ fn what_spans_the_border_is_read_with_each_pass() {
 }
 
 #[test]
-fn an_error_in_common_is_said_with_each_pass_as_before() {
+fn error_in_common_is_reported_with_each_pass() {
     let (kept, said) = Case::new("float f(float x) { return x }", IMAGE).run();
     assert_eq!(kept, Kept::Nothing);
     assert_eq!(said.len(), 1, "{said:?}");
@@ -188,13 +188,13 @@ fn an_error_in_common_is_said_with_each_pass_as_before() {
 }
 
 #[test]
-fn a_warning_in_common_is_said_with_each_pass_as_before() {
+fn warning_in_common_is_reported_with_each_pass() {
     let common = "#define a__b 1.0\nfloat f(float x) { return x * a__b; }";
     is(common, IMAGE, Kept::Checked, &["`a__b`: names with two underscores in a row are reserved"]);
 }
 
 #[test]
-fn numbers_of_lines_depend_on_the_pass() {
+fn line_numbers_depend_on_the_pass() {
     is("float f(float x) { return x + float(__LINE__); }", IMAGE, Kept::Nothing, &[]);
     is("#if __LINE__ < 17\nfloat iTime;\n#endif\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
     is("#line 10\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
@@ -203,7 +203,7 @@ fn numbers_of_lines_depend_on_the_pass() {
 }
 
 #[test]
-fn names_that_differ_from_pass_to_pass_are_checked_with_each() {
+fn names_that_differ_between_passes_are_checked_with_each() {
     for common in [
         "float f(float x) { return x * iTime; }",
         "float f(float x) { return texture(iChannel0, vec2(x)).x; }",
@@ -232,7 +232,7 @@ fn names_that_differ_from_pass_to_pass_are_checked_with_each() {
 }
 
 #[test]
-fn names_of_the_language_may_come_up_in_the_pass_alone() {
+fn pass_may_use_built_in_names_that_common_does_not() {
     let code = "float mix;
 void mainImage(out vec4 c, in vec2 p) { c = gl_FragCoord * f(p.x) + float(gl_MaxDrawBuffers) + gl_DepthRange.near; }";
     is("float f(float x) { return x; }", code, Kept::Checked, &[]);
@@ -241,7 +241,7 @@ void mainImage(out vec4 c, in vec2 p) { c = gl_FragCoord * f(p.x) + float(gl_Max
 }
 
 #[test]
-fn every_kind_of_pass_goes_on_from_the_same() {
+fn every_kind_of_pass_continues_from_the_same_preamble() {
     let common = "float f(float x) { return x * 2.0 + gl_FragCoord.x; }";
     for (kind, code) in [
         (
@@ -256,14 +256,14 @@ fn every_kind_of_pass_goes_on_from_the_same() {
         case.kind = kind;
         case.is(Kept::Checked, &[]);
     }
-    // The stages of a mesh have other variables, and check Common by themselves.
+    // The stages of a mesh have other variables, and check Common themselves.
     let mut case = Case::new(common, "out vec4 colour;\nvoid main() { colour = vec4(f(1.0)); }");
     case.kind = PassKind::Fragment;
     case.is(Kept::Tree, &[]);
 }
 
 #[test]
-fn uniforms_of_the_author_are_checked_with_each_pass_that_has_them() {
+fn custom_uniforms_are_checked_with_each_pass_that_has_them() {
     let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
     let mut case = Case::new("float f(float x) { return x * speed; }", IMAGE);
     case.custom_uniforms = &custom_uniforms;
@@ -294,7 +294,7 @@ fn common_includes_a_text() {
     case.includes = &broken;
     let (kept, said) = case.run();
     assert_eq!((kept, said.is_empty()), (Kept::Nothing, false));
-    // A file that is not there is an error only where its line is compiled.
+    // A missing file is an error only where its line is compiled.
     let said = Diagnostic::error(line, "there is no file noise.glsl");
     let missing = [Include { line, text: Err(&said) }];
     let mut case = Case::new(common, IMAGE);
@@ -316,7 +316,7 @@ fn common_includes_a_text() {
 }
 
 #[test]
-fn mistakes_across_the_border_are_told_as_before() {
+fn errors_across_the_border_are_unchanged() {
     let common = "float f(float x) { return x; }\nfloat twice;";
     for code in [
         "float f(float x) { return 2.0 * x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }",
