@@ -1,5 +1,5 @@
 //! Expressions of `#if` and `#elif` (section 3.4): integers, `defined`, and the operators of C without assignment and
-//! choice.
+//! the conditional operator.
 
 use super::state::Preprocessor;
 use crate::{
@@ -8,11 +8,11 @@ use crate::{
     stack::{STACK_LEFT, STACK_MORE},
 };
 
-/// Parentheses and signs within each other.
+/// The limit of nested parentheses and signs.
 const MAX_DEPTH: u32 = 10_000;
 
 impl Preprocessor<'_, '_> {
-    /// Returns whether the condition holds. A condition that is wrong was reported and does not.
+    /// Returns whether the condition is true. An invalid condition is reported and false.
     pub(super) fn condition(&mut self, directive: &Token, line: &[Token]) -> bool {
         let Some(tokens) = self.without_defined(line) else { return false };
         let mut expanded = Vec::new();
@@ -30,7 +30,7 @@ impl Preprocessor<'_, '_> {
         value != 0
     }
 
-    /// Returns the one or two numbers of a `#line`; `None`: reported.
+    /// Returns the one or two numbers of a `#line`; `None` if they are invalid, which was reported.
     pub(super) fn line_numbers(&mut self, directive: &Token, line: &[Token]) -> Option<(i64, Option<i64>)> {
         let mut expanded = Vec::new();
         self.expand_line(line, &mut expanded);
@@ -75,10 +75,10 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     all: &'p mut Preprocessor<'a, 'r>,
     tokens: &'e [Token],
     at: usize,
-    /// Inside the right side of an `&&` or `||` that the left side has decided: nothing there is an error.
+    /// Inside the unevaluated right side of an `&&` or `||`: nothing there is an error.
     passed_by: u32,
     depth: u32,
-    /// Says where an expression that ends too early is reported.
+    /// Where an expression that ends too early is reported.
     end: Token,
 }
 
@@ -237,7 +237,7 @@ impl Evaluation<'_, '_, '_, '_> {
         Some(value)
     }
 
-    /// Reports a name that is no macro.
+    /// Reports a name that is not a macro.
     fn name(&mut self, token: &Token) {
         let text = self.all.names.get(Symbol(token.value)).to_owned();
         if let Some(id) = self.all.defined(token.value) {

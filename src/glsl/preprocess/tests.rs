@@ -1,4 +1,4 @@
-//! Directives and macros: what the specification and the browsers' compiler let pass, and what they refuse.
+//! Directives and macros: what the specification and the browsers' compiler accept, and what they reject.
 #![cfg(test)]
 
 use super::*;
@@ -9,12 +9,12 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, SourceId, Span};
 
-/// The tokens as text with single spaces, and the diagnostics' messages.
+/// Returns the tokens as text with single spaces, and the diagnostics' messages.
 fn run(text: &str) -> (String, Vec<String>) {
     run_texts(&[text])
 }
 
-/// Runs texts whose `#include` lines have no text in their places, as those of files that are not there.
+/// Runs texts whose `#include` lines are not resolved, as for missing files.
 fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     let texts: Vec<_> = texts.iter().enumerate().map(|(i, text)| Text { id: SourceId(i as u16), text }).collect();
     let missing: Vec<Diagnostic> = texts
@@ -49,7 +49,7 @@ fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     (shown.join(" "), report.diagnostics.iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect())
 }
 
-/// The text without any diagnostic.
+/// Checks the tokens of a text that has no diagnostics.
 #[track_caller]
 fn gives(text: &str, expected: &str) {
     let (tokens, messages) = run(text);
@@ -57,7 +57,7 @@ fn gives(text: &str, expected: &str) {
     assert_eq!(tokens, expected, "{text}");
 }
 
-/// One error that has `part` in it.
+/// Checks that there is one error that contains `part`.
 #[track_caller]
 fn refuses(text: &str, part: &str) -> String {
     let (tokens, messages) = run(text);
@@ -68,7 +68,7 @@ fn refuses(text: &str, part: &str) -> String {
 }
 
 #[test]
-fn a_backslash_that_ends_the_text_joins_it_to_nothing() {
+fn backslash_at_the_end_of_the_text_is_ignored() {
     gives("a\\", "a");
     gives("a\n\n\\", "a");
     refuses("a \\ b", "a backslash joins lines");
@@ -76,7 +76,7 @@ fn a_backslash_that_ends_the_text_joins_it_to_nothing() {
 }
 
 #[test]
-fn pragmas_of_other_tools_are_ignored_with_a_warning_or_without() {
+fn pragmas_of_other_tools_are_ignored() {
     gives("#pragma mark\na", "a");
     let (tokens, messages) = run("#pragma glslify: noise = require('glsl-noise/simplex/2d')\na");
     assert_eq!(tokens, "a");
@@ -106,17 +106,17 @@ fn function_macros() {
     gives("#define F() 1\nF() F( )", "1 1");
     gives("#define F(x) [x]\nF() F(\n\n1\n)", "[ ] [ 1 ]");
     gives("#define F(x, y) [x y]\nF(,)", "[ ]");
-    // Without parentheses it is a name.
+    // Without parentheses it is an ordinary name.
     gives("#define F(x) x\nF = F;", "F = F ;");
     gives("#define F (x)\nF", "( x )");
     gives("#define F(x) x\nF\n\n(1)", "1");
-    // Parameters stand for their arguments also in a nested call.
+    // Parameters are also replaced in a nested call.
     gives("#define G(y) <y>\n#define F(x) G(x) G((x))\nF(1)", "< 1 > < ( 1 ) >");
 }
 
 #[test]
 fn rescanning() {
-    // The examples of C that bear on the order of things.
+    // C's examples about the order of expansion.
     gives("#define foo foo\nfoo", "foo");
     gives("#define a b\n#define b a\na b", "a b");
     gives("#define a b + a\n#define b a * 2\na", "a * 2 + a");
@@ -126,7 +126,7 @@ fn rescanning() {
     gives("#define F(x) x\n#define G F\nG(1)", "1");
     gives("#define F(x) [x]\n#define G F(\nG 1)", "[ 1 ]");
     gives("#define F(x) [x]\n#define L (\n#define R )\nF L 1 R", "F ( 1 )");
-    // A name that came up inside its own macro is left alone also when it is passed on.
+    // A name that occurred inside its own macro is not expanded when it is passed on either.
     gives("#define x x y\n#define F(a) a\nF(x)", "x y");
     gives("#define AA BB\n#define BB AA(1)\n#define AA2(x) x\nAA2(AA)", "AA ( 1 )");
     gives("#define z z[0]\n#define f(a) f(z * (a))\nf(y)", "f ( z [ 0 ] * ( y ) )");
@@ -186,7 +186,7 @@ fn definitions() {
 #[test]
 fn given_macros() {
     gives("__VERSION__ GL_ES HW_PERFORMANCE __FILE__ GL_FRAGMENT_PRECISION_HIGH", "300 1 1 0 1");
-    // The site's header comes first: 11 lines before a Common that is compiled alone.
+    // Shadertoy's header comes first: 11 lines before a Common that is compiled by itself.
     gives("__LINE__\n\n__LINE__ \\\n __LINE__", "12 14 15");
     gives("#define L __LINE__\n\nL", "14");
     gives("#line 5\n__LINE__\n#line 5\n__LINE__", "5 5");
@@ -207,7 +207,7 @@ fn conditionals() {
     gives("#define A\n#ifdef A\na\n#endif\n#ifndef A\nb\n#endif", "a");
     gives("#if 0\n#if 1\na\n#else\nb\n#endif\n#foo \" it's\n#else\nc\n#endif", "c");
     gives("#if 1\n#if 0\na\n#else\nb\n#endif\n#else\nc\n#endif", "b");
-    // What is left out is not looked at.
+    // Skipped text is not examined.
     gives("#if 0\n\u{e9} @ 08 #error x\n#error y\n#endif\nz", "z");
     gives("#if 1\na\n#elif NOBODY\n#endif", "a");
     gives("#if 0\n/* #endif */ // #endif\n#endif\nz", "z");
@@ -334,17 +334,17 @@ fn a_missing_include_is_an_error_only_where_its_line_is_compiled() {
     ] {
         assert_eq!(refuses(&text.replace('@', LINE), "#include \"missing.glsl\" is missing"), "x", "{text}");
     }
-    // A macro of the text before, as one of Common's.
+    // A macro of the previous text, such as Common.
     let guarded = format!("#ifdef NOISE\n{LINE}\n#endif\nx");
     assert_eq!(run_texts(&["", &guarded]), ("x".into(), vec![]));
     let (tokens, said) = run_texts(&["#define NOISE\n", &guarded]);
     assert_eq!((tokens.as_str(), said.len()), ("x", 1), "{said:?}");
-    // Numbers of lines go on as if the line were blank.
+    // Line numbers continue as if the line were blank.
     assert_eq!(run(&format!("#if 0\n{LINE}\n#endif\n__LINE__")), run("#if 0\n\n#endif\n__LINE__"));
 }
 
 #[test]
-fn what_is_no_glsl() {
+fn text_that_is_not_glsl_is_rejected() {
     assert_eq!(refuses("a \u{2212} b", "looks like `-`"), "a \u{2212} b");
     assert_eq!(refuses("a $ b", "no meaning"), "a b");
     assert_eq!(refuses("float \u{3b1} = 1.0; \u{3b1};", "does not allow"), "float \u{3b1} = 1.0 ; \u{3b1} ;");
@@ -354,7 +354,7 @@ fn what_is_no_glsl() {
     refuses("08", "octal");
     refuses("a /* b", "not closed");
     refuses("#define A /* b\nA", "not closed");
-    // Only where it is used does a macro's text matter.
+    // A macro's text only matters where it is used.
     gives("#define A @ 08 \"x\" a##b #c\nx", "x");
     refuses("#define A 08\nA A A", "octal");
     let (_, messages) = run("#define C(a, b) a##b\nC(x, y)");
@@ -370,7 +370,7 @@ fn common_and_code_are_one_text() {
 }
 
 #[test]
-fn origins_lead_back() {
+fn origins_map_back_to_the_text() {
     let text = "#define IN(x) x * k\n#define OUT IN(a)\nOUT + IN(b);";
     let texts = [Text { id: SourceId(0), text }];
     let (mut names, mut report) = (words::interner(), Report::default());
@@ -398,7 +398,7 @@ fn origins_lead_back() {
 }
 
 #[test]
-fn bombs_are_stopped_by_name() {
+fn exponential_expansions_are_stopped() {
     let mut doubling = String::from("#define A0 x x\n");
     for i in 1..64 {
         doubling += &format!("#define A{i} A{} A{}\n", i - 1, i - 1);
@@ -418,7 +418,7 @@ fn bombs_are_stopped_by_name() {
     gives(&nested(1000), "1");
     refuses(&nested(1100), "1024 levels deep");
     refuses(&nested(100_000), "2000000");
-    // A chain that is long, but no bomb.
+    // A long chain that does not grow exponentially.
     let mut chain = String::from("#define A0 1\n");
     for i in 1..10_000 {
         chain += &format!("#define A{i} A{}\n", i - 1);
