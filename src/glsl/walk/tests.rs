@@ -10,7 +10,7 @@ use eddy_diag::SourceId;
 
 const LIMIT: u64 = 1_000_000;
 
-/// No textures; iTime is 2, the canvas 8x4.
+/// A world without textures; iTime is 2, the resolution 8x4.
 struct Bare(UniformBlock);
 
 impl Default for Bare {
@@ -48,7 +48,7 @@ impl World for Bare {
         [at[0] as f32, at[1] as f32, level as f32, 1.0]
     }
 
-    /// Shows the coordinate and the level.
+    /// Returns the coordinate and the level as a colour.
     fn sample(&self, _: u8, at: [f64; 3], lod: Lod, _: [i32; 3]) -> [f64; 4] {
         let level = match lod {
             Lod::Exact(level) => level,
@@ -108,7 +108,7 @@ fn arithmetic_and_functions() {
     gives("float n = sqrt(p.x - 9.0); r = vec4(isnan(n), n == n, n != n, n < 1.0);", [1.0, 0.0, 1.0, 0.0]);
 }
 
-/// The nearest number of both types stands for what is undefined, as in the code of naga.
+/// Undefined conversions return the nearest number of both types, as naga's code does.
 #[test]
 fn floats_beyond_the_range_of_an_int() {
     gives(
@@ -164,12 +164,12 @@ fn derivatives_are_those_of_neighbours() {
         "r = texture(iChannel0, p * 0.5, 0.25) + texelFetch(iChannel1, ivec2(p), 2);",
         [1.75 + 3.0, 1.25 + 2.0, 50.0 + 5.0 + 0.25 + 2.0, 2.0],
     );
-    // Of lanes that went another way.
+    // Neighbouring lanes took another branch.
     gives("float a = p.x; if (p.x > 3.0) a = 10.0; r = vec4(dFdx(a), 0, 0, 0);", [7.5, 0.0, 0.0, 0.0]);
 }
 
 #[test]
-fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
+fn endless_loops_are_stopped_and_discard_draws_nothing() {
     let endless = "void mainImage(out vec4 r, in vec2 p) { for (;;) { r.x += 1.0; if (r.x < 0.0) break; } }";
     assert_eq!(draw::<f32>(endless, (0, 0)), Err(Stop::Steps(LIMIT)));
     let (walkable, world) =
@@ -182,8 +182,8 @@ fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
 }
 
 #[test]
-fn what_the_language_leaves_open_is_as_drivers_have_it() {
-    // A product with a zero that a driver sees is none, and one that it does not see is computed.
+fn undefined_cases_follow_drivers() {
+    // A product with a zero that the driver sees is dropped; one that it does not see is computed.
     gives(
         "float z = p.x * 0.0; r = vec4(mod(p.x, 0.0), mod(vec2(p.x), vec2(0.0, 1.0)), isnan(mod(p.x, z)));",
         [3.5, 3.5, 0.5, 1.0],
@@ -195,7 +195,7 @@ fn what_the_language_leaves_open_is_as_drivers_have_it() {
 }
 
 #[test]
-fn single_precision_is_a_devices_and_the_shadow_knows_better() {
+fn single_precision_follows_the_device_and_the_shadow_is_exact() {
     let code = "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = vec4((a + 1e8) - 1e8 - a); }";
     assert_eq!(draw::<f32>(code, (3, 2)).unwrap()[0], f64::from((3.5f32 * 0.1 + 1e8) - 1e8 - 3.5 * 0.1));
     assert!(draw::<f64>(code, (3, 2)).unwrap()[0].abs() < 1e-7);
@@ -205,7 +205,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
         .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(f64::from(single) < -0.3 && double.abs() < 1e-7, "{single} {double}");
-    // What is read of a texture is read twice, where the coordinates are apart.
+    // A texel is read for both precisions where their coordinates differ.
     let code =
         "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = texture(iChannel0, vec2((a + 1e8) - 1e8)); }";
     let walkable = self::walkable(code);
@@ -217,7 +217,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
 }
 
 #[test]
-fn an_observer_sees_the_way_of_one_pixel() {
+fn observer_sees_the_steps_of_one_pixel() {
     #[derive(Default)]
     struct Log(Vec<String>);
     impl Observer<f32> for Log {
