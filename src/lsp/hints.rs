@@ -6,7 +6,7 @@ use eddy_project::limits;
 use gen_lsp_types::{InlayHint, InlayHintKind, Label};
 use std::ops::Range;
 
-/// Returns the hints of a range of a text: those of the language, and behind each `#iUniform` line the value that
+/// Returns the hints of a range of a text: those of the language, and after each `#iUniform` line the value that
 /// `eddy.toml` sets.
 pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: Range<usize>) -> Vec<InlayHint> {
     let of_language = program.analysis(id).map(|analysis| analysis.hints(id, range.clone())).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Symbols of a document and of all projects that are open.
+//! Symbols of a document and of all open projects.
 
 use super::{
     documents::Documents,
@@ -11,7 +11,8 @@ use eddy_glsl::services::{OutlineKind, Outlined};
 use eddy_project::limits;
 use gen_lsp_types::{BaseSymbolInformation, DocumentSymbol, SymbolKind, WorkspaceSymbol, WorkspaceSymbolLocation};
 
-/// Symbols of all projects that are returned at most, as an editor asks again with more letters; members of a struct.
+/// The limit of returned symbols of all projects, as an editor asks again with more letters; also of members of a
+/// struct.
 const MOST: usize = 500;
 
 fn kind(kind: OutlineKind) -> SymbolKind {
@@ -26,7 +27,7 @@ fn kind(kind: OutlineKind) -> SymbolKind {
     }
 }
 
-/// Returns what a text declares, the uniforms of its `#iUniform` lines first.
+/// Returns the declarations of a text, the uniforms of its `#iUniform` lines first.
 pub(crate) fn of_document(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     let outline = program.analysis(id).map(|analysis| analysis.outline(id)).unwrap_or_default();
     let mut symbols: Vec<DocumentSymbol> = uniforms(program, id, lines);
@@ -75,7 +76,7 @@ fn symbol_of(member: &Outlined, lines: &Lines<'_>) -> DocumentSymbol {
     made(&member.name, &member.detail, kind(member.kind), lines, member.whole.clone(), member.place.clone())
 }
 
-/// Returns what the texts of a program declare whose names have the letters of a query in order.
+/// Returns the declarations of a program whose names contain the letters of a query in order.
 pub(crate) fn of_program(
     program: &Program,
     documents: &Documents,
