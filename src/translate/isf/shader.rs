@@ -1,4 +1,4 @@
-//! The passes' texts behind each other, in one fragment shader.
+//! Concatenates the passes' texts in one fragment shader.
 
 use super::{
     Images,
@@ -16,7 +16,7 @@ pub(super) struct Body {
     pub reads_mouse: bool,
 }
 
-/// Shadertoy's uniforms in terms of ISF's; those that a text names are written out.
+/// Shadertoy's uniforms in terms of ISF's; those that a text names are added to it.
 const UNIFORMS: [(&str, &str); 8] = [
     ("iResolution", "vec3(RENDERSIZE, 1.0)"),
     ("iTime", "TIME"),
@@ -28,7 +28,7 @@ const UNIFORMS: [(&str, &str); 8] = [
     ("iMouse", "vec4(mouse, 0.0, 0.0)"),
 ];
 
-/// Returns the shader, and adds what ISF cannot say.
+/// Returns the shader, and adds errors for features that ISF cannot express.
 pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, found: &mut Vec<Diagnostic>) -> Body {
     let passes: Vec<usize> = (0..project.passes.len()).filter(|&i| project.passes[i].id != PassId::Sound).collect();
     if passes.len() < project.passes.len() {
@@ -39,7 +39,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
     let mut texts = String::new();
     if project.common.is_some() {
         let text = text_of(Project::COMMON_ID);
-        // What Common reads is the same in every pass, or nothing.
+        // Common's reads must be the same in every pass; otherwise none is resolved.
         let same = passes.first().filter(|&&first| passes.iter().all(|&index| images[index] == images[first]));
         let none = Default::default();
         let (own, channels) =
@@ -124,7 +124,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
     Body { text, reads_mouse }
 }
 
-/// Returns whether a name can stand behind a dot, as components of a vector do.
+/// Returns whether a name can follow a dot, like components of a vector.
 fn is_swizzle(name: &str) -> bool {
     let of = |set: &str| name.chars().all(|c| set.contains(c));
     name.len() <= 4 && (of("xyzw") || of("rgba") || of("stpq"))
