@@ -1,4 +1,4 @@
-//! Image files, sounds, videos and meshes as texts in the page.
+//! Image files, sounds, videos and meshes embedded in the page as text.
 
 use crate::data::{FileData, MediaData, MeshData};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
@@ -12,14 +12,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Names that tell one medium from another.
+/// The identity of a medium, to embed it only once.
 #[derive(PartialEq)]
 enum Key {
     Texels(MediaKey),
     File(InputKind, Media, bool),
 }
 
-/// The media and meshes that the page has so far.
+/// The media and meshes embedded in the page so far.
 pub(crate) struct Inlined<'a> {
     project: &'a Project,
     media: &'a MediaSet,
@@ -29,7 +29,7 @@ pub(crate) struct Inlined<'a> {
     mesh_keys: Vec<(MeshSource, Option<Normals>)>,
     pub meshes: Vec<MeshData>,
     pub warnings: Vec<Diagnostic>,
-    /// Bytes of all of it in the page.
+    /// Their total size in the page in bytes.
     pub bytes: usize,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Inlined<'a> {
         Self { project, media, media_dir, keys, list, mesh_keys, meshes, warnings: Vec::new(), bytes: 0 }
     }
 
-    /// Returns the index of what a channel reads; `None` where it is not there or no browser plays it. `place` names the
+    /// Returns the index of a channel's medium; `None` if it is missing or not playable in a browser. `place` names the
     /// channel for a warning.
     pub fn channel(&mut self, channel: &Channel, place: &str) -> Option<usize> {
         let kind = channel.input.kind();
@@ -108,8 +108,8 @@ impl<'a> Inlined<'a> {
         self.list.len() - 1
     }
 
-    /// Returns a photograph as its own file, which is smaller than its texels. One that is to be rotated, and one that was
-    /// made grey, is not left to the browser.
+    /// Returns a photograph as its original file, which is smaller than its texels. One that must be rotated, or was
+    /// converted to grey, is not left to the browser.
     fn jpeg(&self, name: &Media, texels: &Texels, flip: bool) -> Option<MediaData> {
         if texels.shape.format != TexelFormat::Rgba8 {
             return None;
@@ -135,7 +135,7 @@ impl<'a> Inlined<'a> {
         known: &[(&str, &'static str)],
         place: &str,
     ) -> Option<FileData> {
-        // Loading it has told why it cannot be read.
+        // Loading it has already reported why it cannot be read.
         let found = original(name, kind, self.project.origin.base_dir(), self.media_dir);
         let (bytes, path) = found.ok()?;
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -150,7 +150,7 @@ impl<'a> Inlined<'a> {
     }
 }
 
-/// Endings of sounds that browsers decode, and their types.
+/// File extensions of sounds that browsers decode, and their types.
 const MUSIC: [(&str, &str); 8] = [
     ("mp3", "audio/mpeg"),
     ("ogg", "audio/ogg"),
@@ -161,7 +161,7 @@ const MUSIC: [(&str, &str); 8] = [
     ("m4a", "audio/mp4"),
     ("aac", "audio/aac"),
 ];
-/// The same of videos.
+/// File extensions of videos that browsers decode, and their types.
 const VIDEOS: [(&str, &str); 4] =
     [("mp4", "video/mp4"), ("m4v", "video/mp4"), ("webm", "video/webm"), ("ogv", "video/ogg")];
 
@@ -176,7 +176,7 @@ fn texels_data(texels: &Texels, name: String) -> MediaData {
     MediaData::Texels { name, dim, format: shape.format.name(), w, h, d, data: packed(&texels.bytes) }
 }
 
-/// Returns the name of a file or texture, never the folders of this machine.
+/// Returns the name of a file or texture without its folders.
 fn shown(media: &Media) -> String {
     let last = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     match media {
@@ -186,7 +186,7 @@ fn shown(media: &Media) -> String {
     }
 }
 
-/// Returns bytes packed by zlib (RFC 1950), in base64.
+/// Returns bytes compressed by zlib (RFC 1950), in base64.
 fn packed(bytes: &[u8]) -> String {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let out = encoder.write_all(bytes).and_then(|()| encoder.finish());
