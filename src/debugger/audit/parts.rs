@@ -1,4 +1,4 @@
-//! Names of parts of variables, as the author writes them: `hit.n.y`, `m[1]`, `dist()`.
+//! Names of parts of variables, in GLSL syntax: `hit.n.y`, `m[1]`, `dist()`.
 
 use super::flow::Shown;
 use eddy_glsl::{
@@ -8,10 +8,10 @@ use eddy_glsl::{
 };
 use std::collections::BTreeSet;
 
-/// Parts that are listed of one variable.
+/// The limit of parts that are listed for one variable.
 const MOST: usize = 8;
 
-/// Returns the parts of a declaration that scalars make up: the largest that they fill.
+/// Returns the largest parts of a declaration that its shown scalars fill.
 pub fn names(walkable: &Walkable, shown: &Shown) -> String {
     let call = if shown.origin.kind == UnsetKind::Result { "()" } else { "" };
     let mut parts = Vec::new();

@@ -1,4 +1,4 @@
-//! Sets of undefined scalars, each made once, so that a cell of memory holds a number for its set.
+//! Interned sets of undefined scalars, so that a memory cell stores the number of its set.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use std::collections::HashMap;
 pub struct Set(u32);
 
 impl Set {
-    /// Nothing undefined.
+    /// The empty set.
     pub const EMPTY: Set = Set(0);
 
     pub fn is_empty(self) -> bool {
@@ -15,19 +15,19 @@ impl Set {
     }
 }
 
-/// One scalar of what a declaration leaves undefined.
+/// One scalar of a declaration that leaves it undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Scalar {
-    /// The declaration, by its number among those that were met.
+    /// The declaration, by its number in order of discovery.
     pub origin: u32,
     /// The scalar among those of its type, in memory order.
     pub cell: u32,
 }
 
-/// Scalars that a set has one by one; of one that would have more it keeps one for each declaration, so that what a set
-/// costs is bounded by the text.
+/// The limit of scalars that a set stores one by one; a larger set stores one for each declaration, so that the cost of
+/// a set is bounded by the text.
 const MOST_SCALARS: usize = 256;
-/// Sets that are made for a pixel; unions beyond that keep their first part.
+/// The limit of sets per pixel; unions beyond that keep only their first operand.
 const MOST_SETS: usize = 1 << 16;
 
 /// All sets of a walk.
