@@ -25,11 +25,11 @@ impl Splices {
             self.at += 1;
         }
         let missing = |count: usize| if count == 0 { 0 } else { self.list[count - 1].1 };
-        let mut behind = self.at;
-        while self.list.get(behind).is_some_and(|splice| splice.0 < end) {
-            behind += 1;
+        let mut end_at = self.at;
+        while self.list.get(end_at).is_some_and(|splice| splice.0 < end) {
+            end_at += 1;
         }
-        (start + missing(self.at), (end + missing(behind)).max(start + missing(self.at)))
+        (start + missing(self.at), (end + missing(end_at)).max(start + missing(self.at)))
     }
 }
 

@@ -6,12 +6,12 @@ use crate::{lex::Kind, preprocess::Tok};
 /// The partner of an unmatched bracket.
 pub(crate) const ALONE: u32 = u32::MAX;
 
-/// Stores in the value of each bracket from `begin` on the index of its partner, or [`ALONE`]. Incorrect text is paired
+/// Stores in the value of each bracket from `start` on the index of its partner, or [`ALONE`]. Incorrect text is paired
 /// the way its author most likely meant it: a closing brace closes everything still open inside it, a semicolon or an
 /// opening brace ends parentheses (except those of `for`, which contain semicolons).
-pub(crate) fn pair(tokens: &mut [Tok], begin: usize) {
+pub(crate) fn pair(tokens: &mut [Tok], start: usize) {
     let mut open = Open::default();
-    for i in begin..tokens.len() {
+    for i in start..tokens.len() {
         match tokens[i].kind {
             Kind::LParen | Kind::LBracket => open.push(tokens, i),
             Kind::LBrace => {
@@ -45,7 +45,7 @@ struct Open {
     counts: [usize; 3],
 }
 
-fn number(kind: Kind) -> usize {
+fn kind_index(kind: Kind) -> usize {
     match kind {
         Kind::LParen => 0,
         Kind::LBracket => 1,
@@ -56,7 +56,7 @@ fn number(kind: Kind) -> usize {
 impl Open {
     fn push(&mut self, tokens: &mut [Tok], i: usize) {
         tokens[i].value = ALONE;
-        self.counts[number(tokens[i].kind)] += 1;
+        self.counts[kind_index(tokens[i].kind)] += 1;
         self.list.push(i as u32);
     }
 
@@ -66,7 +66,7 @@ impl Open {
 
     fn pop(&mut self, tokens: &[Tok]) -> Option<usize> {
         let top = self.list.pop()? as usize;
-        self.counts[number(tokens[top].kind)] -= 1;
+        self.counts[kind_index(tokens[top].kind)] -= 1;
         Some(top)
     }
 
@@ -80,7 +80,7 @@ impl Open {
     /// search does not go beyond a brace: an opening brace has dropped those before it.
     fn close(&mut self, tokens: &mut [Tok], i: usize, wanted: Kind) {
         tokens[i].value = ALONE;
-        if self.counts[number(wanted)] == 0 {
+        if self.counts[kind_index(wanted)] == 0 {
             return;
         }
         while let Some(partner) = self.pop(tokens) {

@@ -32,7 +32,7 @@ impl Parser<'_> {
                     continue;
                 }
                 _ if self.begins_declaration() => self.attempt(|p| p.declaration(true)),
-                _ => Err(self.outside()),
+                _ => Err(self.report_outside()),
             };
             let item = match item {
                 Ok(item) => {
@@ -58,7 +58,7 @@ impl Parser<'_> {
     }
 
     /// Reports text at file scope that is not a declaration.
-    fn outside(&mut self) -> Failed {
+    fn report_outside(&mut self) -> Failed {
         let i = self.at;
         if std::mem::replace(&mut self.adrift, true) {
             return Failed;
@@ -242,7 +242,7 @@ impl Parser<'_> {
 
     /// Parses a type after its qualifiers. Qualifiers after the type, which C++ allows, are reported once and accepted.
     pub(super) fn qualified_type(&mut self, qualifiers: &mut List<Qualifier>) -> Parse<TypeSpecId> {
-        let begin = self.at;
+        let start = self.at;
         let ty = self.type_spec()?;
         if !self.kind().is_qualifier() {
             return Ok(ty);
@@ -254,12 +254,12 @@ impl Parser<'_> {
         // The checker also reports a wrong order.
         all.sort_by_key(|qualifier| qualifier.kind.rank());
         // The definition of a struct is not repeated in the fix.
-        let is_short = end - begin < 4;
+        let is_short = end - start < 4;
         let shown = self.text(first).to_owned();
         let name = if self.kind() == Kind::Ident { format!(" {}", self.text(self.at)) } else { String::new() };
-        let hint = match is_short && matches!(self.kind_at(begin), Kind::Type | Kind::Ident) {
+        let hint = match is_short && matches!(self.kind_at(start), Kind::Type | Kind::Ident) {
             true => {
-                format!("write `{} {}{name}`", self.written(first..self.at), self.written(begin..end + 1))
+                format!("write `{} {}{name}`", self.source_text(first..self.at), self.source_text(start..end + 1))
             }
             false => format!("write `{shown}` before the type"),
         };
@@ -269,7 +269,7 @@ impl Parser<'_> {
     }
 
     /// Returns tokens as the author wrote them, on one line.
-    fn written(&self, tokens: std::ops::Range<usize>) -> String {
+    fn source_text(&self, tokens: std::ops::Range<usize>) -> String {
         let mut out = String::new();
         for i in tokens.clone() {
             if i > tokens.start && !self.adjacent(i - 1) {
@@ -331,17 +331,17 @@ impl Parser<'_> {
                     Kind::LBrace if self.dialect.has_lists() => self.list_initializer(ty, dims),
                     _ => self.full_assignment(),
                 };
-                Some(read.unwrap_or_else(|Failed| self.lost_value(first)))
+                Some(read.unwrap_or_else(|Failed| self.error_value(first)))
             }
             Kind::LParen => {
                 let name = self.text(first - 1).to_owned();
                 let hint = format!("write `{name} = ..`, with a constructor for several values");
                 self.error(first, "GLSL gives a variable its value with `=`", Some(hint));
-                Some(self.lost_value(first))
+                Some(self.error_value(first))
             }
             Kind::LBrace => {
                 self.error(first, "GLSL gives a variable its value with `=`", None);
-                Some(self.lost_value(first))
+                Some(self.error_value(first))
             }
             _ => None,
         };
@@ -385,7 +385,7 @@ impl Parser<'_> {
     }
 
     /// Skips a value that could not be parsed.
-    fn lost_value(&mut self, first: usize) -> ExprId {
+    fn error_value(&mut self, first: usize) -> ExprId {
         self.skip_to_comma();
         self.error_expr(first)
     }

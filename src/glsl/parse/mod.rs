@@ -119,17 +119,17 @@ fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect, Cancel<'_>), done: Parsed) -
 fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Cancel<'_>), done: Parsed) -> Parsed {
     let Parsed { ast, origins, mut names, mut report, reader } = done;
     let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
-    let begin = tokens.len().saturating_sub(1);
+    let start = tokens.len().saturating_sub(1);
     let done =
         Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers, is_stopped: false };
     let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
         preprocess(pieces, (unit, dialect, cancel), done, &mut names, &mut report);
-    brackets::pair(&mut tokens, begin);
+    brackets::pair(&mut tokens, start);
     let end = tokens.len() - 1;
     structs.resize(names.len(), false);
     let mut parser = Parser {
         tokens,
-        at: begin,
+        at: start,
         ast,
         origins,
         names: &names,
@@ -150,11 +150,11 @@ fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Canc
         adrift: false,
         reported_too_deep: false,
     };
-    parser.ast.exprs.reserve((end - begin) / 2);
+    parser.ast.exprs.reserve((end - start) / 2);
     parser.file();
     if is_stopped {
         // Nothing is reported as missing.
-        let nothing = parser.loc(begin);
+        let nothing = parser.loc(start);
         let item = parser.ast.decl(DeclKind::Error, nothing);
         parser.ast.items.push(item);
     }

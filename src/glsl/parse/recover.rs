@@ -7,9 +7,9 @@ use eddy_diag::{Diagnostic, Span};
 impl Parser<'_> {
     /// Returns the token as the author wrote it, truncated if it is long.
     pub(super) fn quoted(&self, i: usize) -> String {
-        const MOST: usize = 60;
+        const MAX_QUOTED: usize = 60;
         let text = self.text(i);
-        match text.char_indices().nth(MOST) {
+        match text.char_indices().nth(MAX_QUOTED) {
             Some((end, _)) => format!("`{}...`", &text[..end]),
             None => format!("`{text}`"),
         }

@@ -21,12 +21,12 @@ impl Parser<'_> {
                     break;
                 }
                 Kind::Eof => {
-                    self.unclosed(open);
+                    self.report_unclosed(open);
                     break;
                 }
                 _ if self.begins_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
                     // A brace is missing above: the function is parsed at file scope.
-                    self.inside_function();
+                    self.report_nested_function();
                     break;
                 }
                 _ => {}
@@ -51,7 +51,7 @@ impl Parser<'_> {
     }
 
     /// Reports that the text ends inside a block.
-    fn unclosed(&mut self, open: usize) {
+    fn report_unclosed(&mut self, open: usize) {
         // Of several open braces the outermost is the one without a partner; the innermost message is reported.
         let (brace, label) = match self.body {
             Some((brace, name)) if self.partner(brace).is_none() => {
@@ -74,7 +74,7 @@ impl Parser<'_> {
             && self.partner(name + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::LBrace)
     }
 
-    fn inside_function(&mut self) {
+    fn report_nested_function(&mut self) {
         let Some((brace, name)) = self.body else { return };
         let here = self.at + 1;
         let outer = self.names.get(name.symbol);

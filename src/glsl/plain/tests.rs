@@ -3,7 +3,7 @@
 use crate::{ClipSpace, Compiled, Link, PassKind, PassSource, Reflection, compile, compile_linked};
 
 /// Compiles a shader, and checks that naga accepts the module and the WGSL written from it.
-fn made(source: &PassSource<'_>) -> (Compiled, String) {
+fn compile_checked(source: &PassSource<'_>) -> (Compiled, String) {
     linked(source, &Link::default())
 }
 
@@ -50,7 +50,7 @@ fn buffers(module: &naga::Module) -> Vec<String> {
 }
 
 fn fragment(text: &str) -> (Compiled, String) {
-    made(&PassSource::fragment(text))
+    compile_checked(&PassSource::fragment(text))
 }
 
 /// Returns the members of all buffers, as `name: type @ offset + size`.
@@ -71,7 +71,7 @@ fn errors(kind: PassKind, text: &str) -> Vec<(String, String)> {
 }
 
 #[track_caller]
-fn refused(text: &str, message: &str, at: &str) {
+fn assert_refused(text: &str, message: &str, at: &str) {
     let all = errors(PassKind::PlainFragment, text);
     assert!(all.iter().any(|(found, place)| found.contains(message) && place == at), "{text}\n{all:#?}");
 }
@@ -270,7 +270,7 @@ fn inputs_and_outputs_have_locations() {
             v_normal = frame[2];
             gl_Position = camera * vec4(position, 1.0);
         }";
-    let (first, text) = made(&PassSource::vertex(vertex));
+    let (first, text) = compile_checked(&PassSource::vertex(vertex));
     let shown = |all: &[crate::ShaderVariable]| {
         all.iter().map(|v| format!("{} {} {}{}", v.location, v.ty, v.name, if v.flat { " flat" } else { "" })).collect()
     };
@@ -310,7 +310,7 @@ fn clip_space_follows_the_option() {
     let with = |clip_space| {
         let mut source = PassSource::vertex(text);
         source.plain.clip_space = clip_space;
-        made(&source).1
+        compile_checked(&source).1
     };
     let (unchanged, depth, both) =
         (with(ClipSpace::UNCHANGED), with(ClipSpace::default()), with(ClipSpace::GL_TEXTURE));
@@ -328,7 +328,7 @@ fn given_value_is_a_constant() {
             "uniform float time; uniform float level; out vec4 c; void main() { c = vec4(level * time); }",
         )
     };
-    let (compiled, text) = made(&source);
+    let (compiled, text) = compile_checked(&source);
     assert_eq!(uniforms(&compiled.reflection), ["time: float @ 0 + 4"]);
     assert!(text.contains("0.25"), "{text}");
 }
@@ -355,7 +355,7 @@ fn tables_and_work_arounds_need_no_buffer() {
             loop_closing_exits: true,
             ..Default::default()
         };
-        let (compiled, text) = made(&source);
+        let (compiled, text) = compile_checked(&source);
         assert!(compiled.tables.is_empty() && compiled.uniform_tables.is_empty());
         assert_eq!(text.matches("@binding").count(), 1, "{text}");
     }
@@ -370,32 +370,36 @@ fn every_uniform_may_be_hidden_from_the_driver() {
         void main() { S copy = s; color = vec4(copy.w[1], all[n].turn[1], all[1].on && flag && flags.y ? 1.0 : copy.turn[0].x); }",
     );
     source.driver.opaque_uniforms = true;
-    made(&source);
+    compile_checked(&source);
 }
 
 #[test]
 fn unsupported_features_are_rejected() {
-    refused(
+    assert_refused(
         "uniform sampler2D all[2]; out vec4 c; void main() { c = texture(all[1], vec2(0)); }",
         "an array of samplers",
         "sampler2D",
     );
-    refused(
+    assert_refused(
         "precision highp isampler2D; uniform isampler2D s; out vec4 c; void main() { c = vec4(texture(s, vec2(0))); }",
         "WebGPU does not sample integers",
         "texture(s, vec2(0))",
     );
-    refused(
+    assert_refused(
         "layout(std140, row_major) uniform B { mat4 m; }; out vec4 c; void main() { c = m[0]; }",
         "row_major",
         "row_major",
     );
-    refused("uniform B { vec4 v; } b[2]; out vec4 c; void main() { c = b[1].v; }", "an array of uniform blocks", "[2]");
-    refused("out vec4 c; void main() { c = vec4(gl_PointCoord, 0, 1); }", "gl_PointCoord", "gl_PointCoord");
-    refused("out vec4 c[2]; void main() { c[0] = vec4(1); }", "the output `c` cannot be a `vec4[2]`", "c");
-    refused("out vec4 c; void main() { c = vec4(time); }", "`time` is not declared", "time");
-    refused("void main() { gl_FragColor = vec4(1); }", "`gl_FragColor` is not declared", "gl_FragColor");
-    refused("in vec4 at; out vec4 c; void mainImage(out vec4 o, vec2 p) { o = at; }", "main", "");
+    assert_refused(
+        "uniform B { vec4 v; } b[2]; out vec4 c; void main() { c = b[1].v; }",
+        "an array of uniform blocks",
+        "[2]",
+    );
+    assert_refused("out vec4 c; void main() { c = vec4(gl_PointCoord, 0, 1); }", "gl_PointCoord", "gl_PointCoord");
+    assert_refused("out vec4 c[2]; void main() { c[0] = vec4(1); }", "the output `c` cannot be a `vec4[2]`", "c");
+    assert_refused("out vec4 c; void main() { c = vec4(time); }", "`time` is not declared", "time");
+    assert_refused("void main() { gl_FragColor = vec4(1); }", "`gl_FragColor` is not declared", "gl_FragColor");
+    assert_refused("in vec4 at; out vec4 c; void mainImage(out vec4 o, vec2 p) { o = at; }", "main", "");
 }
 
 #[test]

@@ -97,8 +97,8 @@ impl Preprocessor<'_, '_> {
         let function_like = line.get(1).is_some_and(|t| t.kind == Kind::LParen && !t.has(SPACE));
         let first_param = self.table.params.len() as u32;
         if function_like {
-            let Some(behind) = self.parameters(&name, line) else { return };
-            at = behind;
+            let Some(next) = self.parameters(&name, line) else { return };
+            at = next;
         }
         let params = (first_param, self.table.params.len() as u32);
         let list = &line[at..];

@@ -106,7 +106,7 @@ impl Preprocessor<'_, '_> {
             ["100"] | [] => "this is GLSL ES 1.00; only GLSL ES 3.00 is supported".to_owned(),
             _ => format!("`#version {}` is not supported", words.join(" ")),
         };
-        let mend = match words[..] {
+        let fix = match words[..] {
             ["300", "es"] => "move it to the first line",
             ["100"] | [] => {
                 "write `#version 300 es`, `in` for attribute, `in` or `out` for varying, `texture` for texture2D, and \
@@ -114,7 +114,7 @@ impl Preprocessor<'_, '_> {
             }
             _ => "write `#version 300 es`, or delete the line: the language is always GLSL ES 3.00",
         };
-        self.error(name, message, Some(mend.into()));
+        self.error(name, message, Some(fix.into()));
     }
 
     /// Processes an extension. None is supported; a text that only enables one is compiled without it (section 3.4).
@@ -191,7 +191,7 @@ impl Preprocessor<'_, '_> {
             let found = self.lexer.skip_to_directive();
             let here = self.lexer.here();
             if !found {
-                self.leave_out(from.to(here));
+                self.record_skipped(from.to(here));
                 if self.next_piece() {
                     from = self.lexer.here();
                     continue;
@@ -206,7 +206,7 @@ impl Preprocessor<'_, '_> {
                 "endif" if depth > 0 => depth -= 1,
                 "elif" | "else" | "endif" if depth == 0 => {
                     // The `#` has been consumed.
-                    self.leave_out(Span { end: here.end.saturating_sub(1).max(from.start), ..from });
+                    self.record_skipped(Span { end: here.end.saturating_sub(1).max(from.start), ..from });
                     let line = self.line_tokens();
                     let compiled = self.next_group(&name, &line);
                     self.recycle(line);
@@ -222,7 +222,7 @@ impl Preprocessor<'_, '_> {
     }
 
     /// Records text that is not compiled.
-    fn leave_out(&mut self, span: Span) {
+    fn record_skipped(&mut self, span: Span) {
         if span.start < span.end {
             self.origins.inactive.push(span);
         }

@@ -105,7 +105,7 @@ impl Preprocessor<'_, '_> {
         }
         self.record_use(&token, id);
         let mut args = Arguments { tokens: self.spare.pop().unwrap_or_default(), bounds: Vec::new() };
-        let stands = match self.collect(&token, id, &mut args) {
+        let result = match self.collect(&token, id, &mut args) {
             Ok(close) => {
                 let expansion = self.new_expansion(&token, close, id);
                 self.open(id, &token, expansion, Some(&args));
@@ -116,7 +116,7 @@ impl Preprocessor<'_, '_> {
         };
         args.tokens.clear();
         self.spare.push(args.tokens);
-        stands
+        result
     }
 
     fn record_use(&mut self, token: &Token, id: MacroId) {

@@ -104,9 +104,9 @@ impl Preprocessor<'_, '_> {
 
 /// Returns the text between the quotes or angle brackets of a line.
 fn quoted(rest: &str) -> Option<&str> {
-    let begin = rest.find(['"', '\'', '<'])?;
-    let close = if rest[begin..].starts_with('<') { '>' } else { rest[begin..].chars().next()? };
-    let inner = &rest[begin + 1..];
+    let start = rest.find(['"', '\'', '<'])?;
+    let close = if rest[start..].starts_with('<') { '>' } else { rest[start..].chars().next()? };
+    let inner = &rest[start + 1..];
     Some(inner.split_once(close).map_or(inner, |(inner, _)| inner).trim())
 }
 
@@ -185,8 +185,8 @@ mod tests {
             ("lib/noise.glsl;", "in double quotes", "write #include \"lib/noise.glsl\""),
             ("FILE \"a\"", "one file in double quotes", "write #include \"noise.glsl\""),
         ] {
-            let (said, mend) = include_mistake(rest);
-            assert!(said.contains(message) && mend.contains(hint), "{rest}: {said}; {mend}");
+            let (said, fix) = include_mistake(rest);
+            assert!(said.contains(message) && fix.contains(hint), "{rest}: {said}; {fix}");
         }
     }
 }

@@ -47,7 +47,7 @@ impl Preprocessor<'_, '_> {
                 .hint(format!("delete `{word}`"))
                 .fix(Fix::new(format!("Delete `{word}`"), vec![edit])),
         );
-        self.leave_line(&name);
+        self.skip_line(&name);
         true
     }
 
@@ -59,7 +59,7 @@ impl Preprocessor<'_, '_> {
                 .hint("move it into a line of its own")
                 .fix(Fix::new(format!("Move `#{name}` into its own line"), vec![edit])),
         );
-        self.leave_line(&name);
+        self.skip_line(&name);
         true
     }
 
@@ -71,7 +71,7 @@ impl Preprocessor<'_, '_> {
     }
 
     /// Consumes the rest of a line without processing it.
-    fn leave_line(&mut self, name: &str) {
+    fn skip_line(&mut self, name: &str) {
         self.lexer.begin_directive();
         let line = self.line_tokens();
         let names = line.iter().filter(|t| t.kind == Kind::Ident).map(|t| Symbol(t.value));
@@ -89,8 +89,8 @@ impl Preprocessor<'_, '_> {
             return false;
         }
         let line = rest.lines().next().unwrap_or_default();
-        let behind = line[ticks..].trim();
-        let is_alone = !behind.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
+        let rest = line[ticks..].trim();
+        let is_alone = !rest.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
         let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
         let marks = span;
         if is_alone {

@@ -120,7 +120,7 @@ impl Analysis {
             let items = self.members_before(source, dot, at);
             return Completions { replace, items, is_member: true };
         }
-        if before.is_some_and(|i| self.gives_name(text, i, at)) {
+        if before.is_some_and(|i| self.declares_name(text, i, at)) {
             return none;
         }
         let begins = before.is_none_or(|i| matches!(text.kind(i), Token::Semicolon | Token::RBrace | Token::LBrace));
@@ -140,7 +140,7 @@ impl Analysis {
     }
 
     /// Returns whether the word after a token is a name being declared: `float x`, `Ray r`.
-    fn gives_name(&self, text: &Source, before: usize, at: Position) -> bool {
+    fn declares_name(&self, text: &Source, before: usize, at: Position) -> bool {
         match text.kind(before) {
             Token::Type | Token::Struct => true,
             Token::Ident => {
@@ -195,7 +195,7 @@ impl Analysis {
             }
         }
         self.add_functions(at, &mut seen, &mut items);
-        self.add_given(&seen, &mut items);
+        self.add_predefined(&seen, &mut items);
         items
     }
 
@@ -217,7 +217,7 @@ impl Analysis {
     }
 
     /// Adds the predefined names that are not hidden by a declaration of the author.
-    fn add_given(&self, seen: &HashSet<Symbol>, items: &mut Vec<Completion>) {
+    fn add_predefined(&self, seen: &HashSet<Symbol>, items: &mut Vec<Completion>) {
         let hidden = |name: &str| self.names.find(name).is_some_and(|symbol| seen.contains(&symbol));
         let mut add = |name: &str, kind, detail: String, doc: &str, order| {
             if !hidden(name) {

@@ -32,7 +32,7 @@ impl<'a> Infer<'a> {
         Self { a, text: &a.sources[source], at, depth: 0 }
     }
 
-    fn deeper(&self, source: usize) -> Option<Self> {
+    fn nested(&self, source: usize) -> Option<Self> {
         (self.depth < MAX_DEPTH).then(|| Self { text: &self.a.sources[source], depth: self.depth + 1, ..*self })
     }
 
@@ -93,7 +93,7 @@ impl<'a> Infer<'a> {
             }
             match text.kind(i) {
                 // Both values have the same type.
-                Kind::Question => return self.deeper(self.at_source())?.expression(i + 1..self.colon(i, range.end)?),
+                Kind::Question => return self.nested(self.at_source())?.expression(i + 1..self.colon(i, range.end)?),
                 Kind::Equal | Kind::PlusEqual | Kind::MinusEqual | Kind::StarEqual | Kind::SlashEqual => return result,
                 kind => op = Some(kind),
             }
@@ -124,7 +124,7 @@ impl<'a> Infer<'a> {
             Kind::True | Kind::False => (TypeId::BOOL, next),
             Kind::LParen => {
                 let close = text.partner(start)?;
-                (self.deeper(self.at_source())?.expression(next..close)?, close + 1)
+                (self.nested(self.at_source())?.expression(next..close)?, close + 1)
             }
             Kind::Type if called => (TypeId::basic(words::basic_type(token.value)), text.partner(next)? + 1),
             Kind::Ident if called => {
@@ -187,7 +187,7 @@ impl<'a> Infer<'a> {
         if !is_list {
             return None;
         }
-        self.deeper(source)?.expression(start..end)
+        self.nested(source)?.expression(start..end)
     }
 
     fn call(&self, name: usize, open: usize, close: usize) -> Option<TypeId> {
@@ -207,7 +207,7 @@ impl<'a> Infer<'a> {
 
     /// Returns the types of arguments; the error type if unknown.
     pub fn arguments(&self, open: usize, close: usize) -> Vec<TypeId> {
-        let Some(deeper) = self.deeper(self.at_source()) else { return Vec::new() };
+        let Some(deeper) = self.nested(self.at_source()) else { return Vec::new() };
         let ranges = arguments(self.text, open, close);
         ranges.into_iter().map(|range| deeper.expression(range).unwrap_or(TypeId::ERROR)).collect()
     }

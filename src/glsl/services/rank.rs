@@ -17,7 +17,7 @@ pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
     let inner = name.char_indices().skip(1).find(|&(i, _)| begins(&name[i..]));
     let first = typed.chars().next()?;
     if let Some((at, _)) = inner {
-        return Some(if is_hump(name, at) { 2 } else { 4 });
+        return Some(if starts_word(name, at) { 2 } else { 4 });
     }
     // In order, with gaps, starting at the first letter.
     let mut rest = name.chars();
@@ -27,7 +27,7 @@ pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
 }
 
 /// Returns whether a word of a name starts here: a capital after a small letter, or a letter after `_` or a digit.
-fn is_hump(name: &str, at: usize) -> bool {
+fn starts_word(name: &str, at: usize) -> bool {
     let before = name[..at].chars().next_back().unwrap_or(' ');
     let here = name[at..].chars().next().unwrap_or(' ');
     before == '_' || before.is_ascii_digit() || (before.is_lowercase() && here.is_uppercase())

@@ -127,9 +127,9 @@ impl Programs<'_> {
         let nothing = || "there is no name here".to_owned();
         let text = &self.texts.get(source).ok_or_else(nothing)?.text;
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let (before, behind) = (text.get(..at).ok_or_else(nothing)?, text.get(at..).ok_or_else(nothing)?);
+        let (before, after) = (text.get(..at).ok_or_else(nothing)?, text.get(at..).ok_or_else(nothing)?);
         let start = before.len() - before.chars().rev().take_while(|c| is_name(*c)).count();
-        let end = at + behind.chars().take_while(|c| is_name(*c)).count();
+        let end = at + after.chars().take_while(|c| is_name(*c)).count();
         let name = text[start..end].to_owned();
         if name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()) {
             return Err(nothing());

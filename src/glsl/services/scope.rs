@@ -36,11 +36,11 @@ impl Analysis {
     /// Returns the function whose header or body contains a position.
     pub(super) fn function_at(&self, at: Position) -> Option<FuncId> {
         let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
-        let begun = functions.filter_map(|(i, f)| {
+        let started = functions.filter_map(|(i, f)| {
             let start = self.position_of(f.header.first)?;
             (start.0 == at.0 && start.1 <= at.1).then_some((start.1, i))
         });
-        begun.max().map(|(_, i)| FuncId::new(i))
+        started.max().map(|(_, i)| FuncId::new(i))
     }
 
     /// Returns the locals and parameters that are visible at a position, outermost first; a later one hides an earlier

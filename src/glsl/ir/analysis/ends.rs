@@ -28,11 +28,11 @@ pub fn ends(globals: &[Global], f: &Function, body: &Block, continuing: &Block, 
     if tests.is_empty() {
         return false;
     }
-    let mut rounds = Rounds { globals, f, body, continuing, computed: FxHashSet::default(), calls: false };
-    rounds.gather(body);
-    rounds.gather(continuing);
+    let mut iterations = Iterations { globals, f, body, continuing, computed: FxHashSet::default(), calls: false };
+    iterations.gather(body);
+    iterations.gather(continuing);
     tests.iter().any(|&(op, left, right)| {
-        rounds.count_to(left, op, right) || mirrored(op).is_some_and(|op| rounds.count_to(right, op, left))
+        iterations.approaches(left, op, right) || mirrored(op).is_some_and(|op| iterations.approaches(right, op, left))
     })
 }
 
@@ -66,7 +66,7 @@ fn continues(stmt: &Stmt) -> bool {
 }
 
 /// The iterations of a loop.
-struct Rounds<'a> {
+struct Iterations<'a> {
     globals: &'a [Global],
     f: &'a Function,
     body: &'a Block,
@@ -77,7 +77,7 @@ struct Rounds<'a> {
     calls: bool,
 }
 
-impl Rounds<'_> {
+impl Iterations<'_> {
     fn gather(&mut self, block: &Block) {
         for stmt in block {
             if let Stmt::Let(value) = stmt {
@@ -89,11 +89,11 @@ impl Rounds<'_> {
     }
 
     /// Returns whether `counter`, while this comparison with `limit` is true, comes nearer to it in each iteration.
-    fn count_to(&self, counter: Value, op: Binary, limit: Value) -> bool {
+    fn approaches(&self, counter: Value, op: Binary, limit: Value) -> bool {
         if !matches!(self.f.ty(counter), TypeId::INT | TypeId::UINT) {
             return false;
         }
-        let Some(var) = self.loads(counter).or_else(|| self.stored_to(counter)) else { return false };
+        let Some(var) = self.loaded_from(counter).or_else(|| self.stored_to(counter)) else { return false };
         let Some(by) = self.step(var) else { return false };
         // Numbers wrap: if no number is beyond the limit, or the counter can step over it, the loop may never end.
         let (least, most) = match self.f.ty(counter) {
@@ -118,11 +118,11 @@ impl Rounds<'_> {
             Binary::NotEqual => by.abs() == 1,
             _ => false,
         };
-        counts && self.stays(limit)
+        counts && self.is_invariant(limit)
     }
 
     /// Returns the variable that a value of an iteration was loaded from.
-    fn loads(&self, value: Value) -> Option<VarId> {
+    fn loaded_from(&self, value: Value) -> Option<VarId> {
         let Op::Load { place } = self.f[value] else { return None };
         match self.f[place] {
             Op::Var(var) if self.computed.contains(&value) => Some(var),
@@ -159,9 +159,9 @@ impl Rounds<'_> {
             _ => None,
         };
         match op {
-            Binary::Add if self.loads(left) == Some(var) => number(right),
-            Binary::Add if self.loads(right) == Some(var) => number(left),
-            Binary::Subtract if self.loads(left) == Some(var) => Some(-number(right)?),
+            Binary::Add if self.loaded_from(left) == Some(var) => number(right),
+            Binary::Add if self.loaded_from(right) == Some(var) => number(left),
+            Binary::Subtract if self.loaded_from(left) == Some(var) => Some(-number(right)?),
             _ => None,
         }
     }
@@ -176,7 +176,7 @@ impl Rounds<'_> {
     }
 
     /// Returns whether a value is loop-invariant.
-    fn stays(&self, value: Value) -> bool {
+    fn is_invariant(&self, value: Value) -> bool {
         if !self.computed.contains(&value) {
             return true;
         }
@@ -190,15 +190,15 @@ impl Rounds<'_> {
                     Op::Param(_) => true,
                     _ => false,
                 };
-                self.writes(root) == 0 && !(is_shared && self.calls) && self.all_stay(&self.f[*place])
+                self.writes(root) == 0 && !(is_shared && self.calls) && self.are_operands_invariant(&self.f[*place])
             }
-            op => self.all_stay(op),
+            op => self.are_operands_invariant(op),
         }
     }
 
-    fn all_stay(&self, op: &Op) -> bool {
+    fn are_operands_invariant(&self, op: &Op) -> bool {
         let mut all = true;
-        op.operands(|operand| all &= self.stays(operand));
+        op.operands(|operand| all &= self.is_invariant(operand));
         all
     }
 }

@@ -30,7 +30,7 @@ fn none(program: &Module) -> Set {
     vec![false; program.globals.len()]
 }
 
-fn keep_common(set: &mut Set, other: &Set) {
+fn intersect(set: &mut Set, other: &Set) {
     set.iter_mut().zip(other).for_each(|(one, other)| *one &= other);
 }
 
@@ -53,7 +53,7 @@ struct Walk<'a> {
 impl Walk<'_> {
     fn leave(&mut self, written: &Set) {
         match &mut self.returned {
-            Some(returned) => keep_common(returned, written),
+            Some(returned) => intersect(returned, written),
             None => self.returned = Some(written.clone()),
         }
     }
@@ -98,7 +98,7 @@ impl Walk<'_> {
                     match (leaves(accept), leaves(reject)) {
                         (true, _) => *written = other,
                         (false, true) => {}
-                        (false, false) => keep_common(written, &other),
+                        (false, false) => intersect(written, &other),
                     }
                 }
                 // These blocks may not run, or may be left at any point.

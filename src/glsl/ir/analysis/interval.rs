@@ -166,7 +166,7 @@ impl Interval {
     pub fn function(self, fun: Math, other: Option<Interval>, scalar: Scalar) -> Interval {
         let x = self;
         if let (true, Some(y)) = (x.is_exact(), other.map_or(Some(0.0), |y| y.is_exact().then_some(y.least)))
-            && let Some(result) = of_numbers(fun, x.least, y)
+            && let Some(result) = std_function(fun, x.least, y)
         {
             return Interval::exact(result).as_type(scalar);
         }
@@ -209,7 +209,7 @@ impl Interval {
 }
 
 /// A function of numbers, where the standard library's has the same zeros.
-fn of_numbers(fun: Math, x: f64, y: f64) -> Option<f64> {
+fn std_function(fun: Math, x: f64, y: f64) -> Option<f64> {
     Some(match fun {
         Math::Abs => x.abs(),
         Math::Floor => x.floor(),

@@ -86,13 +86,13 @@ pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&
         } else if c.is_alphabetic() || c == '_' {
             let len = identifier_len(rest);
             let name = &rest[..len];
-            let mut behind = line[lexer.at + len..].chars().take(LOOK_AHEAD);
+            let mut following = line[lexer.at + len..].chars().take(LOOK_AHEAD);
             let class = if std::mem::take(&mut names_macro) || is_macro(name) {
                 Class::Macro
             } else {
                 match class_of_word(name) {
                     Some(class) => class,
-                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => Class::Function,
+                    None if following.find(|c| !c.is_whitespace()) == Some('(') => Class::Function,
                     None => Class::Unknown,
                 }
             };
