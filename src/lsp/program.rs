@@ -186,7 +186,7 @@ impl Program {
         self.media = Media::default();
         for (index, (path, text, kind)) in texts.into_iter().enumerate() {
             let id = self.texts.add(path.file_name().unwrap_or_default().to_string_lossy(), text.clone());
-            let analysis = Arc::new(alone(kind, id, &text, Cancel::by(cancel)));
+            let analysis = Arc::new(analyse_alone(kind, id, &text, Cancel::by(cancel)));
             self.stages.push(StageAnalysis { index, stage: Stage::Own, analysis });
             self.paths.push(path);
             self.plain.push(kind);
@@ -322,8 +322,9 @@ impl Program {
                         texts.add(text.name.clone(), fix.applied(id, &text.text));
                     }
                     let read = self.plain.iter().zip(texts.iter());
-                    let read: Vec<Analysis> =
-                        read.map(|(kind, (id, text))| alone(*kind, id, &text.text, Cancel::default())).collect();
+                    let read: Vec<Analysis> = read
+                        .map(|(kind, (id, text))| analyse_alone(*kind, id, &text.text, Cancel::default()))
+                        .collect();
                     let analyses: Vec<&Analysis> = read.iter().collect();
                     check(&Programs { analyses: &analyses, uniforms: &[], texts: &texts });
                 }
@@ -356,7 +357,7 @@ fn has_entry(text: &str) -> bool {
 }
 
 /// Analyses a text that belongs to no project.
-fn alone(kind: PassKind, id: SourceId, text: &str, cancel: Cancel<'_>) -> Analysis {
+fn analyse_alone(kind: PassKind, id: SourceId, text: &str, cancel: Cancel<'_>) -> Analysis {
     Analysis::new(&PassSource { cancel, ..PassSource::new(kind, Text { id, text }) })
 }
 
@@ -373,7 +374,7 @@ mod tests {
     use serde_json::json;
 
     /// Returns the errors and warnings of an ISF file that an editor has open.
-    fn said(text: &str) -> Vec<String> {
+    fn messages(text: &str) -> Vec<String> {
         let item = json!({"uri": "file:///nowhere/a.fs", "languageId": "glsl", "version": 1, "text": text});
         let mut documents = Documents::default();
         let path = documents.open(serde_json::from_value(item).expect("a document"));
@@ -390,15 +391,15 @@ mod tests {
             "#extension GL_OES_standard_derivatives : enable\nvoid main() { gl_FragColor = vec4(fwidth(gl_FragCoord.x)); }",
             "#version 120\nvoid main() { gl_FragColor = vec4(RENDERSIZE, DATE.xy); }",
         ] {
-            assert_eq!(said(&format!("{header}\n{text}")), [""; 0], "{text}");
+            assert_eq!(messages(&format!("{header}\n{text}")), [""; 0], "{text}");
         }
-        assert_eq!(said("/*{}*/\nvoid main() { gl_FragColor = vec4(1.0); }"), [""; 0]);
+        assert_eq!(messages("/*{}*/\nvoid main() { gl_FragColor = vec4(1.0); }"), [""; 0]);
     }
 
     #[test]
     fn malformed_header_is_one_message() {
         let text = r#"/*{"INPUTS": [{"NAME": "a", "TYPE": "float"}]*/ void main() { gl_FragColor = vec4(a); }"#;
-        assert_eq!(said(text).len(), 1);
+        assert_eq!(messages(text).len(), 1);
     }
 
     #[test]
@@ -413,7 +414,7 @@ mod tests {
             "struct S { float TIME; vec2 RENDERSIZE; };\n\
              void main() { S s; s.TIME = 0.5; s.RENDERSIZE = vec2(0.25); gl_FragColor = vec4(s.TIME, s.RENDERSIZE, 1.0); }",
         ] {
-            assert_eq!(said(&format!("/*{{\"CREDIT\": \"\"}}*/\n{text}")), [""; 0], "{text}");
+            assert_eq!(messages(&format!("/*{{\"CREDIT\": \"\"}}*/\n{text}")), [""; 0], "{text}");
         }
     }
 }

@@ -78,7 +78,7 @@ impl Server {
                 return Some(u8::from(self.life != ServerState::Ending));
             }
             Message::Notification(notification) => {
-                self.guarded(|server| server.notified(notification, out));
+                self.catch_panic(|server| server.notified(notification, out));
             }
             // The server's own requests need no response.
             Message::Response(_) => {}
@@ -93,7 +93,7 @@ impl Server {
             return false;
         }
         let mut did = false;
-        self.guarded(|server| did = server.idle_work(out));
+        self.catch_panic(|server| did = server.idle_work(out));
         did
     }
 
@@ -149,7 +149,7 @@ impl Server {
     }
 
     /// Runs work that must not end the server, even by a panic.
-    fn guarded(&mut self, work: impl FnOnce(&mut Self)) -> bool {
+    fn catch_panic(&mut self, work: impl FnOnce(&mut Self)) -> bool {
         let done = catch_unwind(AssertUnwindSafe(|| work(self)));
         if done.is_err() {
             log::error!("a message could not be handled; the documents are read again");
@@ -180,7 +180,7 @@ impl Server {
             (ServerState::Running, _) => {
                 let setting = (self.encoding, self.abilities);
                 let mut answer = None;
-                let is_done = self.guarded(|server| {
+                let is_done = self.catch_panic(|server| {
                     answer = requests::request(&mut server.workspace, setting, &method, params);
                 });
                 match answer {

@@ -116,7 +116,7 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
     loop {
         let mut line = Vec::new();
         // A header is short: a stream of another protocol must not fill the memory.
-        if input.by_ref().take(LONGEST_HEADER).read_until(b'\n', &mut line)? == 0 {
+        if input.by_ref().take(MAX_HEADER_BYTES).read_until(b'\n', &mut line)? == 0 {
             return Ok(None);
         }
         let line = String::from_utf8_lossy(&line);
@@ -145,7 +145,7 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
 }
 
 /// The limit of a header line in bytes.
-const LONGEST_HEADER: u64 = 4096;
+const MAX_HEADER_BYTES: u64 = 4096;
 
 fn write_all(output: &mut impl Write, out: &mut Vec<Message>) -> io::Result<()> {
     if out.is_empty() {

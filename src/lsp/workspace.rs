@@ -121,7 +121,7 @@ impl Workspace {
                     // If the thread cannot be started, the program is read here.
                     Err(_) => program.read(&self.documents, &Arc::default()),
                 }
-            } else if !self.begin_lost() {
+            } else if !self.add_missing_program() {
                 return true;
             }
         }
@@ -144,7 +144,7 @@ impl Workspace {
             for program in self.programs.iter_mut().filter(|program| program.is_stale) {
                 program.read(&self.documents, &Arc::default());
             }
-            if !self.begin_lost() {
+            if !self.add_missing_program() {
                 break;
             }
         }
@@ -152,7 +152,7 @@ impl Workspace {
 
     /// Adds a program for a document without one: a file may have left its project. Returns whether there was such a
     /// document.
-    fn begin_lost(&mut self) -> bool {
+    fn add_missing_program(&mut self) -> bool {
         let lost = self.documents.iter().find(|document| self.owner(&document.path).is_none());
         let Some(path) = lost.map(|document| document.path.clone()) else { return false };
         let root = match root_of(&path, self.documents.texts()) {
