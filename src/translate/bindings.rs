@@ -177,7 +177,7 @@ pub(crate) fn info(
         // To a program, a table is a single value.
         TypeInner::Struct { members, .. } if matches!(kind, BindingKind::Uniforms | BindingKind::Geometry) => members
             .iter()
-            .filter_map(|m| Some(Member { name: m.name.clone()?, ty: spelled(types, m.ty)?, offset: m.offset }))
+            .filter_map(|m| Some(Member { name: m.name.clone()?, ty: type_text(types, m.ty)?, offset: m.offset }))
             .collect(),
         _ => Vec::new(),
     };
@@ -199,7 +199,7 @@ pub(crate) fn info(
 }
 
 /// Returns the GLSL spelling of a numeric type.
-fn spelled(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> {
+fn type_text(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> {
     let prefix = |kind| match kind {
         ScalarKind::Sint => "i",
         ScalarKind::Uint => "u",
@@ -214,7 +214,7 @@ fn spelled(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> 
         TypeInner::Vector { size, scalar } => format!("{}vec{}", prefix(scalar.kind), *size as u8),
         TypeInner::Matrix { columns, rows, .. } if columns == rows => format!("mat{}", *columns as u8),
         TypeInner::Matrix { columns, rows, .. } => format!("mat{}x{}", *columns as u8, *rows as u8),
-        TypeInner::Array { base, size: ArraySize::Constant(len), .. } => format!("{}[{len}]", spelled(types, *base)?),
+        TypeInner::Array { base, size: ArraySize::Constant(len), .. } => format!("{}[{len}]", type_text(types, *base)?),
         _ => return None,
     })
 }

@@ -53,7 +53,7 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
             Ok(mut compiled) => {
                 diag::append(&mut found, compiled.diagnostics.drain(..));
                 to.facts.push(compiled.facts());
-                to.project.passes.push(if pass.id.is_picture() { pass.clone() } else { heard(pass) });
+                to.project.passes.push(if pass.id.is_picture() { pass.clone() } else { with_sound_channels(pass) });
                 to.passes.push((index, compiled, kept));
             }
             Err(errors) => diag::append(&mut found, errors),
@@ -114,7 +114,7 @@ impl Compilation {
 }
 
 /// Returns the sound pass with only the channels that it can read.
-fn heard(pass: &Pass) -> Pass {
+fn with_sound_channels(pass: &Pass) -> Pass {
     let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
     Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
 }

@@ -76,7 +76,7 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
                 version: version.of_naga(),
                 // Restores OpenGL's y and depth.
                 writer_flags: glsl::WriterFlags::ADJUST_COORDINATE_SPACE,
-                binding_map: bound(&module).map(|b| (b, bindings::slot(b) as u8)).collect(),
+                binding_map: bound_resources(&module).map(|b| (b, bindings::slot(b) as u8)).collect(),
                 ..Default::default()
             };
             let pipeline = glsl::PipelineOptions { shader_stage: stage, entry_point: name, multiview: None };
@@ -101,7 +101,7 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
     Ok(Written { bytes, entry_point, module, glsl_names })
 }
 
-fn bound(module: &Module) -> impl Iterator<Item = ResourceBinding> {
+fn bound_resources(module: &Module) -> impl Iterator<Item = ResourceBinding> {
     module.global_variables.iter().filter_map(|(_, variable)| variable.binding)
 }
 
@@ -115,7 +115,7 @@ fn hlsl_text(module: &Module, info: &ModuleInfo, next: Option<&Module>) -> Resul
     let target = |binding| hlsl::BindTarget { space: 0, register: bindings::slot(binding), ..Default::default() };
     let options = hlsl::Options {
         shader_model: hlsl::ShaderModel::V5_1,
-        binding_map: bound(module).map(|binding| (binding, target(binding))).collect(),
+        binding_map: bound_resources(module).map(|binding| (binding, target(binding))).collect(),
         fake_missing_bindings: true,
         restrict_indexing: false,
         force_loop_bounding: false,
@@ -167,7 +167,7 @@ fn spirv_words(module: &Module, info: &ModuleInfo, stage: ShaderStage, entry: St
         lang_version: (1, 3),
         // Negates y, because Vulkan's clip space has it downwards.
         flags: spv::WriterFlags::ADJUST_COORDINATE_SPACE | spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::DEBUG,
-        binding_map: bound(module).map(|b| (b, place(b))).collect(),
+        binding_map: bound_resources(module).map(|b| (b, place(b))).collect(),
         bounds_check_policies: policies(Language::Spirv),
         force_loop_bounding: false,
         emit_int_div_checks: false,

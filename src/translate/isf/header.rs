@@ -6,7 +6,7 @@ use eddy_project::{CustomUniform, CustomUniformType, PassId, PassSize, Project, 
 use serde_json::{Map, Value, json};
 
 /// The limit of values for an `int` slider to become a menu.
-const MOST_VALUES: i64 = 256;
+const MAX_MENU_VALUES: i64 = 256;
 
 /// Returns the object as text.
 pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, reads_mouse: bool) -> String {
@@ -117,7 +117,7 @@ fn inputs(uniform: &CustomUniform, project: &Project) -> Vec<Value> {
             if let Some((min, max)) = range(0).map(|(min, max)| (min as i64, max as i64)) {
                 of.insert("MIN".into(), json!(min));
                 of.insert("MAX".into(), json!(max));
-                if (1..MOST_VALUES).contains(&max.saturating_sub(min)) {
+                if (1..MAX_MENU_VALUES).contains(&max.saturating_sub(min)) {
                     of.insert("VALUES".into(), (min..=max).collect());
                     of.insert("LABELS".into(), (min..=max).map(|n| n.to_string()).collect());
                 }

@@ -89,20 +89,20 @@ impl<'t> Reads<'t> {
 
     /// Returns the arguments of the brackets that open at a position, without separators, and the position after them.
     fn arguments(&self, open: usize) -> Option<(Vec<Range<usize>>, usize)> {
-        let (mut depth, mut begin, mut parts) = (0, open + 1, Vec::new());
+        let (mut depth, mut start, mut parts) = (0, open + 1, Vec::new());
         for at in open..self.code.len() {
             match self.code[at] {
                 b'(' | b'[' | b'{' => depth += 1,
                 b')' | b']' | b'}' => {
                     depth -= 1;
                     if depth == 0 {
-                        parts.push(begin..at);
+                        parts.push(start..at);
                         return Some((parts, at + 1));
                     }
                 }
                 b',' if depth == 1 => {
-                    parts.push(begin..at);
-                    begin = at + 1;
+                    parts.push(start..at);
+                    start = at + 1;
                 }
                 _ => {}
             }

@@ -83,7 +83,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
             let _ = writeln!(texts, "#define {name} {prefix}{name}");
         }
         let _ = writeln!(texts, "{}", body.trim());
-        let macros = if passes.len() > 1 { defined(&text) } else { Vec::new() };
+        let macros = if passes.len() > 1 { defined_macros(&text) } else { Vec::new() };
         for name in names.iter().chain(&macros) {
             let _ = writeln!(texts, "#undef {name}");
         }
@@ -131,7 +131,7 @@ fn is_swizzle(name: &str) -> bool {
 }
 
 /// Returns the names of the macros that a text defines, each once.
-fn defined(text: &str) -> Vec<String> {
+fn defined_macros(text: &str) -> Vec<String> {
     let code = String::from_utf8(without_comments(text)).unwrap_or_default();
     let mut names: Vec<String> = Vec::new();
     for line in code.lines() {
