@@ -60,7 +60,7 @@ impl<'a> Inlined<'a> {
                     InputKind::Texture => self.jpeg(&name, texels, vflip),
                     _ => None,
                 }
-                .unwrap_or_else(|| texels_data(texels, shown(&name)))
+                .unwrap_or_else(|| texels_data(texels, display_name(&name)))
             }
             (Key::File(..), InputKind::Music) => {
                 self.media.sound(&name)?;
@@ -77,7 +77,7 @@ impl<'a> Inlined<'a> {
         if let Some(at) = self.keys.iter().position(|known| *known == key) {
             return Some(at);
         }
-        let made = texels_data(self.media.fill(path)?, shown(&Media::File(path.to_owned())));
+        let made = texels_data(self.media.fill(path)?, display_name(&Media::File(path.to_owned())));
         Some(self.add(key, made))
     }
 
@@ -119,7 +119,7 @@ impl<'a> Inlined<'a> {
         let is_jpeg = bytes.starts_with(&[0xff, 0xd8, 0xff]) && !has_exif;
         is_jpeg.then(|| {
             MediaData::Picture(FileData {
-                name: shown(name),
+                name: display_name(name),
                 mime: "image/jpeg",
                 flip,
                 data: BASE64_STANDARD.encode(&bytes),
@@ -141,12 +141,12 @@ impl<'a> Inlined<'a> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some((_, mime)) = known.iter().find(|(one, _)| *one == ending) else {
             let list: Vec<&str> = known.iter().map(|(one, _)| *one).collect();
-            let message = format!("browsers do not play {}; the page shows the channel without it", shown(name));
+            let message = format!("browsers do not play {}; the page shows the channel without it", display_name(name));
             let warning = Diagnostic::warning(None, format!("{place}: {message}"));
             self.warnings.push(warning.hint(format!("convert it to one of: {}", list.join(", "))));
             return None;
         };
-        Some(FileData { name: shown(name), mime, flip, data: BASE64_STANDARD.encode(&bytes) })
+        Some(FileData { name: display_name(name), mime, flip, data: BASE64_STANDARD.encode(&bytes) })
     }
 }
 
@@ -177,7 +177,7 @@ fn texels_data(texels: &Texels, name: String) -> MediaData {
 }
 
 /// Returns the name of a file or texture without its folders.
-fn shown(media: &Media) -> String {
+fn display_name(media: &Media) -> String {
     let last = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     match media {
         Media::Builtin(name) => name.clone(),

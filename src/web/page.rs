@@ -27,7 +27,7 @@ pub(crate) fn page(project: &Project, data: &ProjectData) -> String {
         "" => String::new(),
         content => format!("<meta name=\"{name}\" content=\"{}\">\n", escaped(content)),
     };
-    filled(&[
+    substituted(&[
         ("policy", &policy(&script, style)),
         ("generator", &format!("Eddy {}", env!("CARGO_PKG_VERSION"))),
         ("meta", &(named("author", author) + &named("description", about))),
@@ -39,7 +39,7 @@ pub(crate) fn page(project: &Project, data: &ProjectData) -> String {
 }
 
 /// Returns the page with a text in place of each `{name}`; inserted texts are not searched again.
-fn filled(values: &[(&str, &str)]) -> String {
+fn substituted(values: &[(&str, &str)]) -> String {
     let mut out = String::new();
     let mut rest = PAGE;
     while let Some(at) = rest.find('{') {

@@ -21,9 +21,9 @@ fn exported(project: &Project) -> Page {
 
 /// Returns the description in a page.
 fn description(html: &str) -> serde_json::Value {
-    let begin = html.find("id=\"project\">").unwrap() + "id=\"project\">".len();
-    let end = begin + html[begin..].find("</script>").unwrap();
-    serde_json::from_str(&html[begin..end]).unwrap()
+    let start = html.find("id=\"project\">").unwrap() + "id=\"project\">".len();
+    let end = start + html[start..].find("</script>").unwrap();
+    serde_json::from_str(&html[start..end]).unwrap()
 }
 
 #[test]
