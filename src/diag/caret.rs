@@ -42,7 +42,7 @@ const WIDTH: usize = 160;
 
 /// Bytes before and after a place that are searched for them. Characters have at most four, and a line of megabytes
 /// must not be scanned for each message.
-const MOST_BYTES: usize = 4 * WIDTH;
+const MAX_BYTES: usize = 4 * WIDTH;
 
 fn excerpt(
     out: &mut String,
@@ -61,7 +61,7 @@ fn excerpt(
     let before = width(&line[..start]);
     let length = source.text.get(span.range()).map_or(1, |s| {
         let s = s.split('\n').next().unwrap_or("").trim_end_matches('\r');
-        width(&s[..s.floor_char_boundary(MOST_BYTES)])
+        width(&s[..s.floor_char_boundary(MAX_BYTES)])
     });
     let marks = mark.to_string().repeat(length.max(1));
     let line = shown(line);
@@ -92,8 +92,8 @@ fn shown(text: &str) -> String {
 /// Returns the line that contains a place, or the part of a long line around it, and the place within that.
 fn line_around(text: &str, place: usize) -> (&str, usize) {
     let place = text.floor_char_boundary(place);
-    let least = text.ceil_char_boundary(place.saturating_sub(MOST_BYTES));
-    let most = text.floor_char_boundary(place.saturating_add(MOST_BYTES));
+    let least = text.ceil_char_boundary(place.saturating_sub(MAX_BYTES));
+    let most = text.floor_char_boundary(place.saturating_add(MAX_BYTES));
     let start = text[least..place].rfind('\n').map_or(least, |at| least + at + 1);
     let end = text[place..most].find('\n').map_or(most, |at| place + at);
     (text[start..end].trim_end_matches('\r'), (place - start).min(text[start..end].trim_end_matches('\r').len()))
