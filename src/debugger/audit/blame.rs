@@ -11,11 +11,11 @@ use eddy_glsl::{
 };
 
 /// Errors of a pixel's value that are ignored, relative to a value of 1: a few roundings.
-const NOTHING: f64 = 1e-5;
+const MIN_ERROR: f64 = 1e-5;
 /// The number of operations that are tried.
-const SUSPECTS: usize = 8;
+const MAX_SUSPECTS: usize = 8;
 /// The largest part of an error that may remain when the operation that causes it is exact.
-const MOST: f64 = 0.5;
+const MAX_REMAINING_SHARE: f64 = 0.5;
 
 /// Makes an operation exact: its single-precision result is the rounded double-precision one.
 struct ExactOperation {
@@ -44,14 +44,14 @@ pub fn find(
 ) -> Result<Option<Blame>, TraceError> {
     let error = error_of(drawn);
     let size = drawn.iter().map(|x| x.double.abs()).filter(|x| x.is_finite()).fold(1.0, f64::max);
-    if error < NOTHING * size {
+    if error < MIN_ERROR * size {
         return Ok(None);
     }
     let mut best: Option<Blame> = None;
-    for cause in watch.root_causes().into_iter().take(SUSPECTS) {
+    for cause in watch.root_causes().into_iter().take(MAX_SUSPECTS) {
         let drawn = walk(&mut ExactOperation { function: cause.function, value: cause.value })?;
         let left = error_of(&drawn);
-        if left <= MOST * error && best.as_ref().is_none_or(|best| left < best.left) {
+        if left <= MAX_REMAINING_SHARE * error && best.as_ref().is_none_or(|best| left < best.left) {
             best = Some(Blame { cause: cause.clone(), error, left });
         }
     }

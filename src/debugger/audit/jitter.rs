@@ -15,7 +15,7 @@ use eddy_glsl::{
 
 /// The error in ULPs that Vulkan allows for an arc tangent ("Precision and Operation of SPIR-V Instructions"), by which
 /// it defines the arc sine and cosine; drivers make use of it.
-const ARC: i32 = 4096;
+const ARC_TANGENT_ULPS: i32 = 4096;
 
 /// Randomly changes the last bit of each rounded result.
 struct Jitter<'m> {
@@ -25,7 +25,7 @@ struct Jitter<'m> {
 
 impl Jitter<'_> {
     /// Returns -1, 0 or 1, by `SplitMix64`.
-    fn step(&mut self) -> i32 {
+    fn random_step(&mut self) -> i32 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let x = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -36,7 +36,7 @@ impl Jitter<'_> {
 impl Observer<Shadowed> for Jitter<'_> {
     fn correct(&mut self, function: FuncId, value: Value, cells: &mut [Cell<Shadowed>]) {
         let by = match self.program[function][value] {
-            Op::Math { fun: Math::Asin | Math::Acos | Math::Atan | Math::Atan2, .. } => ARC,
+            Op::Math { fun: Math::Asin | Math::Acos | Math::Atan | Math::Atan2, .. } => ARC_TANGENT_ULPS,
             _ => 1,
         };
         for cell in cells {
@@ -45,7 +45,7 @@ impl Observer<Shadowed> for Jitter<'_> {
                 && f64::from(x.single) != x.double
             {
                 // A value without rounding, for example a whole number, is the same on every device.
-                x.single = f32::from_bits(x.single.to_bits().wrapping_add_signed(by * self.step()));
+                x.single = f32::from_bits(x.single.to_bits().wrapping_add_signed(by * self.random_step()));
             }
         }
     }

@@ -66,8 +66,8 @@ pub fn cells(
 ) -> Vec<([f32; 2], [f32; 2])> {
     let Some(own) = own_texels(settings, (width, height)) else { return Vec::new() };
     let at = |x: u32, y: u32| {
-        let part = |begin: u32, count: u32, i: u32, n: u32, whole: u32| {
-            (begin as f32 + count as f32 * i as f32 / n as f32) / whole as f32
+        let part = |start: u32, count: u32, i: u32, n: u32, whole: u32| {
+            (start as f32 + count as f32 * i as f32 / n as f32) / whole as f32
         };
         [part(own.x, own.width, x, columns, width), part(own.y, own.height, y, rows, height)]
     };

@@ -19,9 +19,9 @@ use std::collections::HashMap;
 /// Half the spacing of single-precision numbers, relative to them.
 const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 /// The factor by which an operation must increase the relative error of its operands to be the cause.
-const GROWTH: f64 = 16.0;
+const MIN_GROWTH: f64 = 16.0;
 /// A sum is a cancellation if it is smaller than its operands by this factor.
-const CANCELLED: f64 = 1.0 / 16.0;
+const CANCELLATION: f64 = 1.0 / 16.0;
 /// The angle at which the spacing of single-precision numbers is a thousandth of a turn.
 const LARGE_ANGLE: f32 = 1e4;
 
@@ -178,19 +178,19 @@ impl Observer<Shadowed> for Watch<'_> {
         }
         let own = match op {
             Op::Binary { op, left, right } if op.is_comparison() => {
-                if decides_otherwise(view, *op, *left, *right) {
+                if comparison_differs(view, *op, *left, *right) {
                     let span = self.span(loc);
                     self.find(Kind::Decided, span, shown(view, &[*left, *right]));
                 }
                 return;
             }
-            Op::Binary { op, left, right } => birth_of_binary(view, *op, *left, *right, value),
-            Op::Math { fun, arg, .. } => birth_of_math(view, *fun, *arg),
+            Op::Binary { op, left, right } => cause_of_binary(view, *op, *left, *right, value),
+            Op::Math { fun, arg, .. } => cause_of_math(view, *fun, *arg),
             _ => return,
         };
         let operands: Vec<Value> = operands(op).into_iter().filter(|&operand| !view.is_place(operand)).collect();
-        let error = relative(view.value(value));
-        let before = operands.iter().map(|&operand| relative(view.value(operand))).fold(0.0, f64::max);
+        let error = relative_error(view.value(value));
+        let before = operands.iter().map(|&operand| relative_error(view.value(operand))).fold(0.0, f64::max);
         let is_finite =
             |value: Value| view.value(value).iter().all(|c| !matches!(c, Cell::Float(x) if !x.single.is_finite()));
         if !is_finite(value) && operands.iter().all(|&operand| is_finite(operand)) {
@@ -199,7 +199,7 @@ impl Observer<Shadowed> for Watch<'_> {
             let what = if is_nan { "first NaN here" } else { "first infinity here" };
             self.find(Kind::Nonfinite(what), span, shown(view, &operands));
         }
-        if error < GROWTH * ROUNDING || error < GROWTH * before.max(ROUNDING) {
+        if error < MIN_GROWTH * ROUNDING || error < MIN_GROWTH * before.max(ROUNDING) {
             return;
         }
         let key = (view.function_id(), value);
@@ -217,11 +217,11 @@ fn operands(op: &Op) -> Vec<Value> {
     all
 }
 
-fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value, value: Value) -> &'static str {
+fn cause_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value, value: Value) -> &'static str {
     let size = |value: Value| view.value(value).iter().map(|c| c.float().single.abs()).fold(0.0, f32::max);
     match op {
         Binary::Add | Binary::Subtract
-            if f64::from(size(value)) < CANCELLED * f64::from(size(left).max(size(right))) =>
+            if f64::from(size(value)) < CANCELLATION * f64::from(size(left).max(size(right))) =>
         {
             "cancellation: subtracting nearly equal numbers leaves mostly rounding error"
         }
@@ -230,7 +230,7 @@ fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right
     }
 }
 
-fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'static str {
+fn cause_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'static str {
     let is_large = view.value(arg).iter().any(|c| matches!(c, Cell::Float(x) if x.single.abs() >= LARGE_ANGLE));
     match fun {
         Math::Sin | Math::Cos | Math::Tan if is_large => {
@@ -245,7 +245,7 @@ fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'stat
 }
 
 /// Returns the largest relative error of a component.
-fn relative(cells: &[Cell<Shadowed>]) -> f64 {
+fn relative_error(cells: &[Cell<Shadowed>]) -> f64 {
     let one = |cell: &Cell<Shadowed>| match *cell {
         Cell::Float(x) => {
             let size = x.double.abs().max(f64::from(x.single).abs());
@@ -260,7 +260,7 @@ fn relative(cells: &[Cell<Shadowed>]) -> f64 {
     cells.iter().map(one).fold(0.0, f64::max)
 }
 
-fn decides_otherwise(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value) -> bool {
+fn comparison_differs(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value) -> bool {
     let (a, b) = (view.value(left), view.value(right));
     let outcome = |order: Option<std::cmp::Ordering>| match op {
         Binary::Equal => order.is_some_and(|o| o.is_eq()),

@@ -54,10 +54,10 @@ pub fn search<E>(
     };
     let mut end = of;
     if of > most {
-        let mut begin = 0;
-        while begin < end && count < most {
-            let middle = begin + (end - begin) / 2;
-            if parts(middle, &mut count, &mut compared)? { end = middle } else { begin = middle + 1 }
+        let mut start = 0;
+        while start < end && count < most {
+            let middle = start + (end - start) / 2;
+            if parts(middle, &mut count, &mut compared)? { end = middle } else { start = middle + 1 }
         }
     }
     for at in 0..end {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     /// Returns the visit that is reported, and how many were compared, where those with `is_off` differ.
-    fn named(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
+    fn reported(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
         let draw = |assignment: &Assignment| {
             let visit = assignment.probe.visit;
             Ok::<_, Infallible>(Some([visit as f32 + if is_off(visit) { 0.5 } else { 0.0 }, 0.0, 0.0, 1.0]))
@@ -163,17 +163,17 @@ mod tests {
 
     #[test]
     fn few_assignments_are_compared_in_order() {
-        assert_eq!(named(10, 32, |_| false), (None, 10));
-        assert_eq!(named(10, 32, |visit| visit == 3 || visit > 6), (Some(3), 4));
+        assert_eq!(reported(10, 32, |_| false), (None, 10));
+        assert_eq!(reported(10, 32, |visit| visit == 3 || visit > 6), (Some(3), 4));
     }
 
     #[test]
     fn many_assignments_are_bisected() {
-        let (first, compared) = named(10_000, 32, |visit| visit >= 7_123);
+        let (first, compared) = reported(10_000, 32, |visit| visit >= 7_123);
         assert_eq!((first, compared), (Some(7_123), 32));
         // One that vanishes again is found if it is early.
-        assert_eq!(named(10_000, 32, |visit| visit == 4 || visit >= 7_123).0, Some(4));
-        assert_eq!(named(10_000, 32, |_| false), (None, 32));
+        assert_eq!(reported(10_000, 32, |visit| visit == 4 || visit >= 7_123).0, Some(4));
+        assert_eq!(reported(10_000, 32, |_| false), (None, 32));
     }
 
     #[test]

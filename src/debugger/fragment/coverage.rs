@@ -34,7 +34,7 @@ pub struct Coverage {
 impl Coverage {
     /// Returns `None` for a triangle without area, which covers nothing.
     pub fn new([a, b, c]: [Subpixel; 3]) -> Option<Self> {
-        match side(a, b, c) {
+        match doubled_area(a, b, c) {
             0 => None,
             area if area > 0 => Some(Self { corners: [a, b, c], is_front: true }),
             _ => Some(Self { corners: [a, c, b], is_front: false }),
@@ -52,7 +52,7 @@ impl Coverage {
             return false;
         }
         let [a, b, c] = self.corners;
-        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| match side(from, to, centre) {
+        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| match doubled_area(from, to, centre) {
             // The triangle is to the right of an edge that goes down, and above one that goes right.
             0 => to[1] < from[1] || (to[1] == from[1] && to[0] > from[0]),
             side => side > 0,
@@ -61,7 +61,7 @@ impl Coverage {
 }
 
 /// Returns twice the area of a triangle: positive if its corners are counter-clockwise.
-fn side(a: Subpixel, b: Subpixel, c: Subpixel) -> i64 {
+fn doubled_area(a: Subpixel, b: Subpixel, c: Subpixel) -> i64 {
     let along = |from: Subpixel, to: Subpixel, axis: usize| i64::from(to[axis]) - i64::from(from[axis]);
     along(a, b, 0) * along(a, c, 1) - along(a, b, 1) * along(a, c, 0)
 }

@@ -11,7 +11,7 @@ use eddy_media::mesh::Vertex;
 use std::thread;
 
 /// The minimum number of vertices per thread.
-const A_THREAD: usize = 1024;
+const MIN_VERTICES_PER_THREAD: usize = 1024;
 
 /// The vertex stage of a draw, and its inputs.
 pub struct VertexStage<'p> {
@@ -39,11 +39,12 @@ impl<'p> VertexStage<'p> {
     /// Returns the clip-space positions of all vertices of the mesh, computed on all processors.
     pub fn positions(&self) -> Result<Vec<[f32; 4]>, Stop> {
         let count = self.mesh.mesh.vertices.len();
-        let threads = thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(A_THREAD)).max(1);
+        let threads =
+            thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(MIN_VERTICES_PER_THREAD)).max(1);
         let a_thread = count.div_ceil(threads).next_multiple_of(LANES).max(LANES);
         let parts: Result<Vec<Vec<[f32; 4]>>, Stop> = thread::scope(|scope| {
             let begins = (0..count).step_by(a_thread);
-            let spawned = begins.map(|begin| scope.spawn(move || self.part(begin..count.min(begin + a_thread))));
+            let spawned = begins.map(|first| scope.spawn(move || self.part(first..count.min(first + a_thread))));
             let spawned: Vec<_> = spawned.collect();
             spawned.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
         });
@@ -53,9 +54,9 @@ impl<'p> VertexStage<'p> {
     fn part(&self, range: std::ops::Range<usize>) -> Result<Vec<[f32; 4]>, Stop> {
         let mut positions = Vec::with_capacity(range.len());
         let mut machine = self.machine::<f32>();
-        for begin in range.clone().step_by(LANES) {
-            let count = LANES.min(range.end - begin);
-            machine.set_inputs(self.inputs(std::array::from_fn(|lane| (begin + lane.min(count - 1)) as u32)));
+        for first in range.clone().step_by(LANES) {
+            let count = LANES.min(range.end - first);
+            machine.set_inputs(self.inputs(std::array::from_fn(|lane| (first + lane.min(count - 1)) as u32)));
             let drawn = machine.run(0, &mut NoObserver)?;
             positions.extend((0..count).map(|lane| position(&drawn, lane).map(Real::to_f32)));
         }

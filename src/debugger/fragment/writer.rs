@@ -32,8 +32,8 @@ impl Writer {
 pub fn own_texels(settings: &PassSettings, size: (u32, u32)) -> Option<Region> {
     let drawn = settings.region.unwrap_or(whole(size)).within(size)?;
     let margin = settings.boundary.as_ref().map_or(0, |boundary| boundary.width);
-    let between = |begin: u32, count: u32, size: u32| {
-        let (first, end) = (begin.max(margin), (begin + count).min(size.saturating_sub(margin)));
+    let between = |start: u32, count: u32, size: u32| {
+        let (first, end) = (start.max(margin), (start + count).min(size.saturating_sub(margin)));
         (first < end).then(|| (first, end - first))
     };
     let (x, width) = between(drawn.x, drawn.width, size.0)?;

@@ -77,7 +77,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     }
     let passes = drawn(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);
-    if let Some(found) = look(&mut engine, &project, &passes, first - 1) {
+    if let Some(found) = first_nonfinite(&mut engine, &project, &passes, first - 1) {
         return Ok(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
     }
     for (index, (inputs, values)) in frames.iter().enumerate() {
@@ -85,13 +85,13 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
         control.report(Count { done: index, of: frames.len() });
         engine.set_custom_uniforms(values);
         engine.draw(inputs).map_err(|e| e.to_string())?;
-        if let Some(found) = look(&mut engine, &project, &passes, inputs.frame) {
+        if let Some(found) = first_nonfinite(&mut engine, &project, &passes, inputs.frame) {
             let read = engine.inspect(&found.pass).map_err(|e| e.to_string())?;
             let born = born(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
             let born = born.map(|finding| NonfiniteOperation {
                 message: finding.kind.message(),
                 place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
-                text: finding.span.map_or_else(String::new, |span| written(&project, span)),
+                text: finding.span.map_or_else(String::new, |span| first_line(&project, span)),
                 numbers: finding.numbers,
             });
             return Ok(SearchEnd::Found(Box::new(FirstNonfinite { born, ..found })));
@@ -102,7 +102,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
 }
 
 /// Returns the first pass whose newest texels are not all finite.
-fn look(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -> Option<FirstNonfinite> {
+fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -> Option<FirstNonfinite> {
     passes.iter().find_map(|pass| {
         // A pass that no picture needs is not drawn, and has no texels.
         let pixels = engine.read(pass).ok()?;
@@ -113,7 +113,7 @@ fn look(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -
     })
 }
 
-fn written(project: &Project, span: Span) -> String {
+fn first_line(project: &Project, span: Span) -> String {
     let sources = project.sources();
     let text = sources.get(span.source).and_then(|source| source.text.get(span.range()));
     text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned()

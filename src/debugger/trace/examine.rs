@@ -18,9 +18,9 @@ use eddy_project::{FillKind, PassId, Project, Stage, Tab, TexelFormat, inspect_c
 use std::sync::Arc;
 
 /// The number of statements after which a walk is stopped: a few seconds.
-const STATEMENTS: u64 = 20_000_000;
+const MAX_STATEMENTS: u64 = 20_000_000;
 /// The limit of values that a comment prints.
-const MOST_PRINTED: usize = 1000;
+const MAX_PRINTED: usize = 1000;
 
 /// A pixel of a pass at a frame, with the execution that leads to its value.
 #[derive(Debug)]
@@ -89,7 +89,7 @@ impl Traced {
         let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
         let pixel = (texel(place[0], inputs.size.0), texel(place[1], inputs.size.1));
         let sources = Sources::new(&project);
-        let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
+        let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, MAX_STATEMENTS)?;
         drop(sources);
         let at = match walked.at(pixel)? {
             PixelContent::Undrawn(Origin::Clear) => return Err(TraceError::Clear(pixel)),
@@ -265,7 +265,7 @@ impl Examiner {
                 let mut values = Vec::new();
                 let mut is_cut = false;
                 for at in traced.history.turns_of_comment(source, traced.text(&tab), comment.at as u32) {
-                    is_cut = values.len() == MOST_PRINTED;
+                    is_cut = values.len() == MAX_PRINTED;
                     if is_cut {
                         break;
                     }

@@ -60,7 +60,7 @@ fn lines(traced: &Traced, mut at: usize, stride: Stride, direction: Direction, c
     found
 }
 
-fn begin(traced: &Traced) -> usize {
+fn first_moment(traced: &Traced) -> usize {
     travel::end(&traced.history, Direction::Back).unwrap()
 }
 
@@ -72,7 +72,7 @@ fn number(traced: &Traced, at: usize, name: &str) -> f64 {
 fn stepping_into_over_and_out_works_in_both_directions() {
     use {Direction::*, Stride::*};
     let traced = traced(CODE);
-    let first = begin(&traced);
+    let first = first_moment(&traced);
     assert_eq!(line(&traced, first), 8);
     // Two variables are declared in one line; the head of a loop is one stop at its start.
     assert_eq!(lines(&traced, first, Into, Forward, 9), [8, 9, 10, 11, 12, 4, 5, 5, 13]);
@@ -179,7 +179,7 @@ fn conditional_breakpoints_stop_in_both_directions() {
     let at_line = |line: usize, condition: &str| {
         [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
     };
-    let first = begin(&traced);
+    let first = first_moment(&traced);
     let stop = examiner.go_on(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
     assert_eq!((line(&traced, stop), number(&traced, stop, "i")), (14, 7.0));
     let before = examiner.go_on(stop, &at_line(14, ""), Back).unwrap();

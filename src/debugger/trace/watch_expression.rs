@@ -25,7 +25,7 @@ const TYPES: [&str; 25] = [
 ];
 
 /// The number of statements after which an expression is stopped.
-const MOST: u64 = 10_000_000;
+const MAX_STATEMENTS: u64 = 10_000_000;
 
 /// The value of an expression at a moment, or an error message.
 pub type Watched = Result<Value, String>;
@@ -70,11 +70,11 @@ impl Watches {
         // The rest of what is compiled is the same for a history.
         let key = named.iter().flat_map(|(name, ty)| [ty, " ", name, ", "]).chain([expression]).collect();
         let compiled = self.known.entry(key).or_insert_with(|| {
-            let text = text(&named, &globals, expression);
+            let text = generated_text(&named, &globals, expression);
             compile(&Sources::new(project), (index, draw), &text, [named.len(), globals.len()])
         });
         let compiled = compiled.as_ref().map_err(Clone::clone)?;
-        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, entry.clone(), MOST);
+        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, entry.clone(), MAX_STATEMENTS);
         let held = named.iter().map(|(name, _)| history.value(at, name).map(|value| value.words));
         let held = held.chain(globals.iter().map(|(name, _)| history.global_words(at, name)));
         for (global, words) in compiled.inputs.iter().zip(held) {
@@ -123,7 +123,7 @@ fn words(expression: &str) -> impl Iterator<Item = &str> {
 
 /// Returns the text that is appended to the pass: variables as parameters, and a function for each type that stores the
 /// result; and the body of the entry point there.
-fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
+fn generated_text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
     let mut out = String::from("int eddy_kind;\n");
     for (index, ty) in TYPES.iter().enumerate() {
         out += &format!("{ty} eddy_{ty}; void eddy_put({ty} x) {{ eddy_kind = {}; eddy_{ty} = x; }}\n", index + 1);

@@ -26,9 +26,9 @@ pub struct Scalar {
 
 /// The limit of scalars that a set stores one by one; a larger set stores one for each declaration, so that the cost of
 /// a set is bounded by the text.
-const MOST_SCALARS: usize = 256;
+const MAX_SCALARS: usize = 256;
 /// The limit of sets per pixel; unions beyond that keep only their first operand.
-const MOST_SETS: usize = 1 << 16;
+const MAX_SETS: usize = 1 << 16;
 
 /// All sets of a walk.
 pub struct Sets {
@@ -48,7 +48,7 @@ impl Sets {
     }
 
     pub fn single(&mut self, scalar: Scalar) -> Set {
-        self.number([scalar].into())
+        self.intern([scalar].into())
     }
 
     /// Returns the union of two sets.
@@ -63,21 +63,21 @@ impl Sets {
         if let Some(&known) = self.unions.get(&key) {
             return known;
         }
-        if self.sets.len() >= MOST_SETS || self.unions.len() >= MOST_SETS {
+        if self.sets.len() >= MAX_SETS || self.unions.len() >= MAX_SETS {
             return a;
         }
         let mut all = [self.of(a), self.of(b)].concat();
         all.sort_unstable();
         all.dedup();
-        if all.len() > MOST_SCALARS {
+        if all.len() > MAX_SCALARS {
             all.dedup_by_key(|scalar| scalar.origin);
         }
-        let made = self.number(all.into());
+        let made = self.intern(all.into());
         self.unions.insert(key, made);
         made
     }
 
-    fn number(&mut self, set: Box<[Scalar]>) -> Set {
+    fn intern(&mut self, set: Box<[Scalar]>) -> Set {
         let next = Set(self.sets.len() as u32);
         let number = *self.numbers.entry(set.clone()).or_insert(next);
         if number == next {
@@ -109,7 +109,7 @@ mod tests {
         for cell in 0..2000 {
             let one = sets.single(Scalar { origin: 0, cell });
             all = sets.union(all, one);
-            assert!(sets.of(all).len() <= MOST_SCALARS);
+            assert!(sets.of(all).len() <= MAX_SCALARS);
             assert!([0, 1].iter().all(|origin| sets.of(all).iter().any(|scalar| scalar.origin == *origin)));
         }
     }

@@ -80,29 +80,29 @@ impl History {
         let is_near =
             |s: &Statement| text.get(s.whole.end as usize..byte as usize).is_none_or(|between| !between.contains('}'));
         let before = siblings().filter(|(_, s)| s.whole.end <= byte && is_near(s)).max_by_key(|(_, s)| s.whole.end);
-        let behind = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
+        let after = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
         let begins = |of: u32| {
             let is_it = move |moment: &Moment| moment.statement == of && moment.kind == MomentKind::Statement;
             self.moments.iter().enumerate().filter(move |(_, moment)| is_it(moment)).map(|(at, _)| at)
         };
-        match (before, behind) {
-            (Some((index, _)), _) => begins(index).filter_map(|at| self.done(at)).collect(),
+        match (before, after) {
+            (Some((index, _)), _) => begins(index).filter_map(|at| self.end_of_statement(at)).collect(),
             (None, Some((index, _))) => begins(index).collect(),
             (None, None) => Vec::new(),
         }
     }
 
     /// Returns the moment at which a statement, including nested ones, is done, given the moment at which it starts.
-    fn done(&self, at: usize) -> Option<usize> {
-        let begun = self.moments.get(at)?;
+    fn end_of_statement(&self, at: usize) -> Option<usize> {
+        let started = self.moments.get(at)?;
         let statements = self.walkable.statements();
-        let is_behind = |other: &Moment| {
-            other.call == begun.call
+        let is_after = |other: &Moment| {
+            other.call == started.call
                 && (other.kind == MomentKind::Return
-                    || !statements.lies_in(other.statement, begun.statement)
-                    || (other.statement == begun.statement && other.kind == MomentKind::Statement))
+                    || !statements.lies_in(other.statement, started.statement)
+                    || (other.statement == started.statement && other.kind == MomentKind::Statement))
         };
-        let behind = self.moments[at + 1..].iter().position(is_behind)?;
-        Some(at + 1 + behind)
+        let after = self.moments[at + 1..].iter().position(is_after)?;
+        Some(at + 1 + after)
     }
 }

@@ -10,11 +10,11 @@ use eddy_glsl::{
 use std::collections::HashMap;
 
 /// The limit of moments, calls' variables and words: about 200 MB, as a write of a word takes 20 bytes.
-const MOST_MOMENTS: usize = 2_000_000;
-const MOST_SLOTS: usize = 8_000_000;
-const MOST_WORDS: usize = 6_000_000;
+const MAX_MOMENTS: usize = 2_000_000;
+const MAX_SLOTS: usize = 8_000_000;
+const MAX_WORDS: usize = 6_000_000;
 /// The size limit of a value passed by reference that is recorded at the call.
-const MOST_PASSED: usize = 64;
+const MAX_PASSED: usize = 64;
 
 /// The meaning of a function's value for the recorder.
 #[derive(Clone, Debug, Default)]
@@ -120,7 +120,7 @@ impl<'w> HistoryRecorder<'w> {
         let params = params.filter(|(value, _)| places[value.index()] > 0);
         let params = params.map(|(value, _)| (value, function.is_place(value))).collect();
         let mut writes = vec![false; function.params.len()];
-        self.note_writes(id, &function.body, &mut writes);
+        self.record_param_writes(id, &function.body, &mut writes);
         self.functions.push(Function {
             name: walkable.function_name(id).map(str::to_owned),
             roles: places,
@@ -133,7 +133,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 
     /// Records which parameters a function writes, itself or through callees: callees come before their callers.
-    fn note_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
+    fn record_param_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
         let function = &self.walkable.program[id];
         let mut note = |place: Value| {
             if let Op::Param(index) = function[function.root(place)] {
@@ -153,7 +153,7 @@ impl<'w> HistoryRecorder<'w> {
             }
         }
         for stmt in block {
-            stmt.blocks(|inner| self.note_writes(id, inner, writes));
+            stmt.blocks(|inner| self.record_param_writes(id, inner, writes));
         }
     }
 
@@ -174,8 +174,8 @@ impl<'w> HistoryRecorder<'w> {
 
     fn moment(&mut self, kind: MomentKind, statement: u32) {
         let Some(call) = self.call() else { return };
-        let is_full = self.out.words.len() >= MOST_WORDS || self.out.slots.len() >= MOST_SLOTS;
-        if self.out.moments.len() >= MOST_MOMENTS || is_full {
+        let is_full = self.out.words.len() >= MAX_WORDS || self.out.slots.len() >= MAX_SLOTS;
+        if self.out.moments.len() >= MAX_MOMENTS || is_full {
             self.out.is_cut = true;
             return;
         }
@@ -222,7 +222,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 
     /// Records the contents of a place of the current function, as a write to its variable.
-    fn note<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
+    fn record_place<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
         let (root, offset) = view.root(place);
         let Some(role) = self.role(view.function_id(), root) else { return };
         let (variable, global) = (role.variables.first().copied(), role.global);
@@ -300,7 +300,7 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
             let (param, is_place) = self.functions[id.index()].params[index];
             match is_place {
                 false => self.value(view, param),
-                true if view.memory(param).len() <= MOST_PASSED => self.note(view, param),
+                true if view.memory(param).len() <= MAX_PASSED => self.record_place(view, param),
                 true => {}
             }
         }
@@ -335,13 +335,13 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
         if let Op::Call { function: callee, args } = view.op(value) {
             for (index, &arg) in args.iter().enumerate() {
                 if self.functions[callee.index()].writes.get(index) == Some(&true) && view.function().is_place(arg) {
-                    self.note(view, arg);
+                    self.record_place(view, arg);
                 }
             }
         }
     }
 
     fn store(&mut self, view: &View<'_, '_, R>, place: Value, _: Value) {
-        self.note(view, place);
+        self.record_place(view, place);
     }
 }

@@ -30,11 +30,11 @@ impl History {
         let mine = |other: &Moment| other.call == moment.call;
         let begins =
             |other: &Moment| mine(other) && other.statement == of && matches!(other.kind, MomentKind::Statement);
-        let begin = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
+        let start = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
         let mut found: Vec<Iteration> = Vec::new();
         // The current iteration: its first moment, and its last statement.
-        let (mut first, mut last) = (begin + 1, None);
-        for (index, other) in self.moments.iter().enumerate().skip(begin + 1).filter(|(_, other)| mine(other)) {
+        let (mut first, mut last) = (start + 1, None);
+        for (index, other) in self.moments.iter().enumerate().skip(start + 1).filter(|(_, other)| mine(other)) {
             let is_head = other.statement == of;
             if !statements.lies_in(other.statement, of) || (is_head && other.kind == MomentKind::Statement) {
                 break;
