@@ -102,7 +102,7 @@ pub trait Pooled<Owner>: Copy {
     fn pool_mut(owner: &mut Owner) -> &mut Vec<Self>;
 }
 
-/// Gives an owner its arenas (`id => node in field`) and pools (`element in field`).
+/// Implements indexing for an owner's arenas (`id => node in field`) and pools (`element in field`).
 macro_rules! arenas {
     ($owner:ty; $($id:ty => $node:ty, $field:ident;)* @pools $($elem:ty, $pool:ident;)*) => {
         $(impl ::std::ops::Index<$id> for $owner {

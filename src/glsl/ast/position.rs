@@ -88,7 +88,7 @@ pub struct Expansion {
     /// The outermost use in the author's running text (name and arguments): never inside a `#define`.
     pub used_at: Span,
     pub macro_id: MacroId,
-    /// The use whose replacement list held this one; `None` for an outermost use.
+    /// The use whose replacement list contained this one; `None` for an outermost use.
     pub parent: Option<ExpansionId>,
 }
 

@@ -9,7 +9,7 @@ use std::{
 use super::row::Row;
 use crate::{ir::Binary, types::Scalar};
 
-/// How a function is evaluated on constants.
+/// The evaluation of a function on constants.
 #[derive(Debug)]
 pub enum Constant {
     /// Not evaluated: it reads a texture, or has an effect.

@@ -1,4 +1,4 @@
-//! The text form of a program, for people and for snapshots.
+//! The text form of a program, for debugging and for snapshots.
 //!
 //! A value is `%n`, numbered in the order of its statement, a variable of the function `$n`, one of the module `@n`, a
 //! function `fn n`. Places are printed as paths: `$1.2`, `@0[%4]`. Literals are printed where they are used.

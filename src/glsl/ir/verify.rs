@@ -49,9 +49,9 @@ struct Check<'a> {
     function: &'a Function,
     /// The number of the function, which may only call earlier ones.
     index: usize,
-    /// Whether the value has been computed on every path to this point, by [`Value::index`].
+    /// True if the value has been computed on every path to this point, by [`Value::index`].
     available: Vec<bool>,
-    /// Whether a variable has an initial value or has been written, by [`VarId::index`](super::VarId::index).
+    /// True if a variable has an initial value or has been written, by [`VarId::index`](super::VarId::index).
     written: Vec<bool>,
     /// The number of enclosing loops and switches; `loops` is that of loops only.
     breakable: usize,

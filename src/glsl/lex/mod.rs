@@ -31,7 +31,7 @@ pub(super) struct Lexer<'a> {
     base: u32,
     splices: Splices,
     line_start: bool,
-    /// Whether ends of lines are tokens.
+    /// True if ends of lines are tokens.
     in_directive: bool,
 }
 

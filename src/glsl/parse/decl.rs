@@ -251,7 +251,7 @@ impl Parser<'_> {
         let late = self.qualifiers()?;
         let mut all: Vec<Qualifier> = self.ast[*qualifiers].to_vec();
         all.extend_from_slice(&self.ast[late]);
-        // The checker also reports a wrong order.
+        // Sorted, so that the checker does not report the order as well.
         all.sort_by_key(|qualifier| qualifier.kind.rank());
         // The definition of a struct is not repeated in the fix.
         let is_short = end - start < 4;

@@ -54,7 +54,7 @@ struct Reader {
     /// The number of pieces that were read.
     pieces: usize,
     has_line_numbers: bool,
-    /// Whether a struct has the name, by symbol.
+    /// True if a struct has the name, by symbol.
     structs: Vec<bool>,
 }
 

@@ -41,7 +41,7 @@ pub(super) struct Parser<'p> {
     pub last_error: Option<usize>,
     /// Reserved words that were reported.
     pub reported_reserved: Vec<u32>,
-    /// Whether a struct has the name, by symbol.
+    /// True if a struct has the name, by symbol.
     pub structs: Vec<bool>,
     /// The opening brace and the name of the function that is being parsed.
     pub body: Option<(usize, Ident)>,

@@ -118,7 +118,7 @@ pub struct TextureBinding {
     pub group: u32,
     pub texture_binding: u32,
     pub sampler_binding: u32,
-    /// Which of the two the module declares.
+    /// The parts of it that the module declares.
     pub used: ChannelUse,
 }
 
@@ -130,6 +130,6 @@ pub struct ShaderVariable {
     pub ty: String,
     /// The first of its locations.
     pub location: u32,
-    /// Whether it is not interpolated.
+    /// True if it is not interpolated.
     pub flat: bool,
 }

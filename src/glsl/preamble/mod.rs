@@ -26,7 +26,7 @@ pub struct Preamble {
     parsed: Parsed,
     /// `None` if its meaning depends on the pass.
     checked: Option<Checkpoint>,
-    /// Whether the name occurs in the text, by symbol.
+    /// True if the name occurs in the text, by symbol.
     mentioned: Vec<bool>,
     values: Vec<UniformValue>,
 }

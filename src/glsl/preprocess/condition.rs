@@ -78,7 +78,7 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     /// Inside the unevaluated right side of an `&&` or `||`: nothing there is an error.
     passed_by: u32,
     depth: u32,
-    /// Where an expression that ends too early is reported.
+    /// The token at which an expression that ends too early is reported.
     end: Token,
 }
 

@@ -32,7 +32,7 @@ pub(super) struct LineCount {
     /// The lines to add: the header's, as changed by `#line`.
     pub shift: i32,
     pub file: i32,
-    /// Whether some number depends on Shadertoy's header.
+    /// True if some number depends on Shadertoy's header.
     pub was_asked: bool,
 }
 

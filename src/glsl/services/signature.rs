@@ -140,7 +140,7 @@ impl Analysis {
     }
 }
 
-/// Returns the open parenthesis that encloses token `before`, and the number of commas between them.
+/// Returns the open parenthesis around the position before token `before`, and the number of commas between them.
 fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
     let mut commas = 0;
     let mut i = before;

@@ -19,7 +19,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Whether each number has a double-precision shadow.
+    /// True if each number has a double-precision shadow.
     const IS_SHADOWED: bool = false;
 
     /// Returns the number of these bits of single precision.
