@@ -60,9 +60,9 @@ pub struct TargetInfo {
     pub dimension: &'static str,
     pub size: SizeInfo,
     pub format: &'static str,
-    /// Whether it is double-buffered, because some pass reads the previous frame.
+    /// True if it is double-buffered, because some pass reads the previous frame.
     pub doubled: bool,
-    /// Whether mip levels are generated after each draw.
+    /// True if mip levels are generated after each draw.
     pub mips: bool,
 }
 
@@ -92,7 +92,7 @@ pub struct PassInfo {
     pub title: String,
     /// Indices into [`Manifest::targets`].
     pub targets: Vec<usize>,
-    /// Whether the target keeps its content where nothing is drawn; otherwise it may be cleared.
+    /// True if the target keeps its content where nothing is drawn; otherwise it may be cleared.
     pub keeps_content: bool,
     /// The condition by which it is drawn: an expression over the custom uniforms, `width` and `height`. While it is
     /// false, the targets have their content from before frame 0.
@@ -141,7 +141,7 @@ pub struct ChannelInfo {
     pub filter: &'static str,
     /// `clamp` or `repeat`.
     pub wrap: &'static str,
-    /// Whether the top row of an image file is at v = 1.
+    /// True if the top row of an image file is at v = 1.
     pub vflip: bool,
 }
 
