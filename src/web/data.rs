@@ -55,17 +55,17 @@ pub(crate) struct PassData {
     pub title: String,
     /// `buffer`, `cubemap`, `image` or `sound`.
     pub kind: &'static str,
-    /// Whether the picture does not need it.
+    /// True if the picture does not need it.
     #[serde(skip_serializing_if = "is_false")]
     pub skip: bool,
     pub size: SizeData,
     pub formats: Vec<&'static str>,
-    /// Whether mip levels are generated after each draw, by target.
+    /// True if mip levels are generated after each draw, by target.
     pub mips: Vec<bool>,
-    /// Whether it is double-buffered.
+    /// True if it is double-buffered.
     #[serde(skip_serializing_if = "is_false")]
     pub doubled: bool,
-    /// Whether it is skipped while nothing that it reads has changed.
+    /// True if it is skipped while nothing that it reads has changed.
     #[serde(skip_serializing_if = "is_false")]
     pub cached: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
