@@ -31,8 +31,8 @@ pub struct Probes<'p> {
 }
 
 impl<'p> Probes<'p> {
-    /// `before` is the content of the targets of the program (the project built with `options`) before the frame of
-    /// `inputs` and the custom uniforms. Values are those of `pass`.
+    /// `before` is the content of the targets before the frame of `inputs` and `values`, in the program built from the
+    /// project with `options`. Values are read from `pass`.
     pub fn new(
         (engine, before): (Engine, Snapshot),
         (project, media): (&'p Project, &'p MediaSet),

@@ -3,8 +3,8 @@
 //!
 //! Corners are rounded to 1/256 of a pixel first, as devices do (Vulkan's `subPixelPrecisionBits` is 8 with most, and
 //! `FIXED_ORDER` in Mesa's `lp_rast.h`; `calc_fixed_position` in `lp_setup_tri.c` rounds to the nearest, ties to even).
-//! After that everything is exact. A centre on an edge belongs to the triangle of which it is a left edge or the edge
-//! of the lowest row (`do_triangle_ccw` there), so that it belongs to exactly one of two triangles that share an edge.
+//! After that everything is exact. A centre on an edge belongs to the triangle whose left edge, or edge of the least
+//! row, that is (`do_triangle_ccw` there), so that it belongs to exactly one of two triangles that share an edge.
 
 /// The number of fractional bits of a coordinate.
 const SUBPIXEL_BITS: u32 = 8;
@@ -27,7 +27,7 @@ pub fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel
 pub struct Coverage {
     /// In counter-clockwise order where rows grow upward.
     corners: [Subpixel; 3],
-    /// Whether it is front-facing: its corners were in counter-clockwise order.
+    /// True if it is front-facing: its corners were in counter-clockwise order.
     pub is_front: bool,
 }
 

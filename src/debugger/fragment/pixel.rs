@@ -62,7 +62,7 @@ pub struct MeshFragment {
     /// The draw of the pass, and the triangle of its mesh, from 0.
     pub draw: usize,
     pub triangle: usize,
-    /// Whether the triangle is front-facing.
+    /// True if the triangle is front-facing.
     pub is_front: bool,
 }
 

@@ -239,11 +239,11 @@ fn passes(test: DepthTest, depth: f32, held: f32) -> bool {
 /// Static facts about a fragment stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentFacts {
-    /// Whether some path through it ends in `discard`.
+    /// True if some path through it ends in `discard`.
     pub may_discard: bool,
-    /// Whether it sets `gl_FragDepth`.
+    /// True if it sets `gl_FragDepth`.
     pub sets_depth: bool,
-    /// Whether it has a colour for the first target.
+    /// True if it has a colour for the first target.
     pub colours_first: bool,
 }
 

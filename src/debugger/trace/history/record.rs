@@ -91,7 +91,7 @@ pub struct Value {
     pub type_text: String,
     /// Every scalar in memory order.
     pub numbers: Vec<Number>,
-    /// Whether it is a vector of floats, which can be a colour.
+    /// True for a vector of floats, which can be a colour.
     pub is_vector: bool,
     pub(in crate::trace) words: Vec<u32>,
 }

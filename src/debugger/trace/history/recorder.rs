@@ -35,7 +35,7 @@ struct Function {
     params: Vec<(Value, bool)>,
     /// The number of its variables, which are followed by its result.
     slots: u32,
-    /// Whether it writes each parameter.
+    /// True for each parameter that it writes.
     writes: Vec<bool>,
 }
 
