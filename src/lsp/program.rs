@@ -61,7 +61,7 @@ pub(crate) struct Program {
     /// The names in `#iUniform` lines.
     pub uniforms: Vec<(String, Span)>,
     /// The diagnostics of the texts.
-    said: Vec<Diagnostic>,
+    reported: Vec<Diagnostic>,
     media: Media,
     /// Documents for which diagnostics have been published.
     pub published: BTreeSet<String>,
@@ -72,7 +72,7 @@ pub(crate) struct Program {
 #[derive(Default)]
 struct Media {
     of: Option<Vec<([Option<Channel>; 4], PassSettings)>>,
-    said: Vec<Diagnostic>,
+    reported: Vec<Diagnostic>,
 }
 
 impl Program {
@@ -87,7 +87,7 @@ impl Program {
             stages: Vec::new(),
             plain: Vec::new(),
             uniforms: Vec::new(),
-            said: Vec::new(),
+            reported: Vec::new(),
             media: Media::default(),
             published: BTreeSet::new(),
             kept: KeptAnalyses::default(),
@@ -122,7 +122,7 @@ impl Program {
         {
             let texts = vec![(path.clone(), text, kind)];
             self.take_alone(texts, cancel);
-            self.said = self.stages[0].analysis.diagnostics().to_vec();
+            self.reported = self.stages[0].analysis.diagnostics().to_vec();
             return;
         }
         match project::load_edited(self.root.path(), documents.texts()) {
@@ -149,13 +149,13 @@ impl Program {
         let project::Loaded { project, warnings, sources } = loaded;
         let texts = Sources::new(&project).cancelled_by(cancel.clone());
         self.stages = self.kept.analyse(&project, &texts);
-        let mut said = warnings;
-        said.extend(self.kept.diagnose(&project, &texts, &self.stages));
+        let mut reported = warnings;
+        reported.extend(self.kept.diagnose(&project, &texts, &self.stages));
         let advice = project::advice(&project);
-        let is_new = |d: &Diagnostic| !said.iter().any(|known| d.repeats(known));
+        let is_new = |d: &Diagnostic| !reported.iter().any(|known| d.repeats(known));
         let advice: Vec<Diagnostic> = advice.into_iter().filter(is_new).collect();
-        said.extend(advice);
-        self.said = said;
+        reported.extend(advice);
+        self.reported = reported;
         let includes = project.includes.iter().map(|included| &included.source);
         let own = project.common.iter().map(Some).chain(project.common.is_none().then_some(None));
         let own = own.chain(project.passes.iter().map(|pass| Some(&pass.source)));
@@ -196,7 +196,7 @@ impl Program {
     /// Reports why the files do not form a project. Files that the error refers to are added after the texts.
     fn take_error(&mut self, error: &ProjectError) {
         let Some((diagnostics, sources)) = error.diagnostics() else {
-            self.said = vec![Diagnostic::error(None, error.to_string())];
+            self.reported = vec![Diagnostic::error(None, error.to_string())];
             return;
         };
         let ids: Vec<SourceId> = sources
@@ -211,8 +211,8 @@ impl Program {
                 span.source = *id;
             }
         };
-        self.said = diagnostics.to_vec();
-        for diagnostic in &mut self.said {
+        self.reported = diagnostics.to_vec();
+        for diagnostic in &mut self.reported {
             diagnostic.span.iter_mut().for_each(moved);
             diagnostic.labels.iter_mut().for_each(|label| moved(&mut label.span));
             let edits = diagnostic.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
@@ -222,8 +222,8 @@ impl Program {
 
     /// Returns all diagnostics, without duplicates.
     pub fn diagnostics(&self) -> Vec<Diagnostic> {
-        let mut all = self.said.clone();
-        diag::append(&mut all, self.media.said.iter().cloned());
+        let mut all = self.reported.clone();
+        diag::append(&mut all, self.media.reported.iter().cloned());
         all
     }
 
@@ -238,9 +238,9 @@ impl Program {
     pub fn look_at_media(&mut self) {
         let Some(project) = &self.project else { return };
         let of = project.passes.iter().map(|pass| (pass.channels.clone(), pass.settings.clone())).collect();
-        let said = media::diagnose(project);
-        self.is_untold |= said != self.media.said;
-        self.media = Media { of: Some(of), said };
+        let reported = media::diagnose(project);
+        self.is_untold |= reported != self.media.reported;
+        self.media = Media { of: Some(of), reported };
     }
 
     /// Marks pictures and models as unchecked, after files on disk have changed.

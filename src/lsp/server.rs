@@ -31,16 +31,16 @@ use std::{
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum ServerState {
     #[default]
-    Begun,
+    Uninitialized,
     Running,
     /// `shutdown` was requested.
-    Ending,
+    ShuttingDown,
 }
 
 /// A language server without a stream.
 #[derive(Default)]
 pub struct Server {
-    life: ServerState,
+    state: ServerState,
     encoding: Encoding,
     abilities: ClientCapabilities,
     /// The editor reports files that change on disk, if requested.
@@ -75,7 +75,7 @@ impl Server {
         match message {
             Message::Request(request) => self.request(request, out),
             Message::Notification(Notification { method, .. }) if method == "exit" => {
-                return Some(u8::from(self.life != ServerState::Ending));
+                return Some(u8::from(self.state != ServerState::ShuttingDown));
             }
             Message::Notification(notification) => {
                 self.catch_panic(|server| server.notified(notification, out));
@@ -89,7 +89,7 @@ impl Server {
     /// Does the next piece of idle work: reads changed programs, publishes diagnostics, checks pictures. Returns false
     /// if there is none.
     pub fn idle(&mut self, out: &mut Vec<Message>) -> bool {
-        if self.life != ServerState::Running {
+        if self.state != ServerState::Running {
             return false;
         }
         let mut did = false;
@@ -165,16 +165,18 @@ impl Server {
     }
 
     fn request(&mut self, Request { id, method, params }: Request, out: &mut Vec<Message>) {
-        let answer = match (self.life, method.as_str()) {
-            (ServerState::Begun, "initialize") => {
-                self.life = ServerState::Running;
+        let answer = match (self.state, method.as_str()) {
+            (ServerState::Uninitialized, "initialize") => {
+                self.state = ServerState::Running;
                 Ok(self.initialize(&params))
             }
-            (ServerState::Begun, _) => Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first")),
+            (ServerState::Uninitialized, _) => {
+                Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first"))
+            }
             (_, "initialize") => Err(error(ErrorCode::InvalidRequest, "\"initialize\" was sent before")),
-            (ServerState::Ending, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
+            (ServerState::ShuttingDown, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
             (ServerState::Running, "shutdown") => {
-                self.life = ServerState::Ending;
+                self.state = ServerState::ShuttingDown;
                 Ok(Value::Null)
             }
             (ServerState::Running, _) => {
@@ -231,7 +233,7 @@ impl Server {
     }
 
     fn notified(&mut self, Notification { method, params }: Notification, out: &mut Vec<Message>) {
-        if self.life != ServerState::Running {
+        if self.state != ServerState::Running {
             return;
         }
         match method.as_str() {
