@@ -91,14 +91,14 @@ pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
         let end = digits(from, |b| is_name(b) || b == b'.');
         (Kind::BadNumber, reason as u32, end)
     };
-    let sticks = |at: usize| is_name(byte(at)) || byte(at) == b'.';
+    let trailing = |at: usize| is_name(byte(at)) || byte(at) == b'.';
 
     if byte(0) == b'0' && matches!(byte(1), b'x' | b'X') {
         let end = digits(2, |b| b.is_ascii_hexdigit());
         if end == 2 {
             return tail(BadNumber::NoHexDigits, end);
         }
-        return integer(&text[2..end], 16, byte(end), end, &tail, &sticks);
+        return integer(&text[2..end], 16, byte(end), end, &tail, &trailing);
     }
     let mut end = digits(0, decimal);
     let whole = end;
@@ -122,21 +122,21 @@ pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
         // Rust parses all such texts as floats as well; a value that is too large is infinity, as in ANGLE.
         let value: f32 = text[..end].parse().unwrap_or(f32::INFINITY);
         let end = end + usize::from(matches!(byte(end), b'f' | b'F'));
-        if sticks(end) {
+        if trailing(end) {
             return tail(BadNumber::Tail, end);
         }
         return (Kind::Float, value.to_bits(), end);
     }
-    if matches!(byte(end), b'f' | b'F') && !sticks(end + 1) {
+    if matches!(byte(end), b'f' | b'F') && !trailing(end + 1) {
         return (Kind::BadNumber, BadNumber::IntWithF as u32, end + 1);
     }
     if byte(0) == b'0' && whole > 1 {
         if text[..whole].bytes().any(|b| b > b'7') {
             return tail(BadNumber::Octal, whole);
         }
-        return integer(&text[1..whole], 8, byte(end), end, &tail, &sticks);
+        return integer(&text[1..whole], 8, byte(end), end, &tail, &trailing);
     }
-    integer(&text[..whole], 10, byte(end), end, &tail, &sticks)
+    integer(&text[..whole], 10, byte(end), end, &tail, &trailing)
 }
 
 fn integer(
@@ -145,13 +145,13 @@ fn integer(
     suffix: u8,
     mut end: usize,
     tail: &dyn Fn(BadNumber, usize) -> (Kind, u32, usize),
-    sticks: &dyn Fn(usize) -> bool,
+    trailing: &dyn Fn(usize) -> bool,
 ) -> (Kind, u32, usize) {
     let kind = if matches!(suffix, b'u' | b'U') { Kind::Uint } else { Kind::Int };
     if kind == Kind::Uint {
         end += 1;
     }
-    if sticks(end) {
+    if trailing(end) {
         return tail(BadNumber::Tail, end);
     }
     match u32::from_str_radix(digits, radix) {

@@ -21,7 +21,7 @@ impl Preprocessor<'_, '_> {
             return false;
         }
         let mut evaluation =
-            Evaluation { all: self, tokens: &expanded, at: 0, passed_by: 0, depth: 0, end: *directive };
+            Evaluation { all: self, tokens: &expanded, at: 0, unevaluated: 0, depth: 0, end: *directive };
         let Some(value) = evaluation.binary(0) else { return false };
         if let Some(extra) = evaluation.peek() {
             evaluation.unexpected(&extra);
@@ -35,7 +35,7 @@ impl Preprocessor<'_, '_> {
         let mut expanded = Vec::new();
         self.expand_line(line, &mut expanded);
         let mut evaluation =
-            Evaluation { all: self, tokens: &expanded, at: 0, passed_by: 0, depth: 0, end: *directive };
+            Evaluation { all: self, tokens: &expanded, at: 0, unevaluated: 0, depth: 0, end: *directive };
         let number = evaluation.binary(0)?;
         let file = if evaluation.peek().is_some() { Some(evaluation.binary(0)?) } else { None };
         if let Some(extra) = evaluation.peek() {
@@ -76,7 +76,7 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     tokens: &'e [Token],
     at: usize,
     /// Inside the unevaluated right side of an `&&` or `||`: nothing there is an error.
-    passed_by: u32,
+    unevaluated: u32,
     depth: u32,
     /// The token at which an expression that ends too early is reported.
     end: Token,
@@ -128,9 +128,9 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             self.at += 1;
             let decided = op.kind == Kind::AndAnd && left == 0 || op.kind == Kind::OrOr && left != 0;
-            self.passed_by += u32::from(decided);
+            self.unevaluated += u32::from(decided);
             let right = self.binary(level);
-            self.passed_by -= u32::from(decided);
+            self.unevaluated -= u32::from(decided);
             left = self.apply(&op, left, right?)?;
         }
         Some(left)
@@ -150,7 +150,7 @@ impl Evaluation<'_, '_, '_, '_> {
             Kind::LessEqual => i64::from(a <= b),
             Kind::GreaterEqual => i64::from(a >= b),
             Kind::LessLess | Kind::GreaterGreater if !(0..32).contains(&b) => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.all.error(op, format!("a shift by {b} has no meaning"), None);
                     return None;
                 }
@@ -162,7 +162,7 @@ impl Evaluation<'_, '_, '_, '_> {
             Kind::Minus => a.wrapping_sub(b),
             Kind::Star => a.wrapping_mul(b),
             _ if b == 0 => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.all.error(op, "this divides by zero", None);
                     return None;
                 }
@@ -212,7 +212,7 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             Kind::Int | Kind::Uint => i64::from(token.value),
             Kind::Ident => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.name(&token);
                     return None;
                 }

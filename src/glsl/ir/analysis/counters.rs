@@ -36,7 +36,7 @@ pub struct Counters {
 
 impl Counters {
     pub fn of(f: &Function) -> Counters {
-        let vars = f.vars.iter().map(|var| Var { is_bad: var.init.is_some(), ..Var::default() }).collect();
+        let vars = f.vars.iter().map(|var| Var { is_unanalysed: var.init.is_some(), ..Var::default() }).collect();
         let mut walk = Walk {
             f,
             vars,
@@ -63,7 +63,7 @@ impl Counters {
 #[derive(Default)]
 struct Var {
     /// It is read where it may not have been written yet, or passed to a call, or written more than twice.
-    is_bad: bool,
+    is_unanalysed: bool,
     /// The block of the first store.
     first: Option<usize>,
     /// The stored values, and the loops around each store.
@@ -120,7 +120,7 @@ impl Walk<'_> {
             Op::Load { place } => {
                 let Some(var) = self.var(place) else { return };
                 let is_written = self.vars[var].first.is_some_and(|block| self.open.contains(&block));
-                self.vars[var].is_bad |= !is_written;
+                self.vars[var].is_unanalysed |= !is_written;
                 if let Some(&innermost) = self.loops.last() {
                     self.loads.insert(value, (var, innermost));
                 }
@@ -128,7 +128,7 @@ impl Walk<'_> {
             Op::Call { ref args, .. } => {
                 for &arg in args.iter().filter(|&&arg| self.f.is_place(arg)) {
                     if let Some(var) = self.var(arg) {
-                        self.vars[var].is_bad = true;
+                        self.vars[var].is_unanalysed = true;
                     }
                 }
             }
@@ -141,9 +141,9 @@ impl Walk<'_> {
         let block = *self.open.last().expect("a statement stands in a block");
         let var = &mut self.vars[var];
         let is_first = var.first.is_none();
-        let is_behind = var.first.is_some_and(|block| self.open.contains(&block));
-        var.is_bad |= var.stores.len() == 2 || !(is_first || is_behind) || !matches!(self.f[place], Op::Var(_));
-        if !var.is_bad {
+        let is_after = var.first.is_some_and(|block| self.open.contains(&block));
+        var.is_unanalysed |= var.stores.len() == 2 || !(is_first || is_after) || !matches!(self.f[place], Op::Var(_));
+        if !var.is_unanalysed {
             var.first = var.first.or(Some(block));
             var.stores.push((value, self.loops.clone()));
         }
@@ -152,7 +152,7 @@ impl Walk<'_> {
     fn definition(&self, var: usize, tests: &mut FxHashMap<usize, (Binary, Value)>) -> Definition {
         let seen = &self.vars[var];
         match &seen.stores[..] {
-            _ if seen.is_bad => Definition::Unknown,
+            _ if seen.is_unanalysed => Definition::Unknown,
             [_] => Definition::Once,
             [(start, around), (next, loops)] => {
                 let counted = || {
