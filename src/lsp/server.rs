@@ -31,7 +31,7 @@ use std::{
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum ServerState {
     #[default]
-    Uninitialized,
+    Uninitialised,
     Running,
     /// `shutdown` was requested.
     ShuttingDown,
@@ -166,11 +166,11 @@ impl Server {
 
     fn request(&mut self, Request { id, method, params }: Request, out: &mut Vec<Message>) {
         let answer = match (self.state, method.as_str()) {
-            (ServerState::Uninitialized, "initialize") => {
+            (ServerState::Uninitialised, "initialize") => {
                 self.state = ServerState::Running;
                 Ok(self.initialize(&params))
             }
-            (ServerState::Uninitialized, _) => {
+            (ServerState::Uninitialised, _) => {
                 Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first"))
             }
             (_, "initialize") => Err(error(ErrorCode::InvalidRequest, "\"initialize\" was sent before")),

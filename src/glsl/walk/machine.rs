@@ -368,12 +368,12 @@ impl<'a, R: Real> Machine<'a, R> {
             let mut jumps = Jumps::default();
             let end = self.block(frame, body, active, &mut jumps, lane, observer)?;
             left |= jumps.broke;
-            let mut jumps_behind = Jumps::default();
+            let mut jumps_after = Jumps::default();
             if (end | jumps.continued) & (1 << lane) != 0 {
                 observer.continuing(&View::new(&self.state, frame, lane));
             }
-            active = self.block(frame, continuing, end | jumps.continued, &mut jumps_behind, lane, observer)?;
-            left |= jumps_behind.broke;
+            active = self.block(frame, continuing, end | jumps.continued, &mut jumps_after, lane, observer)?;
+            left |= jumps_after.broke;
             if let Some(condition) = break_if {
                 if active & (1 << lane) != 0 {
                     observer.decide(&View::new(&self.state, frame, lane), condition);
