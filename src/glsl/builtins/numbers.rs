@@ -1,4 +1,4 @@
-//! Functions of numbers, each component alone: sections 8.1 to 8.3.
+//! Component-wise functions of numbers: sections 8.1 to 8.3.
 
 use std::f32::consts::FRAC_PI_2;
 
