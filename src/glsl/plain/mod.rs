@@ -1,4 +1,4 @@
-//! Plain shaders of GLSL ES 3.00: `void main()`, with the uniforms, samplers, inputs and outputs that the text declares.
+//! Plain shaders of GLSL ES 3.00: `void main()` with the uniforms, samplers, inputs and outputs that the text declares.
 //!
 //! Owns their layout ([`PlainOptions`]) and its description ([`ShaderInterface`]):
 //!
