@@ -1,17 +1,17 @@
-//! The caret form of a diagnostic: the message, the line it is about, a mark under the place.
+//! The caret form of a diagnostic: the message, its line, and a mark under the place.
 //!
-//! The shape is rustc's, which people know. Plain text only; a terminal front end may colour the first word. Control
+//! The layout is rustc's, which is well known. Plain text only; a terminal front end may colour the first word. Control
 //! characters of the text are escaped, and the mark stays under its place.
 
 use super::{Diagnostic, SourceMap, Span, escape_line, escape_message, is_terminal_control};
 use std::fmt::Write;
 
-/// Every diagnostic in caret form, a blank line between two.
+/// Returns every diagnostic in caret form, separated by blank lines.
 pub fn render_all(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
     diagnostics.iter().map(|d| render(d, sources)).collect::<Vec<_>>().join("\n")
 }
 
-/// One diagnostic in caret form, ending in a line break.
+/// Returns one diagnostic in caret form, ending in a line break.
 pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), escape_message(&diagnostic.message));
@@ -37,12 +37,12 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     out
 }
 
-/// Characters of a line that are shown: it can be a whole minified shader.
+/// The limit of characters of a line that are shown: a line can be a whole minified shader.
 const WIDTH: usize = 160;
 
-/// Bytes before and behind a place that are looked at for them. Characters have at most four, and a line of megabytes
-/// is not to be gone through for each message.
-const MOST_BYTES: usize = 4 * WIDTH;
+/// Bytes before and after a place that are searched for them. Characters have at most four, and a line of megabytes
+/// must not be scanned for each message.
+const MAX_BYTES: usize = 4 * WIDTH;
 
 fn excerpt(
     out: &mut String,
@@ -61,7 +61,7 @@ fn excerpt(
     let before = width(&line[..start]);
     let length = source.text.get(span.range()).map_or(1, |s| {
         let s = s.split('\n').next().unwrap_or("").trim_end_matches('\r');
-        width(&s[..s.floor_char_boundary(MOST_BYTES)])
+        width(&s[..s.floor_char_boundary(MAX_BYTES)])
     });
     let marks = mark.to_string().repeat(length.max(1));
     let line = shown(line);
@@ -75,7 +75,8 @@ fn excerpt(
     let _ = writeln!(out, "{}", line.trim_end());
 }
 
-/// Returns a part of a line as it is drawn. A tab is four spaces, so that the mark is under its character in any terminal.
+/// Returns a part of a line as displayed. A tab is four spaces, so that the mark is under its character in any
+/// terminal.
 fn shown(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -88,11 +89,11 @@ fn shown(text: &str) -> String {
     out
 }
 
-/// The line that a place lies in, or of one that is long the part around it, and where in that the place lies.
+/// Returns the line that contains a place, or the part of a long line around it, and the place within that.
 fn line_around(text: &str, place: usize) -> (&str, usize) {
     let place = text.floor_char_boundary(place);
-    let least = text.ceil_char_boundary(place.saturating_sub(MOST_BYTES));
-    let most = text.floor_char_boundary(place.saturating_add(MOST_BYTES));
+    let least = text.ceil_char_boundary(place.saturating_sub(MAX_BYTES));
+    let most = text.floor_char_boundary(place.saturating_add(MAX_BYTES));
     let start = text[least..place].rfind('\n').map_or(least, |at| least + at + 1);
     let end = text[place..most].find('\n').map_or(most, |at| place + at);
     (text[start..end].trim_end_matches('\r'), (place - start).min(text[start..end].trim_end_matches('\r').len()))
@@ -104,7 +105,7 @@ mod tests {
     use crate::Diagnostic;
 
     #[test]
-    fn caret_stands_under_the_place() {
+    fn caret_is_under_the_place() {
         let mut sources = SourceMap::default();
         let id = sources.add("image.glsl", "void f() {\n\tfloat x = 2;\n}\n");
         let d = Diagnostic::error(Span::new(id, 22..23), "cannot convert int to float")
@@ -129,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_is_under_its_place_after_controls() {
+    fn mark_is_under_its_place_after_control_characters() {
         let mut sources = SourceMap::default();
         let text = "\u{1b}[2J\t\u{202e}bad\u{7}d\r\n";
         let id = sources.add("a\u{1b}c\nerror: b.glsl", text);

@@ -1,8 +1,8 @@
-//! A place in a text, after the text was edited.
+//! A position in a text after the text was edited.
 
-/// Returns where byte `at` of `old` is in `new`: what stands before the first difference stays, what stands behind the
-/// last one moves with it, and a place between goes to the edit's end at most. `None` where it was taken out, and
-/// nothing stands there now.
+/// Returns the position in `new` of byte `at` of `old`: text before the first difference stays in place, text after the
+/// last one moves with it, and a position in between is moved to the edit's end at most. `None` if the text was deleted
+/// without a replacement.
 pub fn follow(old: &str, new: &str, at: usize) -> Option<usize> {
     let before = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
     let most = old.len().min(new.len()) - before;
@@ -22,7 +22,7 @@ pub fn follow(old: &str, new: &str, at: usize) -> Option<usize> {
     Some(found)
 }
 
-/// Does the same for a line, both counted from 0: it goes with its first letter that is no blank.
+/// As [`follow`], for a line, both counted from 0: it follows its first non-blank character.
 pub fn follow_line(old: &str, new: &str, line: usize) -> Option<usize> {
     let breaks = old.match_indices('\n').map(|(at, _)| at + 1);
     let start = [0].into_iter().chain(breaks).nth(line)?;
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_moves_with_what_stands_behind_an_edit() {
+    fn position_moves_with_the_text_after_an_edit() {
         assert_eq!(follow("abc def", "abc  def", 5), Some(6));
         assert_eq!(follow("abc def", "abc def, g", 5), Some(5));
         assert_eq!(follow("abc def ghi", "abc X ghi", 8), Some(6));
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_moves_with_its_text_and_goes_with_it() {
+    fn line_moves_with_its_text_and_is_deleted_with_it() {
         let old = "one\n  two\nthree\n";
         assert_eq!(follow_line(old, "zero\none\n  two\nthree\n", 1), Some(2));
         assert_eq!(follow_line(old, "one\n  two, too\nthree\n", 1), Some(1));

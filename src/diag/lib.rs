@@ -1,10 +1,9 @@
-//! Diagnostics tell an author what is wrong with a text.
+//! Diagnostics: errors and warnings about an author's text.
 //!
-//! Owns positions ([`Span`], [`SourceId`]), the texts they point into ([`SourceMap`]), the message itself
-//! ([`Diagnostic`]), its caret form for a terminal ([`render`]), and how a stranger's text is shown there
-//! ([`escape_text`]). Knows nothing of GLSL: a span may point into a
-//! shader, an `eddy.toml` or a JSON file alike. Trouble that is the machine's or ours is an error type of its layer,
-//! never a `Diagnostic`.
+//! Owns positions ([`Span`], [`SourceId`]), the texts they refer to ([`SourceMap`]), the message itself
+//! ([`Diagnostic`]), its caret form for a terminal ([`render`]), and escaping of untrusted text for a terminal
+//! ([`escape_text`]). Knows nothing of GLSL: a span may refer to a shader, an `eddy.toml` or a JSON file. Failures of
+//! the machine or of Eddy are error types of their layers, never a `Diagnostic`.
 
 mod caret;
 mod follow;
@@ -20,12 +19,12 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-/// Names the text of a [`SourceMap`] that a span points into: one per tab, included file or project file.
+/// The id of a text of a [`SourceMap`]: one per tab, included file or project file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SourceId(pub u16);
 
 impl SourceId {
-    /// The id of a text that is in no [`SourceMap`].
+    /// The id of a text that is not in a [`SourceMap`].
     pub const NONE: SourceId = SourceId(u16::MAX);
 }
 
@@ -42,13 +41,12 @@ impl Span {
         Self { source, start: range.start as u32, end: range.end as u32 }
     }
 
-    /// An empty span at `offset`: a place between two characters.
+    /// Returns an empty span at `offset`: a place between two characters.
     pub fn at(source: SourceId, offset: usize) -> Self {
         Self::new(source, offset..offset)
     }
 
-    /// Returns the span from the start of `self` to the end of `end`; `self` alone where the two lie in different
-    /// texts.
+    /// Returns the span from the start of `self` to the end of `end`; only `self` if the two are in different texts.
     pub fn to(self, end: Span) -> Span {
         if self.source != end.source || end.end < self.start {
             return self;
@@ -61,7 +59,7 @@ impl Span {
     }
 }
 
-/// Says how much a diagnostic matters. Only an error keeps a program from running.
+/// The severity of a diagnostic. Only an error prevents a program from running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Severity {
     Note,
@@ -79,24 +77,24 @@ impl Severity {
     }
 }
 
-/// A second place worth showing: the earlier declaration, the macro's definition.
+/// A secondary place: the earlier declaration, the macro's definition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     pub span: Span,
     pub message: String,
 }
 
-/// A stretch of a text, and what shall stand there instead.
+/// A range of a text, and its replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
     pub span: Span,
     pub text: String,
 }
 
-/// A mend that can be made without asking further: all of its edits together. No two of them touch the same bytes.
+/// A fix that can be applied without further input: all of its edits together. No two of them touch the same bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
-    /// Says what it does, in a menu: "Replace with `texture`".
+    /// Its description, for a menu: "Replace with `texture`".
     pub title: String,
     pub edits: Vec<Edit>,
 }
@@ -106,14 +104,14 @@ impl Fix {
         Self { title: title.into(), edits }
     }
 
-    /// Returns the mend that puts a text in the place of another.
+    /// Returns the fix that replaces a range with a text.
     pub fn replace(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
         Self::new(shortened(format!("Replace with `{text}`")), vec![Edit { span, text }])
     }
 
-    /// Returns `text`, which is that of a source, with the edits of it made. An edit of bytes that the text does not have
-    /// is left out.
+    /// Returns `text`, which is that of a source, with the edits of this source applied. Edits out of range are left
+    /// out.
     pub fn applied(&self, source: SourceId, text: &str) -> String {
         let mut edits: Vec<&Edit> = self.edits.iter().filter(|edit| edit.span.source == source).collect();
         edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
@@ -132,19 +130,19 @@ impl Fix {
     }
 }
 
-/// One thing the author has to mend, or should know.
+/// A problem that the author must fix, or should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     pub severity: Severity,
-    /// The place is `None` for something that is not in any text (a pass that is missing).
+    /// The place, or `None` for a problem that is not in any text (a missing pass).
     pub span: Option<Span>,
-    /// The mistake in one sentence without a full stop.
+    /// The error in one sentence without a full stop.
     pub message: String,
-    /// Further places.
+    /// Secondary places.
     pub labels: Vec<Label>,
-    /// The mends, one line each.
+    /// Suggested fixes, one line each.
     pub hints: Vec<String>,
-    /// The mends that an editor can make by itself, the likeliest first. The terminal does not tell of them.
+    /// Fixes that an editor can apply, the likeliest first. Not shown in the terminal.
     pub fixes: Vec<Fix>,
 }
 
@@ -190,14 +188,14 @@ impl Diagnostic {
         self.severity == Severity::Error
     }
 
-    /// Returns whether another diagnostic says the same of the same place. Without a place it says less than one with a
+    /// Returns whether another diagnostic has the same message and place. One without a place also repeats one with a
     /// place.
     pub fn repeats(&self, other: &Diagnostic) -> bool {
         self.message == other.message && (self.span.is_none() || self.span == other.span)
     }
 }
 
-/// Bytes of a message, a label or a hint. They quote texts, of which one word or line may have megabytes.
+/// The limit of a message, a label or a hint in bytes. They quote texts, of which one word or line may have megabytes.
 pub const MESSAGE_BYTES: usize = 2_000;
 
 /// Returns a message of at most [`MESSAGE_BYTES`] bytes: a longer one ends with `...` and its size.
@@ -212,8 +210,8 @@ pub fn shortened(message: impl Into<String>) -> String {
     message
 }
 
-/// Adds what repeats nothing in `all`. A mistake in a text that several passes share is found in each of them, and told
-/// of once.
+/// Adds the diagnostics that do not repeat any in `all`. An error in a text that several passes share is found in each
+/// of them, and reported once.
 pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnostic>) {
     let mut found = found.into_iter().peekable();
     if found.peek().is_none() {
@@ -238,7 +236,7 @@ pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnos
     }
 }
 
-/// A named text that spans point into.
+/// A named text that spans refer to.
 #[derive(Clone, Debug)]
 pub struct SourceText {
     /// The name that the author knows: `buffer_a.glsl`, `Image`, `eddy.toml`.
@@ -267,7 +265,7 @@ pub struct LineIndex {
 impl LineIndex {
     const BLOCK: usize = 1024;
 
-    /// Reads the text once. It has less than 4 GiB.
+    /// Indexes a text in one pass. It must have less than 4 GiB.
     pub fn new(text: &str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at as u32 + 1);
         let mut before = 0;
@@ -284,7 +282,7 @@ impl LineIndex {
         self.lines.partition_point(|start| *start as usize <= place)
     }
 
-    /// Returns the characters before a place, which is at the boundary of one.
+    /// Returns the number of characters before a place, which is at a character boundary.
     fn characters_before(&self, text: &str, place: usize) -> u32 {
         let block = (place / Self::BLOCK).min(self.characters.len().saturating_sub(1));
         self.characters.get(block).map_or(0, |before| before + characters(&text.as_bytes()[block * Self::BLOCK..place]))
@@ -324,7 +322,7 @@ impl SourceMap {
         self.sources.iter().enumerate().map(|(i, s)| (SourceId(i as u16), s))
     }
 
-    /// Line and column of a span's start; `None` for an unknown source.
+    /// Returns line and column of a span's start; `None` for an unknown source.
     pub fn line_column(&self, span: Span) -> Option<LineColumn> {
         let SourceText { text, lines, .. } = self.get(span.source)?;
         let mut start = (span.start as usize).min(text.len());
@@ -344,7 +342,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn positions_are_those_of_counting_from_the_start() {
+    fn indexed_positions_match_counting_from_the_start() {
         let line = "aé→😀 x".repeat(400);
         for text in ["", "\n", "a", "a\nbé\n\n", &line, &format!("{line}\n\n{line}\r\n{line}")] {
             let mut sources = SourceMap::default();
@@ -360,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edits_of_a_text_are_made_together() {
+    fn edits_of_a_text_are_applied_together() {
         let edit = |source: u16, range: std::ops::Range<usize>, text: &str| Edit {
             span: Span::new(SourceId(source), range),
             text: text.into(),

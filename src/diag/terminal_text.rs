@@ -1,33 +1,33 @@
-//! Text of a stranger, made harmless for a terminal.
+//! Untrusted text, escaped for a terminal.
 //!
-//! A terminal obeys control characters: ECMA-48 gives the sequences that move the cursor, erase and retitle, and section 9
-//! of UAX #9 the characters that turn the order of a line around so that code reads as something else ("Trojan Source",
-//! CVE-2021-42574). They are shown as Rust writes them, `\u{1b}`.
+//! A terminal interprets control characters: ECMA-48 defines the sequences that move the cursor, erase and retitle, and
+//! section 9 of UAX #9 the characters that reorder a line so that code reads differently ("Trojan Source",
+//! CVE-2021-42574). They are shown in Rust's syntax, `\u{1b}`.
 
 use std::{borrow::Cow, fmt::Write};
 
-/// Returns whether a character must not reach a terminal from a stranger's text. A line break and a tab are among them.
+/// Returns whether a character of an untrusted text must not reach a terminal. Line breaks and tabs are included.
 ///
-/// C0, DEL and C1 (ECMA-48, section 5), the marks and embeddings of UAX #9, and the separators of lines and paragraphs of
-/// Unicode, which some programs show as line breaks.
+/// C0, DEL and C1 (ECMA-48, section 5), the marks and embeddings of UAX #9, and Unicode's line and paragraph
+/// separators, which some programs show as line breaks.
 pub fn is_terminal_control(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Returns a text of several lines for a terminal: line breaks and tabs stay.
+/// Escapes a text of several lines for a terminal: line breaks and tabs stay.
 pub fn escape_text(text: &str) -> Cow<'_, str> {
     escape(text, |c| !matches!(c, '\n' | '\t') && is_terminal_control(c))
 }
 
-/// Returns a text that has one line, such as a name, for a terminal: line breaks and tabs are shown as `\u{a}` and `\u{9}`
-/// too, so that no part of it is taken for a line of its own.
+/// Escapes a text of one line, such as a name, for a terminal: line breaks and tabs are shown as `\u{a}` and `\u{9}`
+/// too, so that no part of it looks like a separate line.
 pub fn escape_line(text: &str) -> Cow<'_, str> {
     escape(text, is_terminal_control)
 }
 
-/// Returns a text that should have one line, but may have more: they are indented, so that none of them is taken for a
-/// line of Eddy's own.
+/// Escapes a text that should have one line, but may have more: further lines are indented, so that none of them looks
+/// like a line of Eddy's own.
 pub fn escape_message(text: &str) -> Cow<'_, str> {
     match escape_text(text) {
         text if text.contains('\n') => text.replace('\n', "\n    ").into(),
@@ -35,8 +35,8 @@ pub fn escape_message(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Returns a JSON text in which characters that JSON lets pass, but no terminal, are escaped (RFC 8259, section 7). They
-/// can be in strings alone, so that the values stay the same.
+/// Escapes characters in a JSON text that are valid in JSON but not safe for a terminal (RFC 8259, section 7). They
+/// only occur in strings, so that the values stay the same.
 pub fn escape_json(json: &str) -> Cow<'_, str> {
     let is_raw = |c: char| c >= '\u{7f}' && is_terminal_control(c);
     replace(json, is_raw, |out, c| {

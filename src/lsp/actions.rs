@@ -1,11 +1,11 @@
-//! Code actions: the mends that messages name, and edits of several files as the editor takes them.
+//! Code actions: the fixes of diagnostics, and edits of several files in the protocol's form.
 
 use super::{program::Program, published::Places};
 use eddy_diag::{Fix, SourceId};
 use gen_lsp_types::{CodeAction, CodeActionKind, TextEdit, Uri, WorkspaceEdit};
 use std::{collections::HashMap, ops::Range};
 
-/// Returns the mends of what is wrong in a range of a text, the likeliest first.
+/// Returns the fixes of the diagnostics in a range of a text, the likeliest first.
 pub(crate) fn actions(
     program: &Program,
     places: &mut Places<'_>,
@@ -34,7 +34,7 @@ pub(crate) fn actions(
     actions
 }
 
-/// Returns the edits of a fix by file; `None` where one is in no file.
+/// Returns the edits of a fix by file; `None` if one is not in a file.
 pub(crate) fn edit(program: &Program, places: &mut Places<'_>, fix: &Fix) -> Option<WorkspaceEdit> {
     let mut changes: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
     for edit in &fix.edits {
@@ -42,7 +42,7 @@ pub(crate) fn edit(program: &Program, places: &mut Places<'_>, fix: &Fix) -> Opt
         let uri = places.uri(edit.span.source)?;
         let edit = TextEdit { range: places.range(edit.span), new_text: edit.text.clone() };
         let list = changes.entry(uri).or_default();
-        // Two passes may be of one file.
+        // Two passes may use the same file.
         if !list.contains(&edit) {
             list.push(edit);
         }

@@ -1,4 +1,4 @@
-//! Completion: everything that could stand at the caret.
+//! Completion: everything that is valid at the caret.
 
 use super::{hover::markdown, positions::Lines, program::Program};
 use eddy_diag::SourceId;
@@ -21,7 +21,7 @@ fn kind(kind: CompletionKind) -> CompletionItemKind {
     }
 }
 
-/// Returns everything that could stand at a byte, best first; the editor chooses by what is typed.
+/// Returns all completions at a byte, best first; the editor filters by the typed text.
 pub(crate) fn completions(program: &Program, id: SourceId, at: usize, lines: &Lines<'_>) -> CompletionList {
     let Some(analysis) = program.analysis(id) else { return CompletionList::default() };
     let found = analysis.completions(id, at);

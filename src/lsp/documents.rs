@@ -11,7 +11,7 @@ use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
     pub uri: String,
-    /// The file's, or one that no file has for a document that is not saved yet.
+    /// The file's path, or a unique one for a document that is not saved yet.
     pub path: PathBuf,
     pub version: i32,
     pub text: Arc<str>,
@@ -25,10 +25,10 @@ pub(crate) struct Documents {
     texts: EditedTexts,
 }
 
-/// A folder that no file system has: documents without a file lie there, each in one of its own.
+/// A folder that no file system has: the parent of documents without a file.
 const UNSAVED: &str = "/\u{0}unsaved";
 
-/// Returns the path that a document is known by.
+/// Returns the path that identifies a document.
 pub(crate) fn path_of(uri: &str) -> PathBuf {
     uris::path(uri).unwrap_or_else(|| {
         let name = uri.rsplit(['/', ':']).next().unwrap_or_default();
@@ -47,7 +47,7 @@ impl Documents {
         path
     }
 
-    /// Makes changes one after the other. Those of a document that is not open are dropped.
+    /// Applies changes in order. Those of a document that is not open are dropped.
     pub fn change(
         &mut self,
         of: &VersionedTextDocumentIdentifier,
@@ -90,7 +90,7 @@ impl Documents {
         &self.texts
     }
 
-    /// Returns the URI of a file, as the editor spells it if it has it open.
+    /// Returns the URI of a file, in the editor's spelling if it has it open.
     pub fn uri(&self, path: &std::path::Path) -> String {
         self.open.get(path).map_or_else(|| uris::uri(path), |document| document.uri.clone())
     }

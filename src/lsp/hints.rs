@@ -6,7 +6,7 @@ use eddy_project::limits;
 use gen_lsp_types::{InlayHint, InlayHintKind, Label};
 use std::ops::Range;
 
-/// Returns the hints of a range of a text: those of the language, and behind each `#iUniform` line the value that
+/// Returns the hints of a range of a text: those of the language, and after each `#iUniform` line the value that
 /// `eddy.toml` sets.
 pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: Range<usize>) -> Vec<InlayHint> {
     let of_language = program.analysis(id).map(|analysis| analysis.hints(id, range.clone())).unwrap_or_default();
@@ -20,7 +20,7 @@ pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: R
                 false => hint.label.starts_with(':').then_some(InlayHintKind::Type),
             };
             let is_value = kind.is_none();
-            made(lines, hint.at, hint.label, kind, is_value, hint.is_parameter)
+            inlay_hint(lines, hint.at, hint.label, kind, is_value, hint.is_parameter)
         })
         .collect();
     let Some(project) = &program.project else { return hints };
@@ -33,13 +33,13 @@ pub(crate) fn hints(program: &Program, id: SourceId, lines: &Lines<'_>, range: R
             let at = text[span.end as usize..].find('\n').map_or(text.len(), |i| span.end as usize + i);
             let at = at - (text[..at].len() - text[..at].trim_end().len());
             let label = format!("now {} (eddy.toml)", value.glsl(uniform.ty));
-            hints.push(made(lines, at, label, None, true, false));
+            hints.push(inlay_hint(lines, at, label, None, true, false));
         }
     }
     hints
 }
 
-fn made(
+fn inlay_hint(
     lines: &Lines<'_>,
     at: usize,
     label: String,

@@ -1,4 +1,4 @@
-//! Hover, as Markdown, and the signature of the call around a place.
+//! Hover, as Markdown, and the signature of the call at a position.
 
 use super::{positions::Encoding, program::Program};
 use eddy_diag::{SourceId, Span};
@@ -11,7 +11,7 @@ pub(crate) fn markdown(value: String) -> MarkupContent {
     MarkupContent { kind: MarkupKind::Markdown, value }
 }
 
-/// Returns the text for a place, and what it is about.
+/// Returns the hover text at a position, and its range.
 pub(crate) fn hover(program: &Program, id: SourceId, at: usize) -> Option<(MarkupContent, Span)> {
     let of_language = program.analysis(id).and_then(|analysis| analysis.hover(id, at));
     let uniform = program.programs(|programs| programs.uniform_lines(id, at));
@@ -28,7 +28,7 @@ pub(crate) fn hover(program: &Program, id: SourceId, at: usize) -> Option<(Marku
                 text.push_str(&format!(" of {file}"));
             }
             if !hover.doc.is_empty() {
-                // Lines of a comment stay lines.
+                // Keep line breaks of a comment.
                 text.push_str(&format!("\n\n{}", hover.doc.replace('\n', "  \n")));
             }
             (text, hover.span)
@@ -44,7 +44,7 @@ pub(crate) fn hover(program: &Program, id: SourceId, at: usize) -> Option<(Marku
     Some((markdown(text), span))
 }
 
-/// The type, range and value of a uniform that an `#iUniform` line declares.
+/// Returns the type, range and value of a uniform that an `#iUniform` line declares.
 fn range_of(program: &Program, line: Span) -> Option<String> {
     let project = program.project.as_ref()?;
     let name = &program.uniforms.iter().find(|(_, span)| *span == line)?.0;
@@ -56,7 +56,8 @@ fn range_of(program: &Program, line: Span) -> Option<String> {
     Some(format!("`{} {name}` = `{value}`, {from}", uniform.ty.name()))
 }
 
-/// Returns what the call around a place takes. `by_offset`: the editor knows parameters by where they stand in the label.
+/// Returns the signatures of the call at a position. `by_offset`: the editor supports offsets into the label for
+/// parameters.
 pub(crate) fn signature(
     program: &Program,
     id: SourceId,

@@ -1,11 +1,11 @@
 //! Eddy's editor services over the Language Server Protocol (version 3.17), for any editor that speaks it.
 //!
-//! Owns the documents that an editor has open, the projects that they belong to, and the translation of what
-//! [`eddy_glsl::services`] answers. [`Server`] takes messages and returns messages, and knows no stream: [`serve`] connects
-//! one to standard input and output. What is wrong with a project is what `eddy check` says of it, with the editor's
-//! unsaved texts in place of what is on disk.
+//! Owns the documents that an editor has open, the projects that they belong to, and the conversion of the answers of
+//! [`eddy_glsl::services`]. [`Server`] takes messages and returns messages, without a stream: [`serve`] connects one to
+//! standard input and output. The diagnostics of a project are those of `eddy check`, with the editor's unsaved texts
+//! in place of the files on disk.
 //!
-//! Formatting is not offered: the layout of a shader is its author's.
+//! Formatting is not offered: the author decides the layout of a shader.
 
 mod actions;
 mod completion;

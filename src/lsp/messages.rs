@@ -1,11 +1,11 @@
-//! Answers that are no results: what went wrong with a request.
+//! Responses to requests: results and errors.
 
 use lsp_server::{ErrorCode, ResponseError};
 
 /// The answer to a request: JSON, or an error.
 pub(crate) type Answer = Result<serde_json::Value, ResponseError>;
 
-/// The request is well-formed and cannot be done; the text is for a person.
+/// Returns the error for a valid request that cannot be fulfilled; the text is shown to the user.
 pub(crate) fn failed(message: impl Into<String>) -> ResponseError {
     error(ErrorCode::RequestFailed, message)
 }

@@ -6,7 +6,7 @@ use eddy_project::limits;
 use gen_lsp_types::{DocumentHighlight, DocumentHighlightKind, Location};
 use std::collections::HashSet;
 
-/// Returns where what is named at a byte is declared: in GLSL, by an `#iUniform` line, or the file that an `#include` line
+/// Returns the declaration of the item at a byte: in GLSL, by an `#iUniform` line, or the file that an `#include` line
 /// names.
 pub(crate) fn definition(program: &Program, places: &mut Places<'_>, id: SourceId, at: usize) -> Vec<Location> {
     let declared = program.analysis(id).and_then(|analysis| analysis.definition(id, at));
@@ -24,7 +24,7 @@ pub(crate) fn definition(program: &Program, places: &mut Places<'_>, id: SourceI
     spans.into_iter().filter_map(|span| places.location(span)).collect()
 }
 
-/// Returns every place of the project where what is named at a byte is named.
+/// Returns every place of the project that refers to the item at a byte.
 pub(crate) fn references(
     program: &Program,
     places: &mut Places<'_>,
@@ -35,10 +35,10 @@ pub(crate) fn references(
     let found = spans(program, id, at);
     let declared = program.analysis(id).and_then(|analysis| analysis.definition(id, at));
     let lines = program.programs(|programs| programs.uniform_lines(id, at));
-    // At a declaration, that is itself the declaration.
+    // From a declaration, the declaration is returned itself.
     let is_declaration = |span: &Span| Some(*span) == declared || lines.contains(span);
     let wanted = found.into_iter().filter(|span| with_declaration || !is_declaration(span));
-    // Two texts may be of one file.
+    // Two texts may belong to the same file.
     let mut seen = HashSet::new();
     let locations = wanted.filter_map(|span| {
         let location = places.location(span)?;
@@ -61,7 +61,7 @@ pub(crate) fn highlights(
     here.map(|span| DocumentHighlight { range: places.range(span), kind: Some(DocumentHighlightKind::Text) }).collect()
 }
 
-/// Every place of a name; of one that the language gives, those in the text that it is asked of.
+/// Returns every place of a name; for a predefined one, those in the text of the request.
 fn spans(program: &Program, id: SourceId, at: usize) -> Vec<Span> {
     let found = program.programs(|programs| programs.places(id, at));
     if !found.is_empty() {

@@ -2,18 +2,18 @@
 
 use gen_lsp_types::{Position, PositionEncodingKind, Range};
 
-/// The unit that an editor counts characters of a line in.
+/// The unit in which an editor counts the characters of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Encoding {
     Utf8,
-    /// The one that every editor has.
+    /// The default, which every editor supports.
     #[default]
     Utf16,
     Utf32,
 }
 
 impl Encoding {
-    /// Returns the best of those that an editor offers: bytes need no counting.
+    /// Returns the best encoding that an editor offers: bytes need no conversion.
     pub fn choose(offered: &[String]) -> Self {
         let has = |name: &str| offered.iter().any(|other| other == name);
         match (has("utf-8"), has("utf-16"), has("utf-32")) {
@@ -42,7 +42,8 @@ impl Encoding {
         length as u32
     }
 
-    /// Returns the byte of a line at so many units; its end if it has fewer, the begin of a character within one.
+    /// Returns the byte of a line after this number of units; its end if it has fewer, the start of a character if
+    /// inside one.
     fn byte(self, line: &str, units: u32) -> usize {
         let mut left = units as usize;
         for (at, c) in line.char_indices() {
@@ -60,7 +61,7 @@ impl Encoding {
     }
 }
 
-/// The begins of a text's lines. A line ends with `\n`, `\r\n` or `\r`, as the protocol has it.
+/// The start of each line of a text. A line ends with `\n`, `\r\n` or `\r`, as in the protocol.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines<'t> {
     text: &'t str,
@@ -80,14 +81,15 @@ impl<'t> Lines<'t> {
         Self { text, starts, encoding }
     }
 
-    /// A line without its end.
+    /// Returns a line without its end.
     fn line(&self, line: usize) -> &'t str {
         let start = self.starts[line];
         let end = self.starts.get(line + 1).copied().unwrap_or(self.text.len());
         self.text[start..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// Returns the byte at a position; a position behind a line is the line's end, one behind the text the text's end.
+    /// Returns the byte at a position; a position past the end of a line is the line's end, one past the text the
+    /// text's end.
     pub fn offset(&self, position: Position) -> usize {
         match self.starts.get(position.line as usize) {
             Some(start) => start + self.encoding.byte(self.line(position.line as usize), position.character),
@@ -95,7 +97,7 @@ impl<'t> Lines<'t> {
         }
     }
 
-    /// Returns the position of a byte; of one that the text does not have, the text's end.
+    /// Returns the position of a byte; for one past the end of the text, the text's end.
     pub fn position(&self, offset: usize) -> Position {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
@@ -110,7 +112,7 @@ impl<'t> Lines<'t> {
         Range { start: self.position(range.start), end: self.position(range.end) }
     }
 
-    /// Returns the bytes of a range; an empty one where it ends before it begins.
+    /// Returns the bytes of a range; an empty one if its end is before its start.
     pub fn bytes(&self, range: Range) -> std::ops::Range<usize> {
         let start = self.offset(range.start);
         start..self.offset(range.end).max(start)

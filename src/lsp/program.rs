@@ -1,4 +1,4 @@
-//! A project, or one plain stage, as it is with the editor's texts: what stands where, what it means and what is wrong.
+//! A project, or one plain stage, with the editor's texts: its files, analyses and diagnostics.
 
 use super::documents::Documents;
 use eddy_diag::{self as diag, Diagnostic, Fix, SourceId, SourceMap, Span};
@@ -18,12 +18,12 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
-/// The folder or the file that a program is read from.
+/// The folder or the file that a program is loaded from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Root {
     /// A folder with a project.
     Folder(PathBuf),
-    /// One GLSL file with what it names.
+    /// One GLSL file and the files that it names.
     File(PathBuf),
 }
 
@@ -34,7 +34,7 @@ impl Root {
         }
     }
 
-    /// The folder that names of files begin at.
+    /// Returns the folder that file names are relative to.
     fn base(&self) -> &Path {
         match self {
             Root::Folder(path) => path,
@@ -45,34 +45,34 @@ impl Root {
 
 pub(crate) struct Program {
     pub root: Root,
-    /// A text that it is made of has changed since it was read.
+    /// A text of it has changed since it was read.
     pub is_stale: bool,
-    /// Its diagnostics have changed since they were told.
+    /// Its diagnostics have changed since they were published.
     pub is_untold: bool,
-    /// `None`: one plain stage, or texts that make no project.
+    /// `None` for one plain stage, or for files that do not form a project.
     pub project: Option<Project>,
-    /// The texts, and behind those of the project the files that diagnostics point into besides.
+    /// The texts of the project, followed by further files that diagnostics refer to.
     pub texts: SourceMap,
     /// The file of each text.
     pub paths: Vec<PathBuf>,
     pub stages: Vec<StageAnalysis>,
-    /// The kind of each stage where there is no project: stage `n` is text `n`.
+    /// The kind of each stage if there is no project: stage `n` is text `n`.
     plain: Vec<PassKind>,
     /// The names in `#iUniform` lines.
     pub uniforms: Vec<(String, Span)>,
     /// The diagnostics of the texts.
-    said: Vec<Diagnostic>,
+    reported: Vec<Diagnostic>,
     media: Media,
-    /// Documents that have been told of diagnostics.
+    /// Documents for which diagnostics have been published.
     pub published: BTreeSet<String>,
     kept: KeptAnalyses,
 }
 
-/// The diagnostics of pictures and models, which are read again where a project names others.
+/// The diagnostics of pictures and models, which are read again when a project names different ones.
 #[derive(Default)]
 struct Media {
     of: Option<Vec<([Option<Channel>; 4], PassSettings)>>,
-    said: Vec<Diagnostic>,
+    reported: Vec<Diagnostic>,
 }
 
 impl Program {
@@ -87,19 +87,19 @@ impl Program {
             stages: Vec::new(),
             plain: Vec::new(),
             uniforms: Vec::new(),
-            said: Vec::new(),
+            reported: Vec::new(),
             media: Media::default(),
             published: BTreeSet::new(),
             kept: KeptAnalyses::default(),
         }
     }
 
-    /// Returns the same program with nothing read, and hands over what is kept for the next reading.
+    /// Returns the same program, unread, with the data kept for the next reading moved to it.
     pub fn unread(&mut self) -> Self {
         Self { kept: std::mem::take(&mut self.kept), ..Self::new(self.root.clone()) }
     }
 
-    /// Takes the place of an earlier reading of the same program.
+    /// Replaces an earlier reading of the same program.
     pub fn follows(&mut self, earlier: &mut Self) {
         self.published = std::mem::take(&mut earlier.published);
         self.media = std::mem::take(&mut earlier.media);
@@ -108,12 +108,12 @@ impl Program {
         }
     }
 
-    /// Keeps for the next reading what another one has read of the program.
+    /// Takes over the data that another reading of the program kept.
     pub fn keep_of(&mut self, other: Self) {
         self.kept = other.kept;
     }
 
-    /// Reads it again, unless it is cancelled.
+    /// Reads the program again, unless it is cancelled.
     pub fn read(&mut self, documents: &Documents, cancel: &Arc<AtomicBool>) {
         (self.is_stale, self.is_untold) = (false, true);
         let text = documents.get(self.root.path()).map(|document| document.text.clone());
@@ -122,7 +122,7 @@ impl Program {
         {
             let texts = vec![(path.clone(), text, kind)];
             self.take_alone(texts, cancel);
-            self.said = self.stages[0].analysis.diagnostics().to_vec();
+            self.reported = self.stages[0].analysis.diagnostics().to_vec();
             return;
         }
         match project::load_edited(self.root.path(), documents.texts()) {
@@ -149,19 +149,19 @@ impl Program {
         let project::Loaded { project, warnings, sources } = loaded;
         let texts = Sources::new(&project).cancelled_by(cancel.clone());
         self.stages = self.kept.analyse(&project, &texts);
-        let mut said = warnings;
-        said.extend(self.kept.diagnose(&project, &texts, &self.stages));
+        let mut reported = warnings;
+        reported.extend(self.kept.diagnose(&project, &texts, &self.stages));
         let advice = project::advice(&project);
-        let is_new = |d: &Diagnostic| !said.iter().any(|known| d.repeats(known));
+        let is_new = |d: &Diagnostic| !reported.iter().any(|known| d.repeats(known));
         let advice: Vec<Diagnostic> = advice.into_iter().filter(is_new).collect();
-        said.extend(advice);
-        self.said = said;
+        reported.extend(advice);
+        self.reported = reported;
         let includes = project.includes.iter().map(|included| &included.source);
         let own = project.common.iter().map(Some).chain(project.common.is_none().then_some(None));
         let own = own.chain(project.passes.iter().map(|pass| Some(&pass.source)));
         let own = own.chain(project.stages().map(|(_, stage)| Some(stage))).chain(includes.map(Some));
         let base = self.root.base().to_owned();
-        // The texts around an ISF file are Eddy's, and in no file.
+        // The texts around an ISF file are generated by Eddy and not in any file.
         let is_generated = |s: &project::Source| project.dialect == Dialect::Isf && s.path.is_none();
         let file = |source: Option<&project::Source>| {
             source
@@ -178,7 +178,7 @@ impl Program {
         self.project = Some(project);
     }
 
-    /// Takes texts that belong to no project, each for itself.
+    /// Uses texts that belong to no project, each by itself.
     fn take_alone(&mut self, texts: Vec<(PathBuf, Arc<str>, PassKind)>, cancel: &AtomicBool) {
         self.project = None;
         (self.texts, self.stages, self.paths, self.plain) = Default::default();
@@ -186,17 +186,17 @@ impl Program {
         self.media = Media::default();
         for (index, (path, text, kind)) in texts.into_iter().enumerate() {
             let id = self.texts.add(path.file_name().unwrap_or_default().to_string_lossy(), text.clone());
-            let analysis = Arc::new(alone(kind, id, &text, Cancel::by(cancel)));
+            let analysis = Arc::new(analyse_alone(kind, id, &text, Cancel::by(cancel)));
             self.stages.push(StageAnalysis { index, stage: Stage::Own, analysis });
             self.paths.push(path);
             self.plain.push(kind);
         }
     }
 
-    /// Says why the files make no project. What it points into comes behind the texts.
+    /// Reports why the files do not form a project. Files that the error refers to are added after the texts.
     fn take_error(&mut self, error: &ProjectError) {
         let Some((diagnostics, sources)) = error.diagnostics() else {
-            self.said = vec![Diagnostic::error(None, error.to_string())];
+            self.reported = vec![Diagnostic::error(None, error.to_string())];
             return;
         };
         let ids: Vec<SourceId> = sources
@@ -211,8 +211,8 @@ impl Program {
                 span.source = *id;
             }
         };
-        self.said = diagnostics.to_vec();
-        for diagnostic in &mut self.said {
+        self.reported = diagnostics.to_vec();
+        for diagnostic in &mut self.reported {
             diagnostic.span.iter_mut().for_each(moved);
             diagnostic.labels.iter_mut().for_each(|label| moved(&mut label.span));
             let edits = diagnostic.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
@@ -220,30 +220,30 @@ impl Program {
         }
     }
 
-    /// Everything that is wrong, each once.
+    /// Returns all diagnostics, without duplicates.
     pub fn diagnostics(&self) -> Vec<Diagnostic> {
-        let mut all = self.said.clone();
-        diag::append(&mut all, self.media.said.iter().cloned());
+        let mut all = self.reported.clone();
+        diag::append(&mut all, self.media.reported.iter().cloned());
         all
     }
 
-    /// The pictures and models are others than those that were looked at last.
+    /// Returns whether the pictures and models differ from those that were checked last.
     pub fn has_unseen_media(&self) -> bool {
         let Some(project) = &self.project else { return false };
         let now = project.passes.iter().map(|pass| (&pass.channels, &pass.settings));
         self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s)| (c, s)).eq(now))
     }
 
-    /// Looks at pictures and models, which may take as long as they are large.
+    /// Checks pictures and models; the time depends on their size.
     pub fn look_at_media(&mut self) {
         let Some(project) = &self.project else { return };
         let of = project.passes.iter().map(|pass| (pass.channels.clone(), pass.settings.clone())).collect();
-        let said = media::diagnose(project);
-        self.is_untold |= said != self.media.said;
-        self.media = Media { of: Some(of), said };
+        let reported = media::diagnose(project);
+        self.is_untold |= reported != self.media.reported;
+        self.media = Media { of: Some(of), reported };
     }
 
-    /// Files on disk have changed.
+    /// Marks pictures and models as unchecked, after files on disk have changed.
     pub fn forget_media(&mut self) {
         self.media.of = None;
     }
@@ -267,7 +267,8 @@ impl Program {
         self.texts.get(id).map_or("", |text| &text.text)
     }
 
-    /// Returns the stage that a text is read with: its own; of what several have in them, that of Image or the first.
+    /// Returns the analysis of the stage that a text is read with: its own; for a text that several include, that of
+    /// Image or the first.
     pub fn analysis(&self, id: SourceId) -> Option<&Analysis> {
         let Some(project) = &self.project else {
             return self.stages.get(usize::from(id.0)).map(|stage| &*stage.analysis);
@@ -280,7 +281,7 @@ impl Program {
         Some(&found.analysis)
     }
 
-    /// The file that a diagnostic without a place is shown in.
+    /// Returns the file for diagnostics without a place.
     pub fn main_path(&self) -> Option<&Path> {
         let image = self.project.as_ref().and_then(|project| {
             let index = project.passes.iter().position(|pass| pass.id == PassId::Image)?;
@@ -293,13 +294,13 @@ impl Program {
         image.or(root).or_else(|| self.paths.iter().map(PathBuf::as_path).find(|path| !path.as_os_str().is_empty()))
     }
 
-    /// Hands out all stages together.
+    /// Calls `work` with all stages together.
     pub fn programs<T>(&self, work: impl FnOnce(&Programs<'_>) -> T) -> T {
         let analyses: Vec<&Analysis> = self.stages.iter().map(|stage| &*stage.analysis).collect();
         work(&Programs { analyses: &analyses, uniforms: &self.uniforms, texts: &self.texts })
     }
 
-    /// Returns the edits that give the name at a byte of a text another one, or why that cannot be.
+    /// Returns the edits that rename the item at a byte of a text, or why it cannot be renamed.
     pub fn rename(&self, at: (SourceId, usize), to: &str) -> Result<Fix, String> {
         self.programs(|programs| {
             let (name, _) = programs.renamable(at.0, at.1)?;
@@ -321,8 +322,9 @@ impl Program {
                         texts.add(text.name.clone(), fix.applied(id, &text.text));
                     }
                     let read = self.plain.iter().zip(texts.iter());
-                    let read: Vec<Analysis> =
-                        read.map(|(kind, (id, text))| alone(*kind, id, &text.text, Cancel::default())).collect();
+                    let read: Vec<Analysis> = read
+                        .map(|(kind, (id, text))| analyse_alone(*kind, id, &text.text, Cancel::default()))
+                        .collect();
                     let analyses: Vec<&Analysis> = read.iter().collect();
                     check(&Programs { analyses: &analyses, uniforms: &[], texts: &texts });
                 }
@@ -330,7 +332,7 @@ impl Program {
         })
     }
 
-    /// Returns whether it is a file that is nobody else's: a pass of its own, not one that others include.
+    /// Returns whether it is a file that belongs to no other program: a pass of its own, not one that others include.
     pub fn is_whole(&self) -> bool {
         match &self.root {
             Root::Folder(_) => true,
@@ -354,13 +356,13 @@ fn has_entry(text: &str) -> bool {
     words.any(|word| matches!(word, "mainImage" | "mainSound" | "mainCubemap" | "main"))
 }
 
-/// Reads a text of no project.
-fn alone(kind: PassKind, id: SourceId, text: &str, cancel: Cancel<'_>) -> Analysis {
+/// Analyses a text that belongs to no project.
+fn analyse_alone(kind: PassKind, id: SourceId, text: &str, cancel: Cancel<'_>) -> Analysis {
     Analysis::new(&PassSource { cancel, ..PassSource::new(kind, Text { id, text }) })
 }
 
-/// Returns where the project of a file is: the folder around it, if that project has the file, else the file alone. The vertex
-/// shader of an ISF file is read with that.
+/// Returns the root of a file's program: the folder around it, if the project there contains the file, otherwise the
+/// file by itself. The vertex shader of an ISF file belongs to that file.
 pub(crate) fn root_of(path: &Path, edited: &EditedTexts) -> Root {
     let file = || Root::File(project::isf_of_vertex_shader(path, edited).unwrap_or_else(|| path.to_owned()));
     project::project_of(path, edited).map_or_else(file, Root::Folder)
@@ -372,7 +374,7 @@ mod tests {
     use serde_json::json;
 
     /// Returns the errors and warnings of an ISF file that an editor has open.
-    fn said(text: &str) -> Vec<String> {
+    fn messages(text: &str) -> Vec<String> {
         let item = json!({"uri": "file:///nowhere/a.fs", "languageId": "glsl", "version": 1, "text": text});
         let mut documents = Documents::default();
         let path = documents.open(serde_json::from_value(item).expect("a document"));
@@ -389,19 +391,19 @@ mod tests {
             "#extension GL_OES_standard_derivatives : enable\nvoid main() { gl_FragColor = vec4(fwidth(gl_FragCoord.x)); }",
             "#version 120\nvoid main() { gl_FragColor = vec4(RENDERSIZE, DATE.xy); }",
         ] {
-            assert_eq!(said(&format!("{header}\n{text}")), [""; 0], "{text}");
+            assert_eq!(messages(&format!("{header}\n{text}")), [""; 0], "{text}");
         }
-        assert_eq!(said("/*{}*/\nvoid main() { gl_FragColor = vec4(1.0); }"), [""; 0]);
+        assert_eq!(messages("/*{}*/\nvoid main() { gl_FragColor = vec4(1.0); }"), [""; 0]);
     }
 
     #[test]
-    fn a_broken_header_is_one_message() {
+    fn malformed_header_is_one_message() {
         let text = r#"/*{"INPUTS": [{"NAME": "a", "TYPE": "float"}]*/ void main() { gl_FragColor = vec4(a); }"#;
-        assert_eq!(said(text).len(), 1);
+        assert_eq!(messages(text).len(), 1);
     }
 
     #[test]
-    fn names_of_isf_are_free_for_macros_and_declarations() {
+    fn macros_and_declarations_may_use_isf_names() {
         for text in [
             "#define TIME 0.2 * TIME\nvoid main() { gl_FragColor = vec4(fract(TIME)); }",
             "#define RENDERSIZE vec2(640.0, 360.0)\nvoid main() { gl_FragColor = vec4(RENDERSIZE, 0.0, 1.0); }",
@@ -412,7 +414,7 @@ mod tests {
             "struct S { float TIME; vec2 RENDERSIZE; };\n\
              void main() { S s; s.TIME = 0.5; s.RENDERSIZE = vec2(0.25); gl_FragColor = vec4(s.TIME, s.RENDERSIZE, 1.0); }",
         ] {
-            assert_eq!(said(&format!("/*{{\"CREDIT\": \"\"}}*/\n{text}")), [""; 0], "{text}");
+            assert_eq!(messages(&format!("/*{{\"CREDIT\": \"\"}}*/\n{text}")), [""; 0], "{text}");
         }
     }
 }

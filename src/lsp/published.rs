@@ -1,4 +1,4 @@
-//! Diagnostics as the editor gets them: those of each file, also of files that it does not have open.
+//! Diagnostics in the protocol's form, by file, including files that the editor does not have open.
 
 use super::{
     documents::Documents,
@@ -11,7 +11,7 @@ use gen_lsp_types::{
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// The lines of texts, found when first needed.
+/// The line indices of texts, computed on demand.
 pub(crate) struct Places<'p> {
     program: &'p Program,
     documents: &'p Documents,
@@ -33,7 +33,7 @@ impl<'p> Places<'p> {
         self.lines(span.source).range(span.range())
     }
 
-    /// Returns `None` for a text that is in no file.
+    /// Returns `None` for a text that is not in a file.
     pub fn uri(&self, id: SourceId) -> Option<Uri> {
         Some(Uri(self.documents.uri(self.program.path_of(id)?)))
     }
@@ -71,8 +71,8 @@ impl<'p> Places<'p> {
     }
 }
 
-/// Returns the diagnostics of every file of a program that has some or that had some when it was last told, and
-/// remembers whom it told. Files of other programs' documents are left to those.
+/// Returns the diagnostics of every file of a program that has some, or that had some when they were last published,
+/// and records the files. Files that are documents of other programs are left to those.
 pub(crate) fn publish(
     program: &mut Program,
     documents: &Documents,
@@ -88,14 +88,14 @@ pub(crate) fn publish(
     }
     for diagnostic in &said {
         let placed = diagnostic.span.and_then(|span| program.path_of(span.source));
-        // One in a text that is in no file is told at the beginning of the main one.
+        // A diagnostic in a text without a file is reported at the start of the main file.
         let unplaced = Diagnostic { span: None, ..diagnostic.clone() };
         let diagnostic = if placed.is_some() { diagnostic } else { &unplaced };
         let path = placed.or_else(|| program.main_path());
         let Some(path) = path else { continue };
         let list = lists.entry(documents.uri(path)).or_default();
         let one = places.diagnostic(diagnostic);
-        // Two passes may be of one file.
+        // Two passes may use the same file.
         if !list.contains(&one) {
             list.push(one);
         }

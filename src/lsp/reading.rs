@@ -1,4 +1,4 @@
-//! A program that is read on a thread of its own, so that the server answers meanwhile and gives up what is outdated.
+//! Reads a program on a separate thread, so that the server can answer requests and cancel outdated readings.
 
 use super::{
     documents::Documents,
@@ -22,7 +22,7 @@ const STACK: usize = 8 << 20;
 pub(crate) struct Reading {
     pub root: Root,
     is_outdated: Arc<AtomicBool>,
-    /// The program, or `None` where the reading was given up. Closed without either after a panic.
+    /// Receives the program, or `None` if the reading was cancelled. Closed without either after a panic.
     result: Receiver<Option<Box<Program>>>,
 }
 
@@ -30,14 +30,14 @@ pub(crate) struct Reading {
 pub(crate) enum Progress {
     Reading,
     Read(Box<Program>),
-    /// It was given up, or has panicked.
+    /// It was cancelled, or has panicked.
     Ended {
         has_failed: bool,
     },
 }
 
 impl Reading {
-    /// Starts to read a program, which has nothing of what was read of it before but what it keeps for that.
+    /// Starts to read a program, which has only the data kept from its previous reading.
     pub fn start(mut program: Program, documents: Documents) -> io::Result<Self> {
         let (sender, result) = channel();
         let is_outdated = Arc::new(AtomicBool::new(false));
@@ -53,12 +53,12 @@ impl Reading {
         Ok(Self { root, is_outdated, result })
     }
 
-    /// A text of the program has changed: what is being read is given up at the next statement.
+    /// Cancels the reading at the next statement, because a text of the program has changed.
     pub fn give_up(&self) {
         self.is_outdated.store(true, Ordering::Relaxed);
     }
 
-    /// Waits for the result for at most so long.
+    /// Waits for the result, at most for `patience`.
     pub fn wait(&self, patience: Duration) -> Progress {
         match self.result.recv_timeout(patience) {
             Ok(Some(program)) => Progress::Read(program),

@@ -1,4 +1,4 @@
-//! The requests about documents, by their methods.
+//! The requests about documents, by method.
 
 use super::{
     actions, completion,
@@ -21,16 +21,16 @@ use lsp_server::ErrorCode;
 use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
 
-/// The abilities of an editor that not every editor has.
+/// The optional abilities of an editor.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ClientCapabilities {
-    /// Parameters of a signature are said by where they stand in it.
+    /// Parameters of a signature are given as offsets into its label.
     pub label_offsets: bool,
-    /// Requests of the server that ask for colours and hints again.
+    /// Requests of the server that make the editor refresh colours and hints.
     pub refreshed: [Option<&'static str>; 2],
 }
 
-/// Parameters that are read by what Eddy needs of them: an editor may add others.
+/// Request parameters, limited to the members that Eddy needs: an editor may send others.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct OfDocument {
@@ -70,7 +70,7 @@ fn read<T: DeserializeOwned>(params: Value) -> Result<T, lsp_server::ResponseErr
     serde_json::from_value(params).map_err(|why| error(ErrorCode::InvalidParams, why.to_string()))
 }
 
-/// A text of a program that is asked about.
+/// A text of a program that is being queried.
 struct QueriedText<'a> {
     program: &'a Program,
     places: Places<'a>,
@@ -88,7 +88,7 @@ impl<'a> QueriedText<'a> {
     }
 }
 
-/// Asks about a document. One that is not open, or of which nothing is known, gets the empty answer.
+/// Queries a document. One that is not open, or whose program is unknown, gets the empty answer.
 fn ask(
     workspace: &mut Workspace,
     encoding: Encoding,
@@ -101,7 +101,7 @@ fn ask(
         Err(Unfound::Unknown) => return Ok(Value::Null),
         Err(Unfound::Reading) => return Err(still_reading()),
     }
-    // Asked for again, as what is found borrows the documents too.
+    // Looked up again, because the result borrows the documents too.
     let owner = workspace.owner(&path).map(|index| &workspace.programs[index]);
     let Some((program, id)) = owner.and_then(|program| Some((program, program.id_of(&path)?))) else {
         return Ok(Value::Null);
@@ -109,7 +109,7 @@ fn ask(
     work(QueriedText { program, places: Places::new(program, &workspace.documents, encoding), id })
 }
 
-/// The answer to a request about a program that is being read: editors ask again, or at the next change.
+/// The answer to a request about a program that is being read: editors repeat it, or ask again after the next change.
 fn still_reading() -> lsp_server::ResponseError {
     error(ErrorCode::ContentModified, "the text is still being analysed: ask again")
 }
@@ -185,7 +185,7 @@ pub(crate) fn request(
             answer(hints::hints(asked.program, asked.id, &lines, lines.bytes(range)))
         }),
         "textDocument/codeAction" => about_range(workspace, encoding, params, |mut asked, range, context| {
-            // An editor that asks for refactorings alone gets no fixes.
+            // An editor that requests only refactorings gets no fixes.
             let only = context.and_then(|context| context.only);
             let is_wanted = |kind: &CodeActionKind| matches!(kind, CodeActionKind::QuickFix | CodeActionKind::Empty);
             if only.is_some_and(|only| !only.iter().any(is_wanted)) {

@@ -1,5 +1,4 @@
-//! Messages in, messages out: the life of a server, the documents that it is told of, and what it does while nothing is
-//! asked.
+//! Messages in, messages out: the lifecycle of a server, notifications about documents, and its idle work.
 
 use super::{
     messages::error,
@@ -32,22 +31,22 @@ use std::{
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum ServerState {
     #[default]
-    Begun,
+    Uninitialised,
     Running,
-    /// `shutdown` was asked for.
-    Ending,
+    /// `shutdown` was requested.
+    ShuttingDown,
 }
 
 /// A language server without a stream.
 #[derive(Default)]
 pub struct Server {
-    life: ServerState,
+    state: ServerState,
     encoding: Encoding,
     abilities: ClientCapabilities,
-    /// The editor tells of files that change on disk where it is asked to.
+    /// The editor reports files that change on disk, if requested.
     watches_files: bool,
     workspace: Workspace,
-    /// Projects of folders that the editor has open: they are read also while none of their files is open.
+    /// Projects of folders that the editor has open: they are read even while none of their files is open.
     folders: Vec<PathBuf>,
 }
 
@@ -56,8 +55,9 @@ impl Server {
         Self::default()
     }
 
-    /// Returns a server that reads programs on a thread of its own. A request about one that is being read is refused after
-    /// 50 ms, and a change gives the reading up. [`Server::idle`] has to be called again while [`Server::is_reading`].
+    /// Returns a server that reads programs on a separate thread. A request about one that is being read is refused
+    /// after 50 ms, and a change cancels the reading. [`Server::idle`] must be called repeatedly while
+    /// [`Server::is_reading`].
     pub fn threaded() -> Self {
         let mut server = Self::new();
         server.workspace.is_threaded = true;
@@ -69,31 +69,31 @@ impl Server {
         self.workspace.is_reading()
     }
 
-    /// Takes a message in; what is to be sent is added to `out`. Returns the exit code when the editor has said that the
-    /// server shall end: 0, or 1 if it did not ask to shut down first.
+    /// Handles a message; messages to send are added to `out`. Returns the exit code when the editor ends the server:
+    /// 0, or 1 if it did not request a shutdown first.
     pub fn handle(&mut self, message: Message, out: &mut Vec<Message>) -> Option<u8> {
         match message {
             Message::Request(request) => self.request(request, out),
             Message::Notification(Notification { method, .. }) if method == "exit" => {
-                return Some(u8::from(self.life != ServerState::Ending));
+                return Some(u8::from(self.state != ServerState::ShuttingDown));
             }
             Message::Notification(notification) => {
-                self.guarded(|server| server.notified(notification, out));
+                self.catch_panic(|server| server.notified(notification, out));
             }
-            // Of what this server asks, no answer is needed.
+            // The server's own requests need no response.
             Message::Response(_) => {}
         }
         None
     }
 
-    /// Does the next piece of work that nobody waits for: reads what has changed, tells of diagnostics, looks at pictures.
-    /// Returns false when there is none.
+    /// Does the next piece of idle work: reads changed programs, publishes diagnostics, checks pictures. Returns false
+    /// if there is none.
     pub fn idle(&mut self, out: &mut Vec<Message>) -> bool {
-        if self.life != ServerState::Running {
+        if self.state != ServerState::Running {
             return false;
         }
         let mut did = false;
-        self.guarded(|server| did = server.idle_work(out));
+        self.catch_panic(|server| did = server.idle_work(out));
         did
     }
 
@@ -112,7 +112,7 @@ impl Server {
         let folders = &self.folders;
         let left = self.workspace.take_left(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
         for program in left {
-            // Whoever has these documents now tells of them.
+            // The program that has these documents now publishes their diagnostics.
             for uri in program.published {
                 if self.owner_of(&uri).is_none() {
                     out.push(publish_diagnostics(&json!({"uri": uri, "diagnostics": []})));
@@ -148,12 +148,12 @@ impl Server {
         }
     }
 
-    /// Does what must not end the server, whatever it meets.
-    fn guarded(&mut self, work: impl FnOnce(&mut Self)) -> bool {
+    /// Runs work that must not end the server, even by a panic.
+    fn catch_panic(&mut self, work: impl FnOnce(&mut Self)) -> bool {
         let done = catch_unwind(AssertUnwindSafe(|| work(self)));
         if done.is_err() {
             log::error!("a message could not be handled; the documents are read again");
-            // What was half done is done from the beginning.
+            // Unfinished work is done again from the start.
             self.workspace.drop_reading();
             self.workspace.programs.clear();
             let paths: Vec<PathBuf> = self.workspace.documents.iter().map(|d| d.path.clone()).collect();
@@ -165,22 +165,24 @@ impl Server {
     }
 
     fn request(&mut self, Request { id, method, params }: Request, out: &mut Vec<Message>) {
-        let answer = match (self.life, method.as_str()) {
-            (ServerState::Begun, "initialize") => {
-                self.life = ServerState::Running;
+        let answer = match (self.state, method.as_str()) {
+            (ServerState::Uninitialised, "initialize") => {
+                self.state = ServerState::Running;
                 Ok(self.initialize(&params))
             }
-            (ServerState::Begun, _) => Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first")),
+            (ServerState::Uninitialised, _) => {
+                Err(error(ErrorCode::ServerNotInitialized, "\"initialize\" comes first"))
+            }
             (_, "initialize") => Err(error(ErrorCode::InvalidRequest, "\"initialize\" was sent before")),
-            (ServerState::Ending, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
+            (ServerState::ShuttingDown, _) => Err(error(ErrorCode::InvalidRequest, "the server was shut down")),
             (ServerState::Running, "shutdown") => {
-                self.life = ServerState::Ending;
+                self.state = ServerState::ShuttingDown;
                 Ok(Value::Null)
             }
             (ServerState::Running, _) => {
                 let setting = (self.encoding, self.abilities);
                 let mut answer = None;
-                let is_done = self.guarded(|server| {
+                let is_done = self.catch_panic(|server| {
                     answer = requests::request(&mut server.workspace, setting, &method, params);
                 });
                 match answer {
@@ -195,7 +197,8 @@ impl Server {
         out.push(Message::Response(Response { id, response_result: answer }));
     }
 
-    /// Reads what the editor can, by itself: an editor may say more than any version of the protocol knows.
+    /// Reads the editor's capabilities member by member: an editor may send more than any version of the protocol
+    /// defines.
     fn initialize(&mut self, params: &Value) -> Value {
         let at = |path: &str| params.pointer(path);
         let encodings = at("/capabilities/general/positionEncodings");
@@ -230,7 +233,7 @@ impl Server {
     }
 
     fn notified(&mut self, Notification { method, params }: Notification, out: &mut Vec<Message>) {
-        if self.life != ServerState::Running {
+        if self.state != ServerState::Running {
             return;
         }
         match method.as_str() {
@@ -253,25 +256,25 @@ impl Server {
                 if let Some(DidCloseTextDocumentParams { text_document }) = read(&method, params)
                     && let Some(path) = self.workspace.documents.close(&text_document.uri.0)
                 {
-                    // What is on disk counts again.
+                    // The file on disk is used again.
                     self.workspace.changed(&path);
                 }
             }
             "workspace/didChangeWatchedFiles" => self.workspace.changed_on_disk(),
-            // Who tells of files that change has told of this one too.
+            // An editor that watches files has reported this one already.
             "textDocument/didSave" if !self.watches_files => self.workspace.changed_on_disk(),
-            // `$/cancelRequest` is for who waits for messages; all others are not Eddy's.
+            // `$/cancelRequest` is handled where messages are queued; all others are ignored.
             _ => {}
         }
     }
 
-    /// Answers a request that the editor has cancelled before its turn came.
+    /// Returns the answer to a request that the editor cancelled before it was handled.
     pub fn cancelled(id: RequestId) -> Message {
         Message::Response(Response { id, response_result: Err(error(ErrorCode::RequestCanceled, "cancelled")) })
     }
 }
 
-/// Reads the parameters of a notification; of one that makes no sense nobody can be told.
+/// Reads the parameters of a notification; malformed ones cannot be reported to the editor.
 fn read<T: DeserializeOwned>(method: &str, params: Value) -> Option<T> {
     serde_json::from_value(params).inspect_err(|why| log::warn!("{method}: {why}")).ok()
 }
@@ -280,7 +283,7 @@ fn publish_diagnostics(params: &impl serde::Serialize) -> Message {
     Message::Notification(Notification::new("textDocument/publishDiagnostics".into(), params))
 }
 
-/// Asks the editor to tell of files that change on disk.
+/// Returns the request to the editor to watch files on disk.
 fn watch() -> Message {
     let pattern = "**/*.{glsl,frag,vert,fs,vs,toml,png,jpg,jpeg,webp,hdr,exr,npy,glb,gltf,obj,mp3,ogg,wav,mp4,webm}";
     let params = json!({ "registrations": [{
@@ -295,7 +298,7 @@ fn watch() -> Message {
     })
 }
 
-/// The capabilities of this server.
+/// Returns the capabilities of this server.
 fn capabilities(encoding: Encoding) -> ServerCapabilities {
     let letters = |all: &[&str]| Some(all.iter().map(|letter| (*letter).to_owned()).collect());
     ServerCapabilities {

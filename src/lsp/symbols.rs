@@ -1,4 +1,4 @@
-//! Symbols of a document and of all projects that are open.
+//! Symbols of a document and of all open projects.
 
 use super::{
     documents::Documents,
@@ -11,8 +11,9 @@ use eddy_glsl::services::{OutlineKind, Outlined};
 use eddy_project::limits;
 use gen_lsp_types::{BaseSymbolInformation, DocumentSymbol, SymbolKind, WorkspaceSymbol, WorkspaceSymbolLocation};
 
-/// Symbols of all projects that are returned at most, as an editor asks again with more letters; members of a struct.
-const MOST: usize = 500;
+/// The limit of returned symbols of all projects, as an editor asks again with more letters; also of members of a
+/// struct.
+const MAX_SYMBOLS: usize = 500;
 
 fn kind(kind: OutlineKind) -> SymbolKind {
     match kind {
@@ -26,7 +27,7 @@ fn kind(kind: OutlineKind) -> SymbolKind {
     }
 }
 
-/// Returns what a text declares, the uniforms of its `#iUniform` lines first.
+/// Returns the declarations of a text, the uniforms of its `#iUniform` lines first.
 pub(crate) fn of_document(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     let outline = program.analysis(id).map(|analysis| analysis.outline(id)).unwrap_or_default();
     let mut symbols: Vec<DocumentSymbol> = uniforms(program, id, lines);
@@ -39,11 +40,12 @@ pub(crate) fn of_document(program: &Program, id: SourceId, lines: &Lines<'_>) ->
 fn uniforms(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     let here = program.uniforms.iter().filter(|(_, span)| span.source == id);
     let here = here.take(limits::LSP_ITEMS);
-    here.map(|(name, span)| made(name, "#iUniform", SymbolKind::Variable, lines, span.range(), span.range())).collect()
+    here.map(|(name, span)| document_symbol(name, "#iUniform", SymbolKind::Variable, lines, span.range(), span.range()))
+        .collect()
 }
 
 #[expect(deprecated, reason = "the field has to be given a value")]
-fn made(
+fn document_symbol(
     name: &str,
     detail: &str,
     kind: SymbolKind,
@@ -64,18 +66,20 @@ fn made(
 }
 
 fn symbol(one: &Outlined, lines: &Lines<'_>) -> DocumentSymbol {
-    let mut symbol = made(&one.name, &one.detail, kind(one.kind), lines, one.whole.clone(), one.place.clone());
-    let children: Vec<DocumentSymbol> = one.members.iter().take(MOST).map(|member| symbol_of(member, lines)).collect();
+    let mut symbol =
+        document_symbol(&one.name, &one.detail, kind(one.kind), lines, one.whole.clone(), one.place.clone());
+    let children: Vec<DocumentSymbol> =
+        one.members.iter().take(MAX_SYMBOLS).map(|member| symbol_of(member, lines)).collect();
     symbol.children = (!children.is_empty()).then_some(children);
     symbol
 }
 
 /// Members have no members.
 fn symbol_of(member: &Outlined, lines: &Lines<'_>) -> DocumentSymbol {
-    made(&member.name, &member.detail, kind(member.kind), lines, member.whole.clone(), member.place.clone())
+    document_symbol(&member.name, &member.detail, kind(member.kind), lines, member.whole.clone(), member.place.clone())
 }
 
-/// Returns what the texts of a program declare whose names have the letters of a query in order.
+/// Returns the declarations of a program whose names contain the letters of a query in order.
 pub(crate) fn of_program(
     program: &Program,
     documents: &Documents,
@@ -100,7 +104,7 @@ pub(crate) fn of_program(
                     container_name: container.clone(),
                 },
             };
-            if out.len() < MOST && !out.contains(&found) {
+            if out.len() < MAX_SYMBOLS && !out.contains(&found) {
                 out.push(found);
             }
         }

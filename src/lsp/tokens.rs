@@ -1,4 +1,4 @@
-//! Semantic tokens and folds: which class each word has, and what can be folded.
+//! Semantic tokens and folding ranges.
 
 use super::{positions::Lines, program::Program};
 use eddy_diag::SourceId;
@@ -22,7 +22,7 @@ pub(crate) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend { token_types: owned(TYPES), token_modifiers: owned(MODIFIERS) }
 }
 
-/// The type of a token, and its modifiers.
+/// Returns the type of a token, and its modifiers.
 fn kind(class: Class) -> Option<(&'static str, u32)> {
     Some(match class {
         Class::Keyword => ("keyword", 0),
@@ -43,7 +43,7 @@ fn kind(class: Class) -> Option<(&'static str, u32)> {
     })
 }
 
-/// Returns the tokens of some lines of a text, from `first` to before `end`.
+/// Returns the tokens of some lines of a text, from `first` up to `end`, exclusive.
 pub(crate) fn tokens(program: &Program, id: SourceId, lines: &Lines<'_>, rows: std::ops::Range<u32>) -> SemanticTokens {
     let mut data = Vec::new();
     let mut last = Position::default();
@@ -52,7 +52,7 @@ pub(crate) fn tokens(program: &Program, id: SourceId, lines: &Lines<'_>, rows: s
     for span in classes {
         let Some((name, modifiers)) = kind(span.class) else { continue };
         let token_type = TYPES.iter().position(|known| *known == name).unwrap_or(0) as u32;
-        // A token is within a line.
+        // A token is within a single line.
         let mut start = span.range.start;
         for part in text.get(span.range).unwrap_or_default().split_inclusive('\n') {
             let shown = part.trim_end_matches(['\n', '\r']);
@@ -80,7 +80,7 @@ pub(crate) fn folds(program: &Program, id: SourceId, lines: &Lines<'_>) -> Vec<F
     let folds = program.analysis(id).map(|analysis| analysis.folds(id)).unwrap_or_default();
     let fold = |fold: eddy_glsl::services::Fold| {
         let (start, end) = (lines.position(fold.range.start), lines.position(fold.range.end));
-        // The line of a closing brace stays.
+        // The line of a closing brace stays visible.
         let end_line = if fold.kind == FoldKind::Block { end.line.saturating_sub(1) } else { end.line };
         let kind = match fold.kind {
             FoldKind::Block => None,

@@ -1,4 +1,4 @@
-//! The stream of messages: `Content-Length` and JSON, both ways, and the order in which messages are handled.
+//! The message stream: `Content-Length` and JSON, in both directions, and the order in which messages are handled.
 
 use super::server::Server;
 use eddy_project::limits;
@@ -12,21 +12,21 @@ use std::{
     time::Duration,
 };
 
-/// The time between two looks at a program that is being read.
+/// The polling interval while a program is being read.
 const POLL: Duration = Duration::from_millis(2);
 
 /// A message from the editor.
 enum Incoming {
     Message(Message),
-    /// A message that is no JSON of the protocol, and why.
+    /// A message that is not valid JSON of the protocol, and why.
     Malformed(String),
 }
 
-/// Serves one editor until it says that it ends or closes its stream. Returns the exit code: 0 where it ended as the
-/// protocol has it. Err: the streams cannot be read or written.
+/// Serves one editor until it ends the server or closes its stream. Returns the exit code: 0 if it ended according to
+/// the protocol. Returns an error if the streams cannot be read or written.
 pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Result<u8> {
     let (sender, incoming) = channel();
-    // It ends with the stream; a read cannot be interrupted, so nobody waits for it.
+    // The thread ends with the stream; a read cannot be interrupted, so the thread is never joined.
     std::thread::Builder::new().name("messages".into()).spawn(move || {
         let mut input = BufReader::new(input);
         while let Some(message) = read(&mut input).unwrap_or_else(|why| {
@@ -63,13 +63,13 @@ fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> 
                 }
             }
             Some(Incoming::Malformed(why)) => {
-                // What cannot be read has no id.
+                // A message that cannot be parsed has no id.
                 let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
                 write_value(&mut output, &json!({ "id": null, "error": error }))?;
                 output.flush()?;
             }
             None if server.idle(&mut out) => {}
-            // A message is handled at once; without one, what has been read is looked for again.
+            // A message is handled at once; without one, poll for the result of the reading.
             None if server.is_reading() => match incoming.recv_timeout(POLL) {
                 Ok(message) => waiting.push_back(message),
                 Err(RecvTimeoutError::Timeout) => {}
@@ -78,7 +78,7 @@ fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> 
                     std::thread::sleep(POLL);
                 }
             },
-            // Whoever closes the stream without a word has gone.
+            // The editor closed the stream without ending the server.
             None if !is_open => return Ok(1),
             None => match incoming.recv() {
                 Ok(message) => waiting.push_back(message),
@@ -89,7 +89,7 @@ fn run(incoming: &Receiver<Incoming>, mut output: impl Write) -> io::Result<u8> 
     }
 }
 
-/// Answers requests that wait and are cancelled by a later message.
+/// Answers queued requests that a later message cancels.
 fn take_cancelled(waiting: &mut VecDeque<Incoming>, out: &mut Vec<Message>) {
     let id = |message: &Incoming| match message {
         Incoming::Message(Message::Notification(Notification { method, params })) if method == "$/cancelRequest" => {
@@ -115,8 +115,8 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
     let mut length = None;
     loop {
         let mut line = Vec::new();
-        // A header is short: a stream that is none of the protocol's must not fill the memory.
-        if input.by_ref().take(LONGEST_HEADER).read_until(b'\n', &mut line)? == 0 {
+        // A header is short: a stream of another protocol must not fill the memory.
+        if input.by_ref().take(MAX_HEADER_BYTES).read_until(b'\n', &mut line)? == 0 {
             return Ok(None);
         }
         let line = String::from_utf8_lossy(&line);
@@ -124,7 +124,7 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
         match line.split_once(':') {
             None if line.is_empty() && length.is_some() => break,
             Some((name, value)) if name.eq_ignore_ascii_case("Content-Length") => length = value.trim().parse().ok(),
-            // Other headers say nothing; what is no header is passed over up to one that is.
+            // Ignore other headers, and lines that are not headers.
             _ => {}
         }
     }
@@ -144,8 +144,8 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
     }))
 }
 
-/// Bytes of a line of a message's head.
-const LONGEST_HEADER: u64 = 4096;
+/// The limit of a header line in bytes.
+const MAX_HEADER_BYTES: u64 = 4096;
 
 fn write_all(output: &mut impl Write, out: &mut Vec<Message>) -> io::Result<()> {
     if out.is_empty() {
@@ -157,7 +157,7 @@ fn write_all(output: &mut impl Write, out: &mut Vec<Message>) -> io::Result<()> 
     output.flush()
 }
 
-/// A message with what the protocol has in every one.
+/// A message with the member that the protocol requires in each.
 #[derive(Serialize)]
 struct Envelope<'m, T> {
     jsonrpc: &'static str,

@@ -3,10 +3,10 @@
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use std::path::{Component, Path, PathBuf};
 
-/// Everything that has a meaning in a URI, or none: what editors leave as it is stays.
+/// Characters to escape: all except those that editors leave unchanged.
 const SPECIAL: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'.').remove(b'_').remove(b'~');
 
-/// Returns the path of a URI; `None` for a document that is no file. `.` and `..` are resolved by the name alone.
+/// Returns the path of a URI; `None` for a document that is not a file. `.` and `..` are resolved lexically.
 pub(crate) fn path(uri: &str) -> Option<PathBuf> {
     let rest = uri.strip_prefix("file://")?;
     let at = rest.find('/')?;
@@ -15,7 +15,7 @@ pub(crate) fn path(uri: &str) -> Option<PathBuf> {
         return None;
     }
     let decoded = percent_decode_str(&rest[at..]).decode_utf8().ok()?;
-    // `/c:/folder` is the form of a drive's path.
+    // `/c:/folder` is the form of a Windows path.
     let bytes = decoded.as_bytes();
     let is_drive = cfg!(windows) && bytes.len() > 2 && bytes[1].is_ascii_alphabetic() && bytes[2] == b':';
     let text = if is_drive { &decoded[1..] } else { &decoded[..] };
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     #[cfg(unix)]
-    fn paths_and_uris_lead_to_each_other() {
+    fn paths_and_uris_round_trip() {
         for (text, path_of) in [
             ("file:///home/a/image.glsl", "/home/a/image.glsl"),
             ("file:///a%20b/%C3%A9%23.glsl", "/a b/é#.glsl"),

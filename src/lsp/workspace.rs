@@ -9,31 +9,31 @@ use eddy_diag::SourceId;
 use eddy_project::is_manifest;
 use std::{mem, path::Path, sync::Arc, time::Duration};
 
-/// The reason why nothing can be said of a document.
+/// The reason why a document cannot be queried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unfound {
-    /// It is closed, or is none of Eddy's.
+    /// It is closed, or not a file that Eddy handles.
     Unknown,
     /// Its program is still being read.
     Reading,
 }
 
-/// The time that a request waits for a program that is being read.
+/// The limit for waiting for a program that is being read.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
 #[derive(Default)]
 pub(crate) struct Workspace {
     pub documents: Documents,
     pub programs: Vec<Program>,
-    /// Programs are read on a thread of their own, one after the other.
+    /// Programs are read on a separate thread, one at a time.
     pub is_threaded: bool,
     reading: Option<Reading>,
-    /// A request was refused as its program was being read.
+    /// A request was refused because its program was being read.
     pub has_refused: bool,
 }
 
 impl Workspace {
-    /// A document was opened.
+    /// Called when a document was opened.
     pub fn opened(&mut self, path: &Path) {
         self.changed(path);
         if !self.programs.iter().any(|program| program.contains(path)) {
@@ -41,24 +41,24 @@ impl Workspace {
         }
     }
 
-    /// Adds the program of a root, unless it is there.
+    /// Adds the program of a root, unless it exists.
     pub fn begin(&mut self, root: Root) {
         if !self.programs.iter().any(|program| program.root == root) {
             self.programs.push(Program::new(root));
         }
     }
 
-    /// The text of a document has changed.
+    /// Called when the text of a document has changed.
     pub fn changed(&mut self, path: &Path) {
         let holds = |program: &Program| {
             program.contains(path)
                 || match &program.root {
-                    // It may name the file from now on, or for the first time again.
+                    // The project may start to use the file, or use it again.
                     Root::Folder(folder) => path.starts_with(folder),
                     Root::File(file) => file == path,
                 }
         };
-        // Which texts a program has that is being read is known only later.
+        // The texts of a program that is being read are known only later.
         let read = self.reading.as_ref().map(|reading| &reading.root);
         let mut is_outdated = false;
         for program in self.programs.iter_mut().filter(|program| holds(program) || Some(&program.root) == read) {
@@ -70,7 +70,7 @@ impl Workspace {
         }
     }
 
-    /// Files on disk have changed.
+    /// Called when files on disk have changed.
     pub fn changed_on_disk(&mut self) {
         for program in &mut self.programs {
             program.is_stale = true;
@@ -86,15 +86,15 @@ impl Workspace {
         self.reading.is_some()
     }
 
-    /// Gives up what is being read, without an answer.
+    /// Cancels the current reading.
     pub fn drop_reading(&mut self) {
         if let Some(reading) = self.reading.take() {
             reading.give_up();
         }
     }
 
-    /// As [`Workspace::settle`] where programs are read on this thread. Otherwise reads on the other one, and returns false
-    /// where that takes longer than so long for a program.
+    /// As [`Workspace::settle`] if programs are read on this thread. Otherwise reads on the other one, and returns
+    /// false if a program takes longer than `patience`.
     pub fn settle_within(&mut self, patience: Duration) -> bool {
         if !self.is_threaded {
             self.settle();
@@ -118,10 +118,10 @@ impl Workspace {
                 program.is_stale = false;
                 match Reading::start(program.unread(), self.documents.clone()) {
                     Ok(reading) => self.reading = Some(reading),
-                    // Without a thread it is read here.
+                    // If the thread cannot be started, the program is read here.
                     Err(_) => program.read(&self.documents, &Arc::default()),
                 }
-            } else if !self.begin_lost() {
+            } else if !self.add_missing_program() {
                 return true;
             }
         }
@@ -138,20 +138,21 @@ impl Workspace {
         *program = read;
     }
 
-    /// Reads every program again that has changed, and lets go of those that no document belongs to.
+    /// Reads every changed program again, and drops those without documents.
     fn settle(&mut self) {
         loop {
             for program in self.programs.iter_mut().filter(|program| program.is_stale) {
                 program.read(&self.documents, &Arc::default());
             }
-            if !self.begin_lost() {
+            if !self.add_missing_program() {
                 break;
             }
         }
     }
 
-    /// Adds a program for a document that none has: a file may have left its project. Returns whether there was one.
-    fn begin_lost(&mut self) -> bool {
+    /// Adds a program for a document without one: a file may have left its project. Returns whether there was such a
+    /// document.
+    fn add_missing_program(&mut self) -> bool {
         let lost = self.documents.iter().find(|document| self.owner(&document.path).is_none());
         let Some(path) = lost.map(|document| document.path.clone()) else { return false };
         let root = match root_of(&path, self.documents.texts()) {
@@ -161,14 +162,14 @@ impl Workspace {
             root => root,
         };
         if self.programs.iter().any(|program| program.root == root) {
-            // It cannot be read at all; what is wrong is told there.
+            // It cannot be read at all; its program reports the error.
             return false;
         }
         self.begin(root);
         true
     }
 
-    /// Returns the program that a document belongs to: of a text that others include, the one that includes it.
+    /// Returns the program that a document belongs to: for a text that others include, the one that includes it.
     pub fn owner(&self, path: &Path) -> Option<usize> {
         if is_manifest(path) {
             let folder = path.parent()?;
@@ -182,7 +183,7 @@ impl Workspace {
         self.programs.iter().position(|program| !is_own(program) && program.contains(path)).or(own)
     }
 
-    /// Returns the programs that no document belongs to, taken out.
+    /// Removes and returns the programs without documents.
     pub fn take_left(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
         let owners: Vec<usize> = self.documents.iter().filter_map(|document| self.owner(&document.path)).collect();
         let mut index = 0;
@@ -194,13 +195,13 @@ impl Workspace {
         left
     }
 
-    /// Returns the program of a document, read, and the document's text in it.
+    /// Returns the program of a document, read, and the id of the document's text in it.
     pub fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unfound> {
         if self.documents.get(path).is_none() {
             return Err(Unfound::Unknown);
         }
         let read = self.reading.as_ref().map(|reading| &reading.root);
-        // What is read of other programs is not waited for.
+        // Does not wait for the reading of other programs.
         let is_read = |program: &Program| !program.is_stale && Some(&program.root) != read;
         let is_known = self.owner(path).is_some_and(|owner| is_read(&self.programs[owner]));
         if !is_known && !self.settle_within(PATIENCE) {

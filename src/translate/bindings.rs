@@ -1,4 +1,4 @@
-//! The resources of a stage: which there are, their members, and the number that each language gives to them.
+//! The resources of a stage, their members, and their binding numbers in each language.
 
 use eddy_glsl::{interface, naga};
 use naga::{
@@ -12,19 +12,19 @@ use crate::{GlslVersion, Language};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BindingInfo {
     pub kind: BindingKind,
-    /// The name in the text, as far as the language leaves it.
+    /// The name in the text, if the language preserves it.
     pub name: String,
     pub at: BindingSlot,
-    /// Bytes of a buffer.
+    /// The size of a buffer in bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<u32>,
     /// Members of a buffer, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<Member>,
-    /// The file with the contents of a buffer that never change.
+    /// The file with the contents of a constant buffer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contents: Option<String>,
-    /// The number of `iChannel0` to `iChannel3`, of a texture or sampler.
+    /// The channel of a texture or sampler: 0 to 3, for `iChannel0` to `iChannel3`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u32>,
     /// The dimension of a texture: `2d`, `3d` or `cube`.
@@ -38,7 +38,7 @@ pub struct BindingInfo {
 pub enum BindingKind {
     /// The uniforms of Shadertoy.
     Uniforms,
-    /// The author's own uniforms, 16 bytes each.
+    /// The custom uniforms, 16 bytes each.
     CustomUniforms,
     /// The matrices of a mesh and the camera.
     Geometry,
@@ -67,7 +67,7 @@ impl BindingKind {
     }
 }
 
-/// The number of a resource in the terms of the language.
+/// The binding of a resource in the terms of the language.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
 pub enum BindingSlot {
@@ -92,7 +92,7 @@ pub enum BindingSlot {
     },
 }
 
-/// An index into one of Metal's tables of arguments.
+/// An index into one of Metal's argument tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MslSlot {
@@ -101,14 +101,14 @@ pub enum MslSlot {
     Sampler(u8),
 }
 
-/// A part of a buffer.
+/// A member of a buffer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Member {
     pub name: String,
-    /// As GLSL spells it: `vec3`, `mat4`, `vec4[4]`.
+    /// The GLSL spelling: `vec3`, `mat4`, `vec4[4]`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// In bytes from the beginning of the buffer.
+    /// In bytes from the start of the buffer.
     pub offset: u32,
 }
 
@@ -117,19 +117,19 @@ pub(crate) fn channel(binding: ResourceBinding) -> Option<u32> {
     (binding.group == interface::CHANNEL_GROUP).then_some(binding.binding / 2)
 }
 
-/// Returns the number that a resource has where buffers, textures and samplers are counted each for themselves. Storage
-/// buffers follow the textures, as Direct3D counts both alike.
+/// Returns the number of a resource where buffers, textures and samplers are numbered separately. Storage buffers
+/// follow the textures, because Direct3D numbers both together.
 pub(crate) fn slot(binding: ResourceBinding) -> u32 {
     match (channel(binding), BindingKind::of(binding)) {
         (Some(channel), _) => channel,
         (None, Some(BindingKind::StorageTable)) => 4,
-        // Keeps clear of the storage buffer where all buffers are counted together.
+        // Avoids the storage buffer where all buffers are numbered together.
         (None, Some(BindingKind::Geometry)) => 1,
         (None, _) => binding.binding,
     }
 }
 
-/// Returns the variables of a module that have a binding, in the order of these.
+/// Returns the variables of a module that have a binding, ordered by binding.
 pub(crate) fn resources(module: &naga::Module) -> Vec<(&GlobalVariable, ResourceBinding)> {
     let bound = module.global_variables.iter().filter_map(|(_, variable)| Some((variable, variable.binding?)));
     let mut all: Vec<_> = bound.collect();
@@ -137,8 +137,8 @@ pub(crate) fn resources(module: &naga::Module) -> Vec<(&GlobalVariable, Resource
     all
 }
 
-/// Returns what a program must know of a resource; `None` for a sampler in GLSL, which is one with its texture. `glsl` is
-/// the name that naga gave to it there.
+/// Returns the description of a resource for a program; `None` for a sampler in GLSL, which is combined with its
+/// texture. `glsl` is the name that naga gave to it there.
 pub(crate) fn info(
     module: &naga::Module,
     (variable, binding): (&GlobalVariable, ResourceBinding),
@@ -174,10 +174,10 @@ pub(crate) fn info(
     };
     let (types, inner) = (&module.types, &module.types[variable.ty].inner);
     let members = match inner {
-        // Tables are one value to a program.
+        // To a program, a table is a single value.
         TypeInner::Struct { members, .. } if matches!(kind, BindingKind::Uniforms | BindingKind::Geometry) => members
             .iter()
-            .filter_map(|m| Some(Member { name: m.name.clone()?, ty: spelled(types, m.ty)?, offset: m.offset }))
+            .filter_map(|m| Some(Member { name: m.name.clone()?, ty: type_text(types, m.ty)?, offset: m.offset }))
             .collect(),
         _ => Vec::new(),
     };
@@ -198,8 +198,8 @@ pub(crate) fn info(
     })
 }
 
-/// Returns a type of numbers as GLSL spells it.
-fn spelled(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> {
+/// Returns the GLSL spelling of a numeric type.
+fn type_text(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> {
     let prefix = |kind| match kind {
         ScalarKind::Sint => "i",
         ScalarKind::Uint => "u",
@@ -214,7 +214,7 @@ fn spelled(types: &UniqueArena<Type>, ty: naga::Handle<Type>) -> Option<String> 
         TypeInner::Vector { size, scalar } => format!("{}vec{}", prefix(scalar.kind), *size as u8),
         TypeInner::Matrix { columns, rows, .. } if columns == rows => format!("mat{}", *columns as u8),
         TypeInner::Matrix { columns, rows, .. } => format!("mat{}x{}", *columns as u8, *rows as u8),
-        TypeInner::Array { base, size: ArraySize::Constant(len), .. } => format!("{}[{len}]", spelled(types, *base)?),
+        TypeInner::Array { base, size: ArraySize::Constant(len), .. } => format!("{}[{len}]", type_text(types, *base)?),
         _ => return None,
     })
 }

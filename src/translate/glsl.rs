@@ -1,4 +1,4 @@
-//! GLSL before 4.5 and ES 3.1, which has no `mix` that selects among integers (section 8.3 of the specifications).
+//! A replacement of `mix` on integers, which GLSL before 4.5 and ES 3.1 lacks (section 8.3 of the specifications).
 
 use eddy_glsl::naga;
 use naga::{
@@ -6,7 +6,7 @@ use naga::{
     valid::{FunctionInfo, ModuleInfo},
 };
 
-/// The function that is called in its place.
+/// The function that is called instead.
 const NAME: &str = "eddy_mix";
 
 /// Returns whether a module selects among the components of two vectors of integers or booleans.
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn calls_are_renamed_and_names_that_end_alike_are_not() {
+    fn only_whole_names_of_calls_are_renamed() {
         let out = with_own_mix("#version 300 es\n\nprecision highp int;\n\nint a = mix(mix(b, c), remix(d));\n");
         assert!(out.starts_with("#version 300 es\n\nprecision highp int;\n\nfloat eddy_mix(float a"), "{out}");
         assert!(out.ends_with("int a = eddy_mix(eddy_mix(b, c), remix(d));\n"), "{out}");

@@ -1,16 +1,16 @@
-//! HLSL with samplers at registers of their own.
+//! HLSL with separate sampler registers.
 //!
-//! naga writes HLSL for wgpu, which has all samplers in one heap and looks their places up in a buffer. Others bind a
-//! sampler to a register.
+//! naga writes HLSL for wgpu, which has all samplers in one heap and looks up their indices in a buffer. Other programs
+//! bind a sampler to a register.
 
-/// Declarations of the heap that begin a line.
+/// Declarations of the heap, by the start of their lines.
 const HEAP: [&str; 3] = [
     "SamplerState nagaSamplerHeap[",
     "SamplerComparisonState nagaComparisonSamplerHeap[",
     "StructuredBuffer<uint> naga",
 ];
 
-/// Returns the text with a register for each sampler. Err: a line that naga writes otherwise than it did.
+/// Returns the text with a register for each sampler. Returns an error for a line in an unexpected form.
 pub(crate) fn with_sampler_registers(text: &str) -> Result<String, String> {
     let mut out = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {
@@ -31,7 +31,7 @@ pub(crate) fn with_sampler_registers(text: &str) -> Result<String, String> {
     Ok(out)
 }
 
-/// Takes `NAME = nagaSamplerHeap[nagaGroup1SamplerIndexArray[REGISTER]];` apart.
+/// Parses `NAME = nagaSamplerHeap[nagaGroup1SamplerIndexArray[REGISTER]];`.
 fn sampler(rest: &str) -> Option<(&str, u32)> {
     let (name, place) = rest.split_once(" = nagaSamplerHeap[")?;
     let (_, register) = place.split_once('[')?;

@@ -1,10 +1,10 @@
-//! The languages and their versions.
+//! The target languages and their versions.
 
 use std::fmt;
 
 use eddy_glsl::{Driver, naga};
 
-/// A language that passes can be written in.
+/// A language into which passes can be translated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Language {
     /// WebGPU's.
@@ -14,16 +14,16 @@ pub enum Language {
     /// Metal's, version 2.1.
     Msl,
     Glsl(GlslVersion),
-    /// Version 1.3, as Vulkan 1.1 takes it.
+    /// Version 1.3, as accepted by Vulkan 1.1.
     Spirv,
 }
 
 impl Language {
-    /// One of each, GLSL in the version that is written unless another is asked for.
+    /// One of each; GLSL in the default version.
     pub const ALL: [Language; 5] =
         [Language::Wgsl, Language::Hlsl, Language::Msl, Language::Glsl(GlslVersion::Desktop450), Language::Spirv];
 
-    /// Returns the word of the command line.
+    /// Returns the name on the command line.
     pub fn key(self) -> &'static str {
         match self {
             Language::Wgsl => "wgsl",
@@ -34,7 +34,7 @@ impl Language {
         }
     }
 
-    /// Returns the version that is written, as the manifest gives it. WGSL has none.
+    /// Returns the version that is written, for the manifest. WGSL has none.
     pub fn version(self) -> Option<&'static str> {
         match self {
             Language::Wgsl => None,
@@ -45,7 +45,7 @@ impl Language {
         }
     }
 
-    /// Returns the extension of a shader's file.
+    /// Returns the file extension of a shader.
     pub(crate) fn extension(self) -> &'static str {
         match self {
             Language::Wgsl => "wgsl",
@@ -56,7 +56,7 @@ impl Language {
         }
     }
 
-    /// Returns what has to be otherwise in the module: Direct3D has no angle of (0, 0), and OpenGL before 4.3 no storage
+    /// Returns the adaptations of the module: Direct3D has no angle of (0, 0), and OpenGL before 4.3 has no storage
     /// buffers.
     pub(crate) fn driver(self) -> Driver {
         Driver {
@@ -66,13 +66,13 @@ impl Language {
         }
     }
 
-    /// Returns which way a front face turns, in the terms of the API: the vertex stage turns y except in OpenGL.
+    /// Returns the winding of a front face, in the terms of the API: the vertex stage negates y except in OpenGL.
     pub(crate) fn front_face(self) -> &'static str {
         if matches!(self, Language::Glsl(_)) { "counter-clockwise" } else { "clockwise" }
     }
 }
 
-/// The name for people.
+/// Displays the name for users.
 impl fmt::Display for Language {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -90,7 +90,7 @@ impl fmt::Display for Language {
 pub enum GlslVersion {
     /// OpenGL 3.3.
     Desktop330,
-    /// OpenGL 4.1, the last of macOS.
+    /// OpenGL 4.1, the last version of macOS.
     Desktop410,
     /// OpenGL 4.5.
     #[default]
@@ -103,7 +103,7 @@ impl GlslVersion {
     pub const ALL: [GlslVersion; 4] =
         [GlslVersion::Desktop330, GlslVersion::Desktop410, GlslVersion::Desktop450, GlslVersion::Es300];
 
-    /// Returns the word of the command line.
+    /// Returns the name on the command line.
     pub fn key(self) -> &'static str {
         match self {
             GlslVersion::Desktop330 => "330",
@@ -123,7 +123,7 @@ impl GlslVersion {
         }
     }
 
-    /// Returns whether a text can say at which number a buffer or texture is bound.
+    /// Returns whether a text can specify the binding of a buffer or texture.
     pub(crate) fn has_bindings(self) -> bool {
         self == GlslVersion::Desktop450
     }
@@ -138,7 +138,7 @@ impl GlslVersion {
         self == GlslVersion::Desktop450
     }
 
-    /// Returns whether `packHalf2x16` and its like are there: from 4.2 on and in ES 3.0 (section 8.4 of the GLSL
+    /// Returns whether `packHalf2x16` and similar functions exist: from 4.2 on and in ES 3.0 (section 8.4 of the GLSL
     /// specifications).
     pub(crate) fn has_packing(self) -> bool {
         matches!(self, GlslVersion::Desktop450 | GlslVersion::Es300)

@@ -1,8 +1,10 @@
-//! The passes of a project as texts of other shading languages, or as SPIR-V, with all that a program needs to draw them.
+//! Translates the passes of a project to other shading languages, or to SPIR-V, with all that a program needs to draw
+//! them.
 //!
-//! Owns the settings of naga's writers ([`Language`]), the numbers that each language gives to buffers, textures and
-//! samplers, and the file that describes them ([`Manifest`]). The modules are those that Eddy draws with, without
-//! work-arounds for drivers. Of Interactive Shader Format, which is GLSL too, it owns the one file that a project becomes ([`isf`]). Needs no device, and writes no file itself.
+//! Owns the settings of naga's writers ([`Language`]), the bindings of buffers, textures and samplers in each language,
+//! and the file that describes them ([`Manifest`]). The modules are those that Eddy draws with, without work-arounds
+//! for drivers. For Interactive Shader Format, which is also GLSL, it owns the conversion of a project to a single file
+//! ([`isf`]). Needs no device, and does not write files itself.
 
 mod bindings;
 mod glsl;
@@ -32,7 +34,7 @@ use eddy_project::{Dialect, Project};
 /// The name of the file that describes the others.
 pub const MANIFEST: &str = "translation.json";
 
-/// A project in another language.
+/// A project translated to another language.
 #[derive(Debug)]
 pub struct Translation {
     /// The shaders, contents of buffers with constant tables, and last the manifest under the name [`MANIFEST`].
@@ -49,8 +51,8 @@ pub struct File {
     pub bytes: Vec<u8>,
 }
 
-/// Translates every pass that the picture needs, and the sound pass. Err: the errors of the compiler, or what the language
-/// cannot express, each with its place.
+/// Translates every pass that the picture needs, and the sound pass. Returns the errors of the compiler, or the
+/// features that the language cannot express, each with its place.
 pub fn translate(project: &Project, language: Language) -> Result<Translation, Vec<Diagnostic>> {
     if project.dialect == Dialect::Ghostty {
         let message = "the uniforms that Ghostty sets have no description for other programs";

@@ -1,16 +1,16 @@
-//! The file that says how the shaders of a translation are run: `docs/command-line.md` describes it.
+//! The file that describes how to run the shaders of a translation: see `docs/command-line.md`.
 
 use serde::Serialize;
 
 use crate::bindings::BindingInfo;
 
-/// The form of the file; a change that old readers cannot read gets the next number.
+/// The version of the format; it is increased by changes that old readers cannot read.
 pub(crate) const VERSION: u32 = 1;
 
-/// All that a program needs to draw a project.
+/// Everything that a program needs to draw a project.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Manifest {
-    /// The name of the form, `eddy-translation`.
+    /// The name of the format, `eddy-translation`.
     pub format: &'static str,
     pub version: u32,
     /// The version of Eddy that wrote it.
@@ -23,9 +23,9 @@ pub struct Manifest {
     pub custom_uniforms: Vec<CustomUniformInfo>,
     /// Textures that passes draw into.
     pub targets: Vec<TargetInfo>,
-    /// The order of a frame: the passes of a run one after the other, so often, then the next run.
+    /// The order of a frame: the passes of a run in order, `steps` times, then the next run.
     pub runs: Vec<RunInfo>,
-    /// In the order in which they are drawn; the sound pass last.
+    /// In drawing order; the sound pass last.
     pub passes: Vec<PassInfo>,
     /// Passes that the picture does not need, which have no files.
     pub skipped: Vec<String>,
@@ -38,31 +38,31 @@ pub struct EntryPoint {
     pub entry_point: String,
 }
 
-/// A uniform of the author's own, in its slot of the buffer of the kind `custom_uniforms`.
+/// A custom uniform, in its slot of the buffer of the kind `custom_uniforms`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CustomUniformInfo {
     pub name: String,
-    /// As an `#iUniform` line spells it. A bool is a `uint` of 0 or 1 in the buffer.
+    /// The type as spelled in an `#iUniform` line. A bool is a `uint` of 0 or 1 in the buffer.
     #[serde(rename = "type")]
     pub ty: &'static str,
-    /// In bytes from the beginning of the buffer.
+    /// In bytes from the start of the buffer.
     pub offset: u32,
-    /// The value that the project has it at, a number for each component.
+    /// The value set by the project, a number for each component.
     pub value: Vec<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TargetInfo {
     pub pass: String,
-    /// The place among the targets of its pass, from 0: the location of the fragment's output.
+    /// The index among the targets of its pass, from 0: the location of the fragment's output.
     pub index: usize,
     /// `2d`, or `cube` with six layers.
     pub dimension: &'static str,
     pub size: SizeInfo,
     pub format: &'static str,
-    /// Two textures that take turns: some pass reads the picture of the frame before.
+    /// True if it is double-buffered, because some pass reads the previous frame.
     pub doubled: bool,
-    /// Mip levels are made after each draw.
+    /// True if mip levels are generated after each draw.
     pub mips: bool,
 }
 
@@ -70,7 +70,7 @@ pub struct TargetInfo {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum SizeInfo {
-    /// That of the canvas times this, rounded, at least 1.
+    /// The resolution times this factor, rounded, at least 1.
     Canvas {
         canvas: f64,
     },
@@ -92,10 +92,10 @@ pub struct PassInfo {
     pub title: String,
     /// Indices into [`Manifest::targets`].
     pub targets: Vec<usize>,
-    /// The target keeps what it held where nothing is drawn; else it may be cleared.
+    /// True if the target keeps its content where nothing is drawn; otherwise it may be cleared.
     pub keeps_content: bool,
     /// The condition by which it is drawn: an expression over the custom uniforms, `width` and `height`. While it is
-    /// false, the targets hold what they hold before frame 0.
+    /// false, the targets have their content from before frame 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub when: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,7 +110,7 @@ pub struct PassInfo {
     pub fills: Vec<FillInfo>,
 }
 
-/// Texels that alone are drawn, from the bottom left.
+/// The only texels that are drawn, from the bottom left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RegionInfo {
     pub x: u32,
@@ -119,7 +119,7 @@ pub struct RegionInfo {
     pub height: u32,
 }
 
-/// A camera as `eddy.toml` has it, angles in degrees.
+/// A camera as specified in `eddy.toml`, angles in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CameraInfo {
     pub yaw: f64,
@@ -141,7 +141,7 @@ pub struct ChannelInfo {
     pub filter: &'static str,
     /// `clamp` or `repeat`.
     pub wrap: &'static str,
-    /// The top row of an image file lies at v = 1.
+    /// True if the top row of an image file is at v = 1.
     pub vflip: bool,
 }
 
@@ -149,9 +149,9 @@ pub struct ChannelInfo {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "input", rename_all = "snake_case")]
 pub enum ReadFrom {
-    /// A target, as it was drawn in this frame or in the one before.
+    /// A target, as drawn in this frame or in the previous one.
     Target { target: usize, frame: &'static str },
-    /// Something that no pass draws: a file, one of Eddy's own textures, the keyboard, a device.
+    /// A texture that is not drawn by a pass: a file, one of Eddy's own textures, the keyboard, a device.
     External { kind: &'static str, name: Option<String> },
     /// Opaque black, of size 0.
     Nothing,
@@ -186,12 +186,12 @@ pub struct VertexInput {
     pub components: u8,
 }
 
-/// A mesh and the state that it is drawn with.
+/// A mesh and its render state.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeshInfo {
     pub mesh: String,
     pub cull: &'static str,
-    /// The way in which the corners of a front face turn, in the terms of the language's API.
+    /// The winding of a front face, in the terms of the language's API.
     pub front_face: &'static str,
     pub depth: &'static str,
     pub depth_write: bool,

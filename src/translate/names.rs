@@ -1,9 +1,9 @@
-//! Names for the resources of a module, which the compiler leaves without: texts with them can be read.
+//! Readable names for the resources of a module, which the compiler leaves unnamed.
 
 use eddy_glsl::{interface, naga};
 use naga::ir::TypeInner;
 
-/// Returns the name of a resource at a binding; `None` for one that no pass has.
+/// Returns the name of a resource at a binding; `None` for a binding that passes do not use.
 pub(crate) fn name(binding: naga::ResourceBinding) -> Option<String> {
     let naga::ResourceBinding { group, binding } = binding;
     if group == interface::CHANNEL_GROUP {
@@ -23,7 +23,7 @@ pub(crate) fn name(binding: naga::ResourceBinding) -> Option<String> {
     )
 }
 
-/// Returns the name of the struct that a buffer holds.
+/// Returns the name of the struct in a buffer.
 fn type_name(variable: &str) -> &'static str {
     match variable {
         "uniforms" => "Uniforms",

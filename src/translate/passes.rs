@@ -1,4 +1,4 @@
-//! A project through the compiler and the planner, and each stage of it through a writer.
+//! Compiles and plans a project, and writes each of its stages in the target language.
 
 use std::collections::HashSet;
 
@@ -21,10 +21,10 @@ use crate::{
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 
-/// Says what [`Manifest::format`] is.
+/// The value of [`Manifest::format`].
 const FORMAT: &str = "eddy-translation";
 
-/// The corners lie at (-1, -1), (3, -1) and (-1, 3), before a writer turns y.
+/// The corners are at (-1, -1), (3, -1) and (-1, 3), before a writer negates y.
 const FULL_SCREEN: &str = "#version 300 es
 void main() { gl_Position = vec4(float(gl_VertexID & 1) * 4.0 - 1.0, float(gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
 ";
@@ -53,7 +53,7 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
             Ok(mut compiled) => {
                 diag::append(&mut found, compiled.diagnostics.drain(..));
                 to.facts.push(compiled.facts());
-                to.project.passes.push(if pass.id.is_picture() { pass.clone() } else { heard(pass) });
+                to.project.passes.push(if pass.id.is_picture() { pass.clone() } else { with_sound_channels(pass) });
                 to.passes.push((index, compiled, kept));
             }
             Err(errors) => diag::append(&mut found, errors),
@@ -97,7 +97,7 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
     Ok(Translation { files, manifest, diagnostics: found })
 }
 
-/// Passes that compiled, with the project that has only these.
+/// The passes that compiled, with the project reduced to them.
 struct Compilation {
     project: Project,
     facts: Vec<PassFacts>,
@@ -113,13 +113,13 @@ impl Compilation {
     }
 }
 
-/// Returns the sound pass with the channels that it can read.
-fn heard(pass: &Pass) -> Pass {
+/// Returns the sound pass with only the channels that it can read.
+fn with_sound_channels(pass: &Pass) -> Pass {
     let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
     Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
 }
 
-/// Gathers files and refusals.
+/// Collects files and refusals.
 struct Writer<'a> {
     project: &'a Project,
     language: Language,
@@ -139,7 +139,7 @@ impl<'a> Writer<'a> {
         info.map_or(EntryPoint { file: String::new(), entry_point: String::new() }, |stage| stage.entry)
     }
 
-    /// Writes the draws of a plan. Targets of it are counted from `first_target` on.
+    /// Writes the draws of a plan. Its targets are numbered from `first_target`.
     fn passes(&mut self, plan: &FramePlan, compiled: &Compilation, first_target: usize) -> Vec<PassInfo> {
         plan.draws.iter().map(|draw| self.pass(draw, compiled, first_target)).collect()
     }
@@ -206,7 +206,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns where the texts of a pass are: its own, those of its stages, Common, and all others.
+    /// Returns the places of a pass's texts: its own, those of its stages, Common, and all others.
     fn place(&self, index: usize, pass: &Pass) -> PassTexts<'a> {
         let own = match &pass.settings.body {
             PassBody::Screen => vec![Stage::Own],
@@ -226,7 +226,7 @@ impl<'a> Writer<'a> {
         ProgramInfo { stages: stages.filter_map(|stage| self.stage(stem, stage, place)).collect(), mesh: None }
     }
 
-    /// Writes a stage. `None`: it was refused.
+    /// Writes a stage; `None` if it was refused.
     fn stage(
         &mut self,
         stem: &str,
@@ -349,7 +349,7 @@ fn channel(number: usize, read: &Read, own: Option<&Channel>, first_target: usiz
     let filter = match read.sampler.filter {
         Filter::Nearest => "nearest",
         Filter::Mipmap if read.mips => "mipmap",
-        // Without smaller levels, or where no read reaches them, both are the same.
+        // Without mip levels, or if no read uses them, both are the same.
         Filter::Linear | Filter::Mipmap => "linear",
     };
     let wrap = match read.sampler.wrap {
@@ -359,7 +359,7 @@ fn channel(number: usize, read: &Read, own: Option<&Channel>, first_target: usiz
     ChannelInfo { channel: number, from, filter, wrap, vflip: read.sampler.vflip }
 }
 
-/// Returns the name of a file or texture, never the folders of this machine.
+/// Returns the name of a file or texture without its folders.
 fn media_name(media: &Media) -> String {
     match media {
         Media::Builtin(name) => name.clone(),

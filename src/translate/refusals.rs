@@ -1,4 +1,4 @@
-//! Errors for what a language cannot express, with the pass and, where it is known, the place in its text.
+//! Errors for features that a language cannot express, with the pass and, if known, the place in its text.
 
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use eddy_glsl::naga;
@@ -6,7 +6,7 @@ use naga::ir::{Expression, Function, MathFunction};
 
 use crate::{GlslVersion, Language};
 
-/// Returns an error for what a writer would write all the same, though no compiler of the language takes it.
+/// Returns an error for code that a writer would write although no compiler of the language accepts it.
 pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &PassTexts<'_>) -> Option<Diagnostic> {
     let Language::Glsl(version) = language else { return None };
     if version.has_packing() {
@@ -36,7 +36,7 @@ fn packing(expression: &Expression) -> Option<&'static str> {
     })
 }
 
-/// Returns the error for a module that a writer refuses.
+/// Returns the error for a module that a writer rejects.
 pub(crate) fn of_writer(language: Language, pass: &PassTexts<'_>, reason: &str) -> Diagnostic {
     let message = format!("{} cannot be written as {language}: {reason}", pass.title);
     Diagnostic::error(None, message).hint("the program itself is correct; translate to another language")
@@ -44,7 +44,7 @@ pub(crate) fn of_writer(language: Language, pass: &PassTexts<'_>, reason: &str) 
 
 /// The texts in which a place can be.
 pub(crate) struct PassTexts<'a> {
-    /// The pass as people call it.
+    /// The title of the pass.
     pub title: String,
     pub sources: &'a SourceMap,
     /// Its own texts first.
@@ -52,7 +52,7 @@ pub(crate) struct PassTexts<'a> {
 }
 
 impl PassTexts<'_> {
-    /// Returns where a name first stands in the texts outside of comments; the text need not reach it.
+    /// Returns the first use of a name in the texts outside of comments, whether it is reachable or not.
     fn word(&self, word: &str) -> Option<Span> {
         self.texts.iter().find_map(|&id| {
             let at = find_word(&self.sources.get(id)?.text, word)?;
@@ -61,7 +61,7 @@ impl PassTexts<'_> {
     }
 }
 
-/// Returns the first byte of a name that stands by itself, and in no comment.
+/// Returns the first byte of a name that is a whole word, outside of comments.
 fn find_word(text: &str, word: &str) -> Option<usize> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let mut from = 0;
@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_word_is_found_by_itself_and_in_no_comment() {
+    fn whole_words_outside_comments_are_found() {
         let text = "// pack\n/* pack */ unpack packed pack_ ä pack(";
         assert_eq!(find_word(text, "pack"), text.rfind("pack"));
         assert_eq!(find_word("// pack", "pack"), None);

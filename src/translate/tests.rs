@@ -1,4 +1,5 @@
-//! Small projects through all writers; `tests/it/translate.rs` takes presets, and hands outputs to other compilers.
+//! Small projects through all writers; `tests/it/translate.rs` translates presets, and passes outputs to other
+//! compilers.
 
 use super::*;
 use eddy_project::{Channel, Input, Pass, PassId, Source};
@@ -39,7 +40,7 @@ fn image(text: &str) -> Project {
 }
 
 #[test]
-fn a_language_has_a_file_a_pass_and_says_where_they_are_bound() {
+fn each_pass_has_a_file_and_bindings() {
     let project = feedback();
     for (language, extension, places) in [
         (Language::Wgsl, "wgsl", &["@group(1) @binding(2)", "@group(0) @binding(0)"][..]),
@@ -62,7 +63,7 @@ fn a_language_has_a_file_a_pass_and_says_where_they_are_bound() {
 }
 
 #[test]
-fn the_manifest_says_what_is_read_and_when() {
+fn manifest_describes_reads_and_their_frames() {
     let done = translate(&feedback(), Language::Wgsl).expect("translates");
     let Manifest { targets, passes, runs, .. } = &done.manifest;
     assert_eq!(targets[0].pass, "buffer_a");
@@ -79,7 +80,7 @@ fn the_manifest_says_what_is_read_and_when() {
 }
 
 #[test]
-fn a_stage_is_named_and_bound_in_glsl_by_a_name_that_its_text_has() {
+fn glsl_binding_names_are_in_the_text() {
     for version in GlslVersion::ALL {
         let done = translate(&feedback(), Language::Glsl(version)).expect("translates");
         let stage = &done.manifest.passes[1].programs[0].stages[0];
@@ -94,7 +95,7 @@ fn a_stage_is_named_and_bound_in_glsl_by_a_name_that_its_text_has() {
 }
 
 #[test]
-fn the_entry_point_of_metal_has_the_name_that_is_told() {
+fn metal_entry_point_name_matches_the_manifest() {
     let done = translate(&feedback(), Language::Msl).expect("translates");
     let entry = &done.manifest.passes[0].programs[0].stages[0].entry;
     assert_ne!(entry.entry_point, "main", "C++ has that for itself");
@@ -102,8 +103,8 @@ fn the_entry_point_of_metal_has_the_name_that_is_told() {
 }
 
 #[test]
-fn tables_are_files_or_part_of_the_text_where_a_language_has_no_buffers_for_them() {
-    // 300 matrices of floats fit into no uniform table: an array of vectors would.
+fn tables_are_files_or_inlined_without_buffers() {
+    // 300 matrices of floats do not fit into a uniform table; an array of vectors would.
     let elements: Vec<String> = (0..200).map(|n| format!("mat2({n}, 1, 2, 3)")).collect();
     let shader = format!(
         "const mat2 t[200] = mat2[200]({});\nvoid mainImage(out vec4 o, in vec2 p) {{ o = t[int(p.x) % 200][0].xyxy; }}",
@@ -126,7 +127,7 @@ fn tables_are_files_or_part_of_the_text_where_a_language_has_no_buffers_for_them
 }
 
 #[test]
-fn packing_is_refused_where_glsl_has_none_with_its_line() {
+fn unsupported_packing_is_refused_with_its_line() {
     let project =
         image("// packHalf2x16\nvoid mainImage(out vec4 o, in vec2 p) {\n    o = vec4(float(packHalf2x16(p)));\n}");
     for version in [GlslVersion::Desktop330, GlslVersion::Desktop410] {
@@ -143,7 +144,7 @@ fn packing_is_refused_where_glsl_has_none_with_its_line() {
 }
 
 #[test]
-fn integers_are_selected_by_a_function_where_glsl_has_none() {
+fn integer_mix_is_replaced_by_a_function() {
     let project = image("void mainImage(out vec4 o, in vec2 p) { o = vec4((ivec2(p) % int(p.x)).xyxy); }");
     for version in GlslVersion::ALL {
         let done = translate(&project, Language::Glsl(version)).expect("translates");
@@ -154,13 +155,13 @@ fn integers_are_selected_by_a_function_where_glsl_has_none() {
 }
 
 #[test]
-fn errors_of_the_author_are_told_as_they_are() {
+fn compile_errors_are_returned_unchanged() {
     let errors = translate(&image("void mainImage(out vec4 o, in vec2 p) { o = oops; }"), Language::Wgsl);
     assert!(errors.expect_err("an error")[0].message.contains("oops"));
 }
 
 #[test]
-fn what_is_no_number_stays_one_in_wgsl_and_is_no_constant() {
+fn non_finite_numbers_are_not_constants_in_wgsl() {
     let done = translate(
         &image("void mainImage(out vec4 o, in vec2 p) { o = p.x > 3.0 ? vec4(1.0 / 0.0) : vec4(0.0); }"),
         Language::Wgsl,
@@ -172,7 +173,7 @@ fn what_is_no_number_stays_one_in_wgsl_and_is_no_constant() {
 }
 
 #[test]
-fn own_uniforms_have_offsets_and_values() {
+fn custom_uniforms_have_offsets_and_values() {
     let project = image(
         "#iUniform float speed = 2.0 in { 0.0, 4.0 }\n#iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
          void mainImage(out vec4 o, in vec2 p) { o = vec4(tint * speed, 1.0); }",

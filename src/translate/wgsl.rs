@@ -1,14 +1,14 @@
-//! WGSL as browsers take it, which are stricter than naga in two things.
+//! WGSL for browsers, which are stricter than naga in two points.
 
-/// Begins each text: derivatives may stand where pixels take different ways, as in GLSL. WGSL makes that an error unless it
-/// is turned off (WGSL specification, section 15.2.1).
+/// The start of each text: derivatives are allowed in non-uniform control flow, as in GLSL. WGSL makes that an error
+/// unless it is turned off (WGSL specification, section 15.2.1).
 const UNIFORMITY: &str = "diagnostic(off, derivative_uniformity);\n";
 
-/// The name of a variable that is always zero, and which no compiler takes for a constant.
+/// The name of a variable that is always zero, and that no compiler treats as a constant.
 const ZERO: &str = "not_constant";
 
-/// Returns the text with what browsers need. An infinity or NaN is written as its bits; in WGSL that is an error where it
-/// is a constant (section 15.7.2), so the bits are combined with a variable.
+/// Returns the text adapted for browsers. An infinity or NaN is written as its bits; in WGSL that is an error in a
+/// constant expression (section 15.7.2), so the bits are combined with a variable.
 pub(crate) fn for_browsers(text: &str) -> String {
     const CALL: &str = "bitcast<f32>(";
     let mut out = String::with_capacity(text.len() + UNIFORMITY.len());
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_bits_of_no_finite_number_are_hidden() {
+    fn only_bits_of_non_finite_numbers_are_hidden() {
         let text = "let a = bitcast<f32>(2143289344u); let b = bitcast<f32>(1065353216u); let c = bitcast<f32>(a);";
         let out = for_browsers(text);
         assert!(out.starts_with(UNIFORMITY));

@@ -1,4 +1,4 @@
-//! One stage by the writer of a language.
+//! Writes one stage in a language.
 
 use std::collections::HashMap;
 
@@ -22,25 +22,25 @@ use crate::{
 pub(crate) struct Written {
     pub bytes: Vec<u8>,
     pub entry_point: String,
-    /// The module that was written, whose resources have names.
+    /// The module that was written, with named resources.
     pub module: Module,
     /// The names of blocks and samplers in GLSL.
     pub glsl_names: HashMap<ResourceBinding, String>,
 }
 
-/// Indices come clamped from the compiler, and fetches outside of a texture give zeros everywhere but on Metal, and in
-/// OpenGL and Vulkan where robust access is on.
+/// Indices are already clamped by the compiler, and fetches outside of a texture return zeros everywhere except on
+/// Metal, and in OpenGL and Vulkan with robust access.
 fn policies(language: Language) -> BoundsCheckPolicies {
     let unchecked = BoundsCheckPolicy::Unchecked;
     let image_load = if language == Language::Msl { BoundsCheckPolicy::ReadZeroSkipWrite } else { unchecked };
     BoundsCheckPolicies { index: unchecked, buffer: unchecked, image_load, binding_array: unchecked }
 }
 
-/// Room for writers, which recurse as deep as a program nests.
+/// Stack for writers, whose recursion is as deep as the nesting of the program.
 const STACK: usize = 64 << 20;
 
-/// Writes the one entry point of a module. `next` is the fragment stage that a vertex stage feeds. Err: the reason of
-/// naga's.
+/// Writes the single entry point of a module. `next` is the fragment stage that follows a vertex stage. Returns naga's
+/// message as the error.
 pub(crate) fn write(module: &Module, next: Option<&Module>, language: Language) -> Result<Written, String> {
     stacker::maybe_grow(STACK / 4, STACK, || write_here(module, next, language))
 }
@@ -74,9 +74,9 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
         Language::Glsl(version) => {
             let options = glsl::Options {
                 version: version.of_naga(),
-                // Turns y and depth back to OpenGL's.
+                // Restores OpenGL's y and depth.
                 writer_flags: glsl::WriterFlags::ADJUST_COORDINATE_SPACE,
-                binding_map: bound(&module).map(|b| (b, bindings::slot(b) as u8)).collect(),
+                binding_map: bound_resources(&module).map(|b| (b, bindings::slot(b) as u8)).collect(),
                 ..Default::default()
             };
             let pipeline = glsl::PipelineOptions { shader_stage: stage, entry_point: name, multiview: None };
@@ -101,7 +101,7 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
     Ok(Written { bytes, entry_point, module, glsl_names })
 }
 
-fn bound(module: &Module) -> impl Iterator<Item = ResourceBinding> {
+fn bound_resources(module: &Module) -> impl Iterator<Item = ResourceBinding> {
     module.global_variables.iter().filter_map(|(_, variable)| variable.binding)
 }
 
@@ -115,7 +115,7 @@ fn hlsl_text(module: &Module, info: &ModuleInfo, next: Option<&Module>) -> Resul
     let target = |binding| hlsl::BindTarget { space: 0, register: bindings::slot(binding), ..Default::default() };
     let options = hlsl::Options {
         shader_model: hlsl::ShaderModel::V5_1,
-        binding_map: bound(module).map(|binding| (binding, target(binding))).collect(),
+        binding_map: bound_resources(module).map(|binding| (binding, target(binding))).collect(),
         fake_missing_bindings: true,
         restrict_indexing: false,
         force_loop_bounding: false,
@@ -165,9 +165,9 @@ fn spirv_words(module: &Module, info: &ModuleInfo, stage: ShaderStage, entry: St
         |b: ResourceBinding| spv::BindingInfo { descriptor_set: b.group, binding: b.binding, binding_array_size: None };
     let options = spv::Options {
         lang_version: (1, 3),
-        // Turns y, as Vulkan's clip space has it downwards.
+        // Negates y, because Vulkan's clip space has it downwards.
         flags: spv::WriterFlags::ADJUST_COORDINATE_SPACE | spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::DEBUG,
-        binding_map: bound(module).map(|b| (b, place(b))).collect(),
+        binding_map: bound_resources(module).map(|b| (b, place(b))).collect(),
         bounds_check_policies: policies(Language::Spirv),
         force_loop_bounding: false,
         emit_int_div_checks: false,
@@ -177,7 +177,7 @@ fn spirv_words(module: &Module, info: &ModuleInfo, stage: ShaderStage, entry: St
     spv::write_vec(module, info, &options, Some(&pipeline)).map_err(|e| e.to_string())
 }
 
-/// GLSL cannot say which vertex a flat value is taken from: its writer wants that left open.
+/// GLSL cannot specify the provoking vertex of a flat value: its writer requires that it is left open.
 fn let_any_vertex_provoke(module: &mut Module) {
     let open = |binding: &mut Option<Binding>| {
         if let Some(Binding::Location { sampling: sampling @ Some(Sampling::First), .. }) = binding {

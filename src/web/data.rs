@@ -1,4 +1,4 @@
-//! The description of a project that the player reads, as JSON. The names of members are those that `player/` uses.
+//! The description of a project for the player, as JSON. The names of members are those that `player/` uses.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ pub(crate) struct ProjectData {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub description: String,
     pub uniforms: Vec<UniformData>,
-    /// Numbers of uniforms that a text declares in GLSL's own way.
+    /// Values of uniforms that a text declares by GLSL's `uniform`.
     pub values: BTreeMap<String, Vec<f64>>,
     /// Names of texts by the source string numbers of `#line` directives.
     pub texts: Vec<String>,
@@ -55,17 +55,17 @@ pub(crate) struct PassData {
     pub title: String,
     /// `buffer`, `cubemap`, `image` or `sound`.
     pub kind: &'static str,
-    /// The picture does not need it.
+    /// True if the picture does not need it.
     #[serde(skip_serializing_if = "is_false")]
     pub skip: bool,
     pub size: SizeData,
     pub formats: Vec<&'static str>,
-    /// By the target: levels are made after each draw.
+    /// True if mip levels are generated after each draw, by target.
     pub mips: Vec<bool>,
-    /// Two textures take turns.
+    /// True if it is double-buffered.
     #[serde(skip_serializing_if = "is_false")]
     pub doubled: bool,
-    /// It need not be drawn while nothing that it reads has changed.
+    /// True if it is skipped while nothing that it reads has changed.
     #[serde(skip_serializing_if = "is_false")]
     pub cached: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,7 +89,7 @@ pub(crate) struct PassData {
     pub uniforms: Vec<usize>,
 }
 
-/// A factor of the canvas, or texels.
+/// A factor of the resolution, or texels.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(crate) enum SizeData {
@@ -157,7 +157,7 @@ pub(crate) struct CameraData {
     pub orbit: bool,
 }
 
-/// Packed by zlib and written in base64: 16 32-bit floats for each vertex, and indices of 32 bits.
+/// Compressed by zlib, in base64: 16 32-bit floats for each vertex, and 32-bit indices.
 #[derive(Serialize)]
 pub(crate) struct MeshData {
     pub v: String,
@@ -167,7 +167,7 @@ pub(crate) struct MeshData {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub(crate) enum MediaData {
-    /// Texels as WebGL takes them, packed by zlib and written in base64.
+    /// Texels in WebGL's layout, compressed by zlib, in base64.
     Texels {
         name: String,
         dim: &'static str,
@@ -183,7 +183,7 @@ pub(crate) enum MediaData {
     Video(FileData),
 }
 
-/// A file as it is, in base64.
+/// A file's unchanged bytes, in base64.
 #[derive(Serialize)]
 pub(crate) struct FileData {
     pub name: String,

@@ -1,4 +1,4 @@
-//! A project as the player reads it: what is drawn, in which order, from what.
+//! Builds the player's description of a project: the draws, their order, and their inputs.
 
 use crate::{
     data::{CameraData, ChannelData, DrawData, FillData, PassData, ProjectData, RunData, SizeData, UniformData},
@@ -193,7 +193,7 @@ impl Description<'_> {
         })
     }
 
-    /// Returns the indices of the uniforms that `#iUniform` lines of these texts and of what they include declare.
+    /// Returns the indices of the uniforms declared by `#iUniform` lines of these texts and of their included texts.
     fn uniforms(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<usize> {
         let texts: BTreeSet<SourceId> = of.into_iter().flat_map(|id| self.sources.include_lines().reach(id)).collect();
         let is_there = |uniform: &CustomUniform| {

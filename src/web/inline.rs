@@ -1,4 +1,4 @@
-//! Image files, sounds, videos and meshes as texts in the page.
+//! Image files, sounds, videos and meshes embedded in the page as text.
 
 use crate::data::{FileData, MediaData, MeshData};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
@@ -12,14 +12,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Names that tell one medium from another.
+/// The identity of a medium, to embed it only once.
 #[derive(PartialEq)]
 enum Key {
     Texels(MediaKey),
     File(InputKind, Media, bool),
 }
 
-/// The media and meshes that the page has so far.
+/// The media and meshes embedded in the page so far.
 pub(crate) struct Inlined<'a> {
     project: &'a Project,
     media: &'a MediaSet,
@@ -29,7 +29,7 @@ pub(crate) struct Inlined<'a> {
     mesh_keys: Vec<(MeshSource, Option<Normals>)>,
     pub meshes: Vec<MeshData>,
     pub warnings: Vec<Diagnostic>,
-    /// Bytes of all of it in the page.
+    /// Their total size in the page in bytes.
     pub bytes: usize,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Inlined<'a> {
         Self { project, media, media_dir, keys, list, mesh_keys, meshes, warnings: Vec::new(), bytes: 0 }
     }
 
-    /// Returns the index of what a channel reads; `None` where it is not there or no browser plays it. `place` names the
+    /// Returns the index of a channel's medium; `None` if it is missing or not playable in a browser. `place` names the
     /// channel for a warning.
     pub fn channel(&mut self, channel: &Channel, place: &str) -> Option<usize> {
         let kind = channel.input.kind();
@@ -60,7 +60,7 @@ impl<'a> Inlined<'a> {
                     InputKind::Texture => self.jpeg(&name, texels, vflip),
                     _ => None,
                 }
-                .unwrap_or_else(|| texels_data(texels, shown(&name)))
+                .unwrap_or_else(|| texels_data(texels, display_name(&name)))
             }
             (Key::File(..), InputKind::Music) => {
                 self.media.sound(&name)?;
@@ -77,7 +77,7 @@ impl<'a> Inlined<'a> {
         if let Some(at) = self.keys.iter().position(|known| *known == key) {
             return Some(at);
         }
-        let made = texels_data(self.media.fill(path)?, shown(&Media::File(path.to_owned())));
+        let made = texels_data(self.media.fill(path)?, display_name(&Media::File(path.to_owned())));
         Some(self.add(key, made))
     }
 
@@ -108,8 +108,8 @@ impl<'a> Inlined<'a> {
         self.list.len() - 1
     }
 
-    /// Returns a photograph as its own file, which is smaller than its texels. One that is to be rotated, and one that was
-    /// made grey, is not left to the browser.
+    /// Returns a photograph as its original file, which is smaller than its texels. One that must be rotated, or was
+    /// converted to grey, is not left to the browser.
     fn jpeg(&self, name: &Media, texels: &Texels, flip: bool) -> Option<MediaData> {
         if texels.shape.format != TexelFormat::Rgba8 {
             return None;
@@ -119,7 +119,7 @@ impl<'a> Inlined<'a> {
         let is_jpeg = bytes.starts_with(&[0xff, 0xd8, 0xff]) && !has_exif;
         is_jpeg.then(|| {
             MediaData::Picture(FileData {
-                name: shown(name),
+                name: display_name(name),
                 mime: "image/jpeg",
                 flip,
                 data: BASE64_STANDARD.encode(&bytes),
@@ -135,22 +135,22 @@ impl<'a> Inlined<'a> {
         known: &[(&str, &'static str)],
         place: &str,
     ) -> Option<FileData> {
-        // Loading it has told why it cannot be read.
+        // Loading it has already reported why it cannot be read.
         let found = original(name, kind, self.project.origin.base_dir(), self.media_dir);
         let (bytes, path) = found.ok()?;
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some((_, mime)) = known.iter().find(|(one, _)| *one == ending) else {
             let list: Vec<&str> = known.iter().map(|(one, _)| *one).collect();
-            let message = format!("browsers do not play {}; the page shows the channel without it", shown(name));
+            let message = format!("browsers do not play {}; the page shows the channel without it", display_name(name));
             let warning = Diagnostic::warning(None, format!("{place}: {message}"));
             self.warnings.push(warning.hint(format!("convert it to one of: {}", list.join(", "))));
             return None;
         };
-        Some(FileData { name: shown(name), mime, flip, data: BASE64_STANDARD.encode(&bytes) })
+        Some(FileData { name: display_name(name), mime, flip, data: BASE64_STANDARD.encode(&bytes) })
     }
 }
 
-/// Endings of sounds that browsers decode, and their types.
+/// File extensions of sounds that browsers decode, and their types.
 const MUSIC: [(&str, &str); 8] = [
     ("mp3", "audio/mpeg"),
     ("ogg", "audio/ogg"),
@@ -161,7 +161,7 @@ const MUSIC: [(&str, &str); 8] = [
     ("m4a", "audio/mp4"),
     ("aac", "audio/aac"),
 ];
-/// The same of videos.
+/// File extensions of videos that browsers decode, and their types.
 const VIDEOS: [(&str, &str); 4] =
     [("mp4", "video/mp4"), ("m4v", "video/mp4"), ("webm", "video/webm"), ("ogv", "video/ogg")];
 
@@ -176,8 +176,8 @@ fn texels_data(texels: &Texels, name: String) -> MediaData {
     MediaData::Texels { name, dim, format: shape.format.name(), w, h, d, data: packed(&texels.bytes) }
 }
 
-/// Returns the name of a file or texture, never the folders of this machine.
-fn shown(media: &Media) -> String {
+/// Returns the name of a file or texture without its folders.
+fn display_name(media: &Media) -> String {
     let last = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     match media {
         Media::Builtin(name) => name.clone(),
@@ -186,7 +186,7 @@ fn shown(media: &Media) -> String {
     }
 }
 
-/// Returns bytes packed by zlib (RFC 1950), in base64.
+/// Returns bytes compressed by zlib (RFC 1950), in base64.
 fn packed(bytes: &[u8]) -> String {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let out = encoder.write_all(bytes).and_then(|()| encoder.finish());

@@ -1,10 +1,11 @@
-//! A project as one HTML file that plays it in a browser by WebGL 2.
+//! Exports a project as one HTML file that plays it in a browser by WebGL 2.
 //!
-//! Owns the player (`player/`), the GLSL that it compiles, the description of passes that it draws by, and the page with
-//! its content security policy. The GLSL is the author's own: only lines that GLSL does not have are replaced. Writes no
-//! file, and reads none but what `media` reads.
+//! Owns the player (`player/`), the GLSL that it compiles, the description of passes that it draws by, and the page
+//! with its content security policy. The GLSL is the author's own: only lines that are not GLSL are replaced. Writes no
+//! files, and reads only those that `media` reads.
 //!
-//! The page loads nothing: texts, meshes, image files and sounds are in it. The same project gives the same bytes.
+//! The page loads nothing: texts, meshes, image files and sounds are embedded. The same project results in the same
+//! bytes.
 
 mod data;
 mod describe;
@@ -21,21 +22,21 @@ use eddy_media::{MediaSet, gather};
 use eddy_project::{Dialect, FillKind, Project};
 use std::path::Path;
 
-/// The most bytes of the page without texts, meshes and media.
+/// The size limit of the page without texts, meshes and media.
 pub const PLAYER_BYTES: usize = 40_000;
 
-/// A page, and what its author should know of it.
+/// A page, and diagnostics for its author.
 #[derive(Debug)]
 pub struct Page {
     pub html: String,
-    /// Warnings of the compiler, and of what the page cannot show.
+    /// Warnings of the compiler, and about features that the page does not support.
     pub diagnostics: Vec<Diagnostic>,
-    /// The bytes of the page that belong to image files, sounds, videos and meshes.
+    /// The bytes of the page for image files, sounds, videos and meshes.
     pub media_bytes: usize,
 }
 
-/// Makes the page of a project with the media that it names. `media_dir` holds the user's own copies of Shadertoy's files.
-/// Err: the errors of the compiler and of files, each with its place.
+/// Exports a project with the media that it names. `media_dir` contains the user's own copies of Shadertoy's files.
+/// Returns the errors of the compiler and of files, each with its place.
 pub fn export(project: &Project, media_dir: Option<&Path>) -> Result<Page, Vec<Diagnostic>> {
     if project.dialect == Dialect::Ghostty {
         let message = "the page has no terminal, and none of the uniforms that Ghostty sets";

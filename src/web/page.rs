@@ -1,4 +1,5 @@
-//! The page: the player and the project's description in one HTML text, so that nothing in the project is taken for markup.
+//! The page: the player and the project's description in one HTML text, escaped so that no part of the project is
+//! parsed as markup.
 
 use crate::data::ProjectData;
 use base64::prelude::{BASE64_STANDARD, Engine as _};
@@ -26,7 +27,7 @@ pub(crate) fn page(project: &Project, data: &ProjectData) -> String {
         "" => String::new(),
         content => format!("<meta name=\"{name}\" content=\"{}\">\n", escaped(content)),
     };
-    filled(&[
+    substituted(&[
         ("policy", &policy(&script, style)),
         ("generator", &format!("Eddy {}", env!("CARGO_PKG_VERSION"))),
         ("meta", &(named("author", author) + &named("description", about))),
@@ -37,8 +38,8 @@ pub(crate) fn page(project: &Project, data: &ProjectData) -> String {
     ])
 }
 
-/// Returns the page with a text in place of each `{name}`; what is put in is not searched again.
-fn filled(values: &[(&str, &str)]) -> String {
+/// Returns the page with a text in place of each `{name}`; inserted texts are not searched again.
+fn substituted(values: &[(&str, &str)]) -> String {
     let mut out = String::new();
     let mut rest = PAGE;
     while let Some(at) = rest.find('{') {
@@ -52,8 +53,8 @@ fn filled(values: &[(&str, &str)]) -> String {
     out + rest
 }
 
-/// Returns the content security policy: the page runs its own script and style, which are known by their hashes, and reaches
-/// no address (Content Security Policy Level 3). A video is played from memory.
+/// Returns the content security policy: the page runs only its own script and style, which are identified by their
+/// hashes, and has no network access (Content Security Policy Level 3). A video is played from memory.
 fn policy(script: &str, style: &str) -> String {
     let hash = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)));
     format!(
@@ -69,8 +70,8 @@ pub(crate) fn script() -> String {
     format!("(async()=>{{'use strict';\n{}}})();\n", SCRIPTS.map(compact).concat())
 }
 
-/// Returns a script without comments and without blanks that separate nothing. A comment has a line of its own; quoted texts
-/// stay as they are, and a regular expression holds no blank and no quote.
+/// Returns a script without comments and redundant white space. A comment must be on a line of its own; quoted texts
+/// are unchanged, and a regular expression must not contain spaces or quotes.
 fn compact(script: &str) -> String {
     let lines = script.lines().map(str::trim_start).filter(|line| !line.is_empty() && !line.starts_with("//"));
     let text: Vec<char> = lines.flat_map(|line| line.chars().chain(['\n'])).collect();
@@ -98,12 +99,12 @@ fn compact(script: &str) -> String {
     out
 }
 
-/// Returns JSON that no parser of HTML takes for the end of its element, or for a comment.
+/// Escapes JSON so that no HTML parser finds the end of its element, or a comment.
 pub(crate) fn for_script(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
-/// Returns a text as the content of an element or of a quoted attribute.
+/// Escapes a text for the content of an element or for a quoted attribute.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;").replace('\'', "&#39;")
 }
@@ -113,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_script_is_made_smaller_and_not_other() {
+    fn compacting_preserves_the_script() {
         let script =
             "// A note.\nconst a = b => `x ${b} \\` y`;\n  let c = 'it\\'s  a' + + d - -e;\n\nreturn a in c;\n";
         assert_eq!(compact(script), "const a=b=>`x ${b} \\` y`;\nlet c='it\\'s  a'+ +d- -e;\nreturn a in c;\n");

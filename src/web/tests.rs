@@ -21,13 +21,13 @@ fn exported(project: &Project) -> Page {
 
 /// Returns the description in a page.
 fn description(html: &str) -> serde_json::Value {
-    let begin = html.find("id=\"project\">").unwrap() + "id=\"project\">".len();
-    let end = begin + html[begin..].find("</script>").unwrap();
-    serde_json::from_str(&html[begin..end]).unwrap()
+    let start = html.find("id=\"project\">").unwrap() + "id=\"project\">".len();
+    let end = start + html[start..].find("</script>").unwrap();
+    serde_json::from_str(&html[start..end]).unwrap()
 }
 
 #[test]
-fn the_player_is_smaller_than_its_limit() {
+fn player_is_within_its_size_limit() {
     let bytes = exported(&plain()).html.len();
     assert!(bytes <= PLAYER_BYTES, "{bytes} bytes");
     assert!(bytes > PLAYER_BYTES / 2, "the control: {bytes} bytes are no player");
@@ -53,7 +53,7 @@ fn every_preset_is_exported_with_all_its_passes() {
 }
 
 #[test]
-fn a_condition_is_a_tree_that_the_player_walks() {
+fn condition_is_an_expression_tree() {
     let mut project = plain();
     let mut buffer =
         Pass::new(PassId::Buffer("A".into()), source("A", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }"));
@@ -67,7 +67,7 @@ fn a_condition_is_a_tree_that_the_player_walks() {
 
 /// The text of a shader, names and descriptions never end their element.
 #[test]
-fn no_text_of_a_project_is_taken_for_markup() {
+fn project_texts_are_not_parsed_as_markup() {
     let mut project = image(
         "// </script><script>alert(1)</script><!-- \u{2028}\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }",
     );
@@ -77,7 +77,7 @@ fn no_text_of_a_project_is_taken_for_markup() {
     let html = exported(&project).html;
     let plain = exported(&plain()).html;
     for mark in ["<script", "</script>", "<!--", "<img", "</title>", "<meta"] {
-        // The author has one of his own.
+        // One is written by the author.
         let extra = usize::from(mark == "<meta");
         assert_eq!(html.matches(mark).count(), plain.matches(mark).count() + extra, "{mark}");
     }
@@ -86,9 +86,9 @@ fn no_text_of_a_project_is_taken_for_markup() {
     assert!(data["codes"][1].as_str().unwrap().contains("</script><script>alert(1)</script><!-- \u{2028}\n"));
 }
 
-/// Nothing that the page has is an address, and its policy allows none.
+/// The page contains no address, and its policy allows none.
 #[test]
-fn the_page_names_no_address() {
+fn page_contains_no_address() {
     let html = exported(&load("fluid").unwrap().project).html;
     let script = page::script();
     assert!(html.contains("default-src 'none'; script-src 'sha256-"), "{}", &html[..900]);
@@ -100,7 +100,7 @@ fn the_page_names_no_address() {
 }
 
 #[test]
-fn lines_are_those_of_the_authors_texts() {
+fn line_numbers_are_those_of_the_texts() {
     let mut project = image("#include \"a.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(f()); }");
     project.includes.push(eddy_project::Included {
         source: source("a.glsl", "#iUniform float k = 1.0\nfloat f() { return k; }"),
@@ -121,13 +121,13 @@ fn lines_are_those_of_the_authors_texts() {
 }
 
 #[test]
-fn errors_of_the_author_are_told_and_nothing_is_written() {
+fn compile_errors_are_returned() {
     let errors = export(&image("void mainImage(out vec4 o, in vec2 p) { o = oops; }"), None).unwrap_err();
     assert!(errors[0].message.contains("oops"), "{errors:?}");
 }
 
 #[test]
-fn textures_are_in_the_page_once() {
+fn textures_are_embedded_once() {
     let noise = || Some(Channel::new(Input::texture(Media::Builtin("noise-rgba-64".into()))));
     let text = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
     let image = Pass { channels: [noise(), noise(), None, None], ..Pass::new(PassId::Image, source("Image", text)) };
@@ -140,7 +140,7 @@ fn textures_are_in_the_page_once() {
 }
 
 #[test]
-fn what_is_not_there_is_a_warning_and_black() {
+fn missing_media_is_a_warning_and_black() {
     let video = Some(Channel::new(Input::Media {
         kind: eddy_project::InputKind::Video,
         media: Media::Picked("/nowhere/a.mkv".into()),

@@ -1,17 +1,17 @@
-//! The GLSL of passes as a browser compiles it: the author's text, in which included files stand in place of their lines and
-//! `#line` directives say which text a line is of.
+//! The GLSL of passes for the browser's compiler: the author's text, in which included files replace their lines and
+//! `#line` directives identify the text of each line.
 
 use eddy_diag::SourceId;
 use eddy_engine::Sources;
 use eddy_project::{FillKind, FillValue, Project};
 use std::fmt::Write;
 
-/// The texts so far. Equal texts of one name are one.
+/// The texts so far. Equal texts of the same name are stored once.
 pub(crate) struct Texts<'a> {
     project: &'a Project,
     sources: &'a Sources<'a>,
     map: eddy_diag::SourceMap,
-    /// By source string number. 0 is what stands before the author's texts.
+    /// By source string number. 0 is the text before the author's.
     pub names: Vec<String>,
     /// The text of each number.
     known: Vec<String>,
@@ -42,7 +42,7 @@ impl<'a> Texts<'a> {
         )
     }
 
-    /// Returns the program of a fill, of an expression or of a picture that channel 0 reads.
+    /// Returns the program of a fill with an expression, or with a picture that channel 0 reads.
     pub fn fill(&mut self, pass: usize, kind: FillKind, value: &FillValue) -> String {
         let Some(text) = self.project.fill_text(pass, kind).filter(|_| matches!(value, FillValue::Expression(_)))
         else {

@@ -1,4 +1,4 @@
-//! The operation in which most of a pixel's error is born.
+//! Finds the operation that causes most of a pixel's error.
 
 use super::{
     distance::error_of,
@@ -10,14 +10,14 @@ use eddy_glsl::{
     walk::{Cell, Observer, Shadowed},
 };
 
-/// Errors of a pixel's value that are not looked into, relative to a value of 1: a few roundings.
-const NOTHING: f64 = 1e-5;
+/// Errors of a pixel's value that are ignored, relative to a value of 1: a few roundings.
+const MIN_ERROR: f64 = 1e-5;
 /// The number of operations that are tried.
-const SUSPECTS: usize = 8;
-/// The part of an error that is left at most where the operation that it is born in is exact.
-const MOST: f64 = 0.5;
+const MAX_SUSPECTS: usize = 8;
+/// The largest part of an error that may remain when the operation that causes it is exact.
+const MAX_REMAINING_SHARE: f64 = 0.5;
 
-/// Makes an operation exact: its result of single precision is that of double precision, rounded.
+/// Makes an operation exact: its single-precision result is the rounded double-precision one.
 struct ExactOperation {
     function: FuncId,
     value: Value,
@@ -36,7 +36,7 @@ impl Observer<Shadowed> for ExactOperation {
     }
 }
 
-/// Walks again with each suspect exact; `drawn` is what the pixel draws, and `walk` goes through it.
+/// Repeats the walk with each suspect exact; `drawn` is the pixel's value, and `walk` runs it.
 pub fn find(
     drawn: &[Shadowed; 4],
     watch: &Watch<'_>,
@@ -44,14 +44,14 @@ pub fn find(
 ) -> Result<Option<Blame>, TraceError> {
     let error = error_of(drawn);
     let size = drawn.iter().map(|x| x.double.abs()).filter(|x| x.is_finite()).fold(1.0, f64::max);
-    if error < NOTHING * size {
+    if error < MIN_ERROR * size {
         return Ok(None);
     }
     let mut best: Option<Blame> = None;
-    for cause in watch.root_causes().into_iter().take(SUSPECTS) {
+    for cause in watch.root_causes().into_iter().take(MAX_SUSPECTS) {
         let drawn = walk(&mut ExactOperation { function: cause.function, value: cause.value })?;
         let left = error_of(&drawn);
-        if left <= MOST * error && best.as_ref().is_none_or(|best| left < best.left) {
+        if left <= MAX_REMAINING_SHARE * error && best.as_ref().is_none_or(|best| left < best.left) {
             best = Some(Blame { cause: cause.clone(), error, left });
         }
     }

@@ -1,24 +1,24 @@
-//! A finding says what is wrong at a place of the text.
+//! Findings: numeric faults at a place of the text.
 
 use eddy_diag::Span;
 
-/// The numbers of an operation on constants.
+/// The `numbers` of an operation on constants.
 pub(super) const CONSTANT: &str = "constant";
 
 /// The kinds of findings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A value that is no finite number, of operands that are.
+    /// A value that is not finite, from operands that are.
     Nonfinite(&'static str),
-    /// GLSL ES 3.00 leaves the result open: another driver may draw something else.
+    /// Undefined in GLSL ES 3.00: another driver may draw something else.
     Undefined(&'static str),
-    /// A comparison that comes out the other way in double precision.
+    /// A comparison with the opposite result in double precision.
     Decided,
-    /// The operation in which most of a pixel's difference between the precisions is born.
+    /// The operation that causes most of a pixel's difference between the precisions.
     Rounding(&'static str),
 }
 
-/// Kinds in the order in which they are told.
+/// Kinds in the order in which they are reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
     Nonfinite,
@@ -37,7 +37,7 @@ impl Kind {
         }
     }
 
-    /// One word for scripts.
+    /// Returns the name for scripts, a single word.
     pub fn name(&self) -> &'static str {
         match self {
             Kind::Nonfinite(_) => "nonfinite",
@@ -47,7 +47,7 @@ impl Kind {
         }
     }
 
-    /// Returns what it is, for a person.
+    /// Returns the description for users.
     pub fn message(&self) -> &'static str {
         match self {
             Kind::Nonfinite(what) | Kind::Undefined(what) | Kind::Rounding(what) => what,
@@ -56,24 +56,24 @@ impl Kind {
     }
 }
 
-/// Something found at a place, in one pixel or more.
+/// A finding at one place, in one pixel or more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub kind: Kind,
-    /// None for what Eddy adds to the author's code.
+    /// None for code that Eddy adds to the author's.
     pub span: Option<Span>,
-    /// The number of the pixels that show it.
+    /// The number of affected pixels.
     pub pixels: usize,
-    /// The one that shows it most; where that is no question, the first.
+    /// The most affected pixel; the first one if the kind has no measure.
     pub pixel: (u32, u32),
-    /// The numbers there, as in `pow(-0.5, 2)`.
+    /// The operands there, as in `pow(-0.5, 2)`.
     pub numbers: String,
-    /// For rounding: the pixel's error, and what is left of it where the operation is exact.
+    /// For rounding: the pixel's error, and the error that remains if the operation is exact.
     pub error: Option<(f64, f64)>,
 }
 
 impl Finding {
-    /// It is an operation on constants, which is found in the text: no pixel shows it more than another.
+    /// Returns whether it is an operation on constants, which is found statically: it affects all pixels equally.
     pub fn is_constant(&self) -> bool {
         self.numbers == CONSTANT
     }

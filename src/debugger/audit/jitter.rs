@@ -1,5 +1,5 @@
-//! Measures how far a value moves where roundings come out another way: Monte Carlo arithmetic (Stott Parker, "Monte
-//! Carlo Arithmetic", 1997), with the way of the program left to the numbers that are moved.
+//! Measures how much a value changes with different roundings: Monte Carlo arithmetic (Stott Parker, "Monte Carlo
+//! Arithmetic", 1997), where the perturbed numbers also decide control flow.
 
 use super::run::walk;
 use crate::{
@@ -13,19 +13,19 @@ use eddy_glsl::{
     walkable::Detail,
 };
 
-/// ULPs that Vulkan lets a device be off in an arc tangent ("Precision and Operation of SPIR-V Instructions"), by which
+/// The error in ULPs that Vulkan allows for an arc tangent ("Precision and Operation of SPIR-V Instructions"), by which
 /// it defines the arc sine and cosine; drivers make use of it.
-const ARC: i32 = 4096;
+const ARC_TANGENT_ULPS: i32 = 4096;
 
-/// Moves each result that is rounded by its last bit, or leaves it, by chance.
+/// Randomly changes the last bit of each rounded result.
 struct Jitter<'m> {
     program: &'m Module,
     state: u64,
 }
 
 impl Jitter<'_> {
-    /// -1, 0 or 1, by `SplitMix64`.
-    fn step(&mut self) -> i32 {
+    /// Returns -1, 0 or 1, by `SplitMix64`.
+    fn random_step(&mut self) -> i32 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let x = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -36,7 +36,7 @@ impl Jitter<'_> {
 impl Observer<Shadowed> for Jitter<'_> {
     fn correct(&mut self, function: FuncId, value: Value, cells: &mut [Cell<Shadowed>]) {
         let by = match self.program[function][value] {
-            Op::Math { fun: Math::Asin | Math::Acos | Math::Atan | Math::Atan2, .. } => ARC,
+            Op::Math { fun: Math::Asin | Math::Acos | Math::Atan | Math::Atan2, .. } => ARC_TANGENT_ULPS,
             _ => 1,
         };
         for cell in cells {
@@ -44,15 +44,15 @@ impl Observer<Shadowed> for Jitter<'_> {
                 && x.single.is_normal()
                 && f64::from(x.single) != x.double
             {
-                // What no rounding has touched, a whole number for example, is the same on every device.
-                x.single = f32::from_bits(x.single.to_bits().wrapping_add_signed(by * self.step()));
+                // A value without rounding, for example a whole number, is the same on every device.
+                x.single = f32::from_bits(x.single.to_bits().wrapping_add_signed(by * self.random_step()));
             }
         }
     }
 }
 
-/// Walks through `project.passes[index]` for a pixel with the last bits of all rounded results moved by chance, which
-/// `seed` begins.
+/// Walks `project.passes[index]` for a pixel with the last bits of all rounded results perturbed at random, seeded by
+/// `seed`.
 pub fn jittered(
     sources: &Sources<'_>,
     index: usize,

@@ -1,9 +1,9 @@
-//! An audit says how wrong a pass is at some of its pixels, and why: single against double precision, and what GLSL
-//! leaves undefined.
+//! An audit finds numeric errors of a pass at some of its pixels, and their causes: single against double precision,
+//! and undefined behaviour of GLSL.
 //!
-//! Owns the watch over a walk in both precisions side by side ([`eddy_glsl::walk::Shadowed`]). Both take the way of
-//! single precision, and texels are what single precision reads. Where the two part most, the operation in which most
-//! of that is born is found by walking again with that operation exact. Draws nothing.
+//! Owns the observation of a walk in both precisions side by side ([`eddy_glsl::walk::Shadowed`]). Control flow and
+//! texel reads follow single precision. Where the two differ most, the operation that causes most of the difference is
+//! found by repeating the walk with that operation exact. Draws nothing.
 
 mod blame;
 mod distance;

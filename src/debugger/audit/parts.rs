@@ -1,4 +1,4 @@
-//! Names of parts of variables, as the author writes them: `hit.n.y`, `m[1]`, `dist()`.
+//! Names of parts of variables, in GLSL syntax: `hit.n.y`, `m[1]`, `dist()`.
 
 use super::flow::Shown;
 use eddy_glsl::{
@@ -8,16 +8,16 @@ use eddy_glsl::{
 };
 use std::collections::BTreeSet;
 
-/// Parts that are listed of one variable.
-const MOST: usize = 8;
+/// The limit of parts that are listed for one variable.
+const MAX_PARTS: usize = 8;
 
-/// Returns the parts of a declaration that scalars make up: the largest that they fill.
+/// Returns the largest parts of a declaration that its shown scalars fill.
 pub fn names(walkable: &Walkable, shown: &Shown) -> String {
     let call = if shown.origin.kind == UnsetKind::Result { "()" } else { "" };
     let mut parts = Vec::new();
     add(walkable, shown.origin.ty, &shown.cells, 0, &format!("{}{call}", shown.origin.name), &mut parts);
-    if parts.len() > MOST {
-        parts.truncate(MOST);
+    if parts.len() > MAX_PARTS {
+        parts.truncate(MAX_PARTS);
         parts.push("…".into());
     }
     parts.join(", ")
@@ -33,7 +33,7 @@ fn add(walkable: &Walkable, ty: TypeId, cells: &BTreeSet<u32>, start: u32, name:
     }
     let mut at = start;
     for index in 0..module.extent(ty) {
-        if out.len() > MOST {
+        if out.len() > MAX_PARTS {
             return;
         }
         let part = match module.types.get(ty) {

@@ -1,8 +1,8 @@
-//! Programs with undefined values, each with its right answer beside it: `tests/undefined`.
+//! Programs with undefined values, each with its expected answer next to it: `tests/undefined`.
 
 use super::{Finding, tests::audited};
 
-/// Returns the reports of undefined variables as answers are written: the line, the parts, the number of pixels.
+/// Returns the reports of undefined variables in the form of the answers: the line, the parts, the number of pixels.
 fn reports(code: &str, findings: &[Finding]) -> Vec<String> {
     let shown = findings.iter().filter(|finding| finding.kind.message().starts_with("the result depends on"));
     let report = |finding: &Finding| {
@@ -15,7 +15,7 @@ fn reports(code: &str, findings: &[Finding]) -> Vec<String> {
     all
 }
 
-/// The text and the answer of each program of a folder.
+/// Returns the text and the answer of each program of a folder.
 macro_rules! programs {
     ($folder:literal, $($name:literal)*) => {
         [$((

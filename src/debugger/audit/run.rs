@@ -1,4 +1,4 @@
-//! Audits pixels, on all processors.
+//! Audits pixels, in parallel on all processors.
 
 use super::{
     blame,
@@ -24,39 +24,41 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-/// A pixel of a pass in both precisions. Components that are not stored, and pixels where nothing is drawn, are 0.
+/// A pixel of a pass in both precisions. Components that are not stored, and pixels that are not drawn, are 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditedPixel {
     pub pixel: (u32, u32),
     pub single: [f32; 4],
     pub double: [f64; 4],
-    /// The largest difference of a component; infinite where one of the two alone is a number.
+    /// The largest difference of a component; infinite if only one of the two is a number.
     pub error: f64,
 }
 
 impl AuditedPixel {
-    /// Returns how far each component of a device's texel is from double precision; 0 for those that are not stored.
+    /// Returns the difference of each component of a device's texel from double precision; 0 for those that are not
+    /// stored.
     pub fn apart(&self, device: [f32; 4], stored: usize) -> [f64; 4] {
         let one = |i: usize| apart(Shadowed { single: device[i], double: self.double[i] });
         std::array::from_fn(|i| if i < stored { one(i) } else { 0.0 })
     }
 }
 
-/// Pixels in the middles of cells of even size, row after row; one of a small pass may come more than once.
+/// Returns the pixels at the centres of equal cells, row by row; in a small pass a pixel may occur more than once.
 pub fn spread((columns, rows): (u32, u32), (width, height): (u32, u32)) -> Vec<(u32, u32)> {
     let at = |i: u32, n: u32, size: u32| ((u64::from(2 * i + 1) * u64::from(size)) / u64::from(2 * n)) as u32;
     (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, columns, width), at(y, rows, height)))).collect()
 }
 
-/// Spreads them over the texels that the programs of a pass draw: none of its boundary, and none beyond its region.
+/// Returns pixels spread over the texels that the programs of a pass draw: none of its boundary, and none outside its
+/// region.
 pub fn grid((columns, rows): (u32, u32), settings: &PassSettings, size: (u32, u32)) -> Vec<(u32, u32)> {
     let Some(own) = own_texels(settings, size) else { return Vec::new() };
     let pixels = spread((columns, rows), (own.width, own.height));
     pixels.into_iter().map(|(x, y)| (own.x + x, own.y + y)).collect()
 }
 
-/// The parts of a picture that the pixels of [`grid`] stand for, in their order: two corners each, from 0 to 1 across
-/// and up.
+/// Returns the parts of a picture that the pixels of [`grid`] represent, in their order: two corners each, from 0 to 1
+/// across and up.
 pub fn cells(
     (columns, rows): (u32, u32),
     settings: &PassSettings,
@@ -64,26 +66,26 @@ pub fn cells(
 ) -> Vec<([f32; 2], [f32; 2])> {
     let Some(own) = own_texels(settings, (width, height)) else { return Vec::new() };
     let at = |x: u32, y: u32| {
-        let part = |begin: u32, count: u32, i: u32, n: u32, whole: u32| {
-            (begin as f32 + count as f32 * i as f32 / n as f32) / whole as f32
+        let part = |start: u32, count: u32, i: u32, n: u32, whole: u32| {
+            (start as f32 + count as f32 * i as f32 / n as f32) / whole as f32
         };
         [part(own.x, own.width, x, columns, width), part(own.y, own.height, y, rows, height)]
     };
     (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, y), at(x + 1, y + 1)))).collect()
 }
 
-/// Holds what was found.
+/// The result of an audit.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
-    /// In the order in which they were asked for.
+    /// In the order of the request.
     pub pixels: Vec<AuditedPixel>,
-    /// In the order of their weight.
+    /// In order of importance.
     pub findings: Vec<Finding>,
 }
 
 /// Audits `project.passes[index]` at some pixels, counted from the bottom left, on all processors. Where no program
-/// draws, outside of its region, there is nothing to audit. What is wrong with operations on constants is found in the
-/// text, and counted for every pixel.
+/// draws, outside of its region, there is nothing to audit. Faults of operations on constants are found statically, and
+/// counted for every pixel.
 pub fn audit(
     sources: &Sources<'_>,
     index: usize,
@@ -106,7 +108,7 @@ pub fn audit(
     Ok(audit)
 }
 
-/// Returns what is found at one pixel by walking through it.
+/// Returns the findings at one pixel, by walking it.
 pub fn audit_pixel(
     sources: &Sources<'_>,
     index: usize,
@@ -123,7 +125,7 @@ fn stored(sources: &Sources<'_>, index: usize) -> Vec<usize> {
     sources.pass(index).formats().iter().map(|format| format.components()).collect()
 }
 
-/// A declaration that pixels show something undefined of.
+/// A declaration with undefined values that pixels show.
 struct ShownByPixels<'p> {
     walkable: &'p Walkable,
     shown: Shown,
@@ -184,7 +186,7 @@ fn audit_pixels(
     let mut audit = Audit::default();
     let mut all: Vec<Finding> = Vec::new();
     for pixel in pixels {
-        // One that is asked for twice counts once.
+        // A repeated pixel counts once.
         let Some(WalkedPixel { audited, findings, shown }) = found.remove(pixel) else { continue };
         for (walkable, shown) in shown {
             match by_pixels.iter_mut().find(|known| known.shown.origin.is_like(&shown.origin)) {
@@ -243,7 +245,7 @@ fn walk_pixel<'p>(
     Ok(Some(WalkedPixel { audited, findings, shown }))
 }
 
-/// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
+/// Returns the output of a pixel in both precisions, along the path of single precision; zeros if it draws nothing.
 pub(super) fn walk(at: &Fragment<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
     let drawn = at.machine::<Shadowed>().run(at.lane, observer)?;
     Ok(at.value(&drawn).unwrap_or([Shadowed { single: 0.0, double: 0.0 }; 4]))

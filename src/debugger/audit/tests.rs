@@ -1,4 +1,4 @@
-//! Faults that were planted, and code without any.
+//! Planted faults, and code without faults.
 
 use super::*;
 use crate::trace::STEPS;
@@ -29,7 +29,7 @@ fn named<'a>(code: &'a str, audit: &'a Audit) -> Vec<(&'static str, &'a str)> {
 }
 
 #[test]
-fn code_without_fault_has_no_findings() {
+fn correct_code_has_no_findings() {
     let code = image(
         "vec3 n = normalize(vec3(p, 1.));\nfloat d = 0.;\nfor (int i = 0; i < 9; i++) d += sqrt(float(i)) * n.x;\n\
          o = vec4(n * smoothstep(0., 1., d), pow(abs(n.y), 2.));",
@@ -42,7 +42,7 @@ fn code_without_fault_has_no_findings() {
 }
 
 #[test]
-fn a_cancellation_is_where_the_error_is_born() {
+fn cancellation_is_the_cause_of_the_error() {
     let code = image("float a = 1000. + p.x * 1e-3;\nfloat b = a * a - 1e6;\no = vec4(b * 0.5, 0., 0., 1.);");
     let audit = audited(&code);
     let rounding: Vec<_> = audit.findings.iter().filter(|f| f.kind.class() == Class::Rounding).collect();
@@ -55,7 +55,7 @@ fn a_cancellation_is_where_the_error_is_born() {
 }
 
 #[test]
-fn other_roundings_move_what_is_ill_conditioned_and_nothing_that_is_exact() {
+fn jitter_moves_only_inexact_results() {
     let moved = |body: &str| {
         let project = Project::of_image("Untitled".into(), image(body));
         let (sources, inputs) = (Sources::new(&project), inputs());
@@ -71,11 +71,11 @@ fn other_roundings_move_what_is_ill_conditioned_and_nothing_that_is_exact() {
 }
 
 #[test]
-fn a_large_angle_is_named() {
+fn large_angle_is_reported() {
     let code = image("o = vec4(sin(p.x * 7e4 / 3.), 0., 0., 1.);");
     let audit = audited(&code);
     assert!(audit.findings.iter().any(|f| f.kind.message().starts_with("a trigonometric function of a large number")));
-    // A hash by fract of a large sine, which everybody has.
+    // The common hash by fract of a large sine.
     let code = image("o = vec4(fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453), 0., 0., 1.);");
     let audit = audited(&code);
     assert!(audit.pixels.iter().any(|p| p.error > 1e-4));
@@ -83,7 +83,7 @@ fn a_large_angle_is_named() {
 }
 
 #[test]
-fn what_is_read_before_it_is_written_is_found() {
+fn reads_before_writes_are_found() {
     for (body, name) in [
         ("float a;\nif (p.x > 4.) a = 1.;\no = vec4(a * 2.);", "a"),
         ("float a;\no = vec4(a + 1.);", "a"),
@@ -99,7 +99,7 @@ fn what_is_read_before_it_is_written_is_found() {
         assert_eq!(named(&code, &audited(&code)), [("undefined", name)], "{body}");
     }
     for body in [
-        // The fourth component is carried along and thrown away.
+        // The fourth component is computed and discarded.
         "vec4 v;\nv.xyz = vec3(p, 1.);\nv *= 2.;\no = vec4(v.xyz, 1.);",
         // The picture has no alpha.
         "o.xyz = vec3(p, 1.);",
@@ -114,7 +114,7 @@ fn what_is_read_before_it_is_written_is_found() {
 }
 
 #[test]
-fn what_follows_from_an_undefined_value_is_reported_where_that_comes_from() {
+fn consequences_of_undefined_values_are_reported_at_the_source() {
     let code = image("vec3 n;\nfloat r;\no = vec4(normalize(n), 1. / r);");
     let audit = audited(&code);
     assert_eq!(named(&code, &audit), [("undefined", "n")]);
@@ -130,13 +130,13 @@ fn a_buffer_shows_every_component_that_it_stores() {
 }
 
 #[test]
-fn what_is_undefined_is_followed_out_of_functions_and_into_them() {
+fn undefined_values_are_tracked_through_calls() {
     let half = "struct S { float a; float b; };\nS f() { S s; s.a = 1.; return s; }\n";
     for (functions, body, part) in [
         // A local that is returned before it is written.
         ("float f() { float a; return a; }\n", "o = vec4(f() + 1.);", "a"),
         ("float f() { float a; return a; }\nfloat g() { return f(); }\n", "o = vec4(g() + 1.);", "a"),
-        // Some of the ways through a function have no return.
+        // Some paths through a function have no return.
         ("float f(float x) { if (x > 4.) return 1.; }\n", "o = vec4(f(p.x) + 1.);", "f()"),
         // A structure that is filled in part.
         (half, "o = vec4(f().b + 1.);", "s.b"),
@@ -161,7 +161,7 @@ fn what_is_undefined_is_followed_out_of_functions_and_into_them() {
 }
 
 #[test]
-fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
+fn undefined_results_are_listed_with_their_operands() {
     for (body, text, numbers) in [
         ("o = vec4(pow(p.x - 9., 2.));", "pow(p.x - 9., 2.)", "pow(-8.5, 2.0)"),
         ("o = vec4(normalize(p - p), 0., 1.);", "normalize(p - p)", "normalize(0.0, 0.0)"),
@@ -186,10 +186,10 @@ fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
     }
 }
 
-/// GLSL ES 3.00, sections 8.8 and 8.9: within non-uniform control flow. Neighbours part by columns of two, or not at
-/// all where the edge lies between blocks of two by two.
+/// GLSL ES 3.00, sections 8.8 and 8.9: within non-uniform control flow. Neighbours diverge by columns of two, or not at
+/// all if the edge is between blocks of two by two.
 #[test]
-fn derivatives_where_neighbours_part_are_listed() {
+fn derivatives_in_non_uniform_control_flow_are_listed() {
     let read = "texture(iChannel0, p / 8.)";
     let listed = |code: &str, filter: Filter| {
         let project = Project::of_image("Untitled".into(), code.into());
@@ -219,14 +219,14 @@ fn derivatives_where_neighbours_part_are_listed() {
         ("iTime > 0.", read, Filter::Mipmap),
         ("p.x < 3.", "textureLod(iChannel0, p / 8., 0.)", Filter::Mipmap),
         ("p.x < 3.", "textureGrad(iChannel0, p / 8., p, p)", Filter::Mipmap),
-        // There is one level that is read.
+        // Only one level is read.
         ("p.x < 3.", read, Filter::Linear),
     ] {
         assert_eq!(listed(&image(condition, value), filter), [], "{condition} {value}");
     }
 }
 
-/// No pixel comes to what is folded: it is found in the text.
+/// Folded operations are not executed: they are found statically.
 #[test]
 fn constants_are_listed_too() {
     for (expression, kind) in [
@@ -257,7 +257,7 @@ fn constants_are_listed_too() {
         assert_eq!(named(&code, &audit), [(kind, expression)], "{expression}");
         assert!(audit.findings[0].is_constant() && audit.findings[0].pixels == 32, "{expression}");
     }
-    // What is defined: the ends of the ranges, infinities of infinities, NaN of NaN, and bits that stand for one.
+    // Defined cases: the ends of the ranges, infinities of infinities, NaN of NaN, and bits that represent one.
     for expression in
         ["int(-2147483648.)", "uint(4294967040.)", "uint(-.5)", "uintBitsToFloat(0x7fc00000u)", "uint(-1)"]
     {
@@ -269,7 +269,7 @@ fn constants_are_listed_too() {
 }
 
 #[test]
-fn nan_is_named_where_it_is_born_and_not_where_it_goes() {
+fn nan_is_reported_at_its_origin_only() {
     let code = image("float a = p.x - p.x;\nfloat b = a / a;\nfloat c = b + 1.;\no = vec4(c * 2.);");
     let audit = audited(&code);
     let nonfinite: Vec<_> = audit.findings.iter().filter(|f| f.kind.name() == "nonfinite").collect();
@@ -278,13 +278,13 @@ fn nan_is_named_where_it_is_born_and_not_where_it_goes() {
 }
 
 #[test]
-fn a_comparison_that_rounding_decides_is_told() {
+fn comparison_decided_by_rounding_is_reported() {
     let code = image("float a = p.x * .1;\no = vec4(a * 3. == p.x * .3 ? 1. : 0.);");
     assert!(named(&code, &audited(&code)).iter().any(|(kind, _)| *kind == "decided-by-rounding"));
 }
 
 #[test]
-fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_there() {
+fn undefined_evaluation_order_is_reported_for_the_pixels_that_reach_it() {
     const SEED: &str = "float seed;\nfloat next() { seed = fract(seed * 7.1 + .3); return seed; }\n\
                         float pure(float x) { return x * seed; }\n\
                         void pair(out float a, inout float b) { a = 1.; b = 2.; }\n";
@@ -302,7 +302,7 @@ fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_ther
         let found: Vec<_> = orders.map(|f| (&code[f.span.unwrap().range()], f.pixels)).collect();
         assert_eq!(found, [(text, pixels)], "{body}");
     }
-    // An order is given, or there is nothing to put in one.
+    // The order is defined, or there is nothing to order.
     for body in [
         "o = vec4(vec2(next(), next()), max(next(), next()), 1.);",
         "int i = 1;\nbool b = i++ > 0 && i == 2;\no = vec4(b ? i++ : i--, (i++, i), 0., 1.);",

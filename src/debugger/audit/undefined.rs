@@ -1,4 +1,4 @@
-//! GLSL ES 3.00 leaves results undefined by the operands of an operation. Sections are those of its specification.
+//! Results that GLSL ES 3.00 leaves undefined for some operands. Sections are those of its specification.
 
 use eddy_glsl::{
     builtins::{Arg, Builtin},
@@ -9,19 +9,19 @@ use eddy_glsl::{
     walkable::Precondition,
 };
 
-/// A sentence about what is undefined, and the numbers that make it so.
+/// A sentence about the undefined behaviour, and the operands that cause it.
 pub type Reason = (&'static str, String);
 
-/// Returns why the result of an operation is undefined, as far as the operation says it. `size` gives the size of a
-/// level of a channel's texture.
+/// Returns why the result of an operation is undefined, as far as the operation determines it. `size` returns the size
+/// of a level of a channel's texture.
 pub fn of_operation(view: &View<'_, '_, Shadowed>, value: Value, size: &dyn Fn(u8, i32) -> [i32; 3]) -> Option<Reason> {
-    // What a function is written out with is undefined where the function is.
+    // The operations of an expanded function are undefined where the function is.
     if view.function().origin(value).builtin.is_some_and(|builtin| !builtin.gaps.is_empty()) {
         return None;
     }
     match *view.op(value) {
         Op::Binary { op: Binary::Divide, left, right } if is_float(view, right) => {
-            // Any other number gives an infinity (4.5.1), which is told as such.
+            // Any other dividend results in an infinity (4.5.1), which is reported as such.
             let (x, y) = pairs(&floats(view, left), &floats(view, right)).find(|&(x, y)| x == 0.0 && y == 0.0)?;
             Some(("zero divided by zero is undefined (4.5.1)", format!("{x:?} / {y:?}")))
         }
@@ -44,7 +44,7 @@ pub fn of_operation(view: &View<'_, '_, Shadowed>, value: Value, size: &dyn Fn(u
     }
 }
 
-/// Returns why a precondition that lowering noted does not hold.
+/// Returns why a precondition that lowering recorded is violated.
 pub fn of_precondition(view: &View<'_, '_, Shadowed>, precondition: &Precondition) -> Option<Reason> {
     match *precondition {
         Precondition::Call(builtin, ref args) => of_call(view, builtin, args),
@@ -56,7 +56,7 @@ pub fn of_precondition(view: &View<'_, '_, Shadowed>, precondition: &Preconditio
         Precondition::Index(index, len) => {
             let bits = ints(view, index).next()?;
             let is_signed = view.function().ty(index) == TypeId::INT;
-            // A negative index is a large number without a sign.
+            // As an unsigned number, a negative index is large.
             (bits >= len).then(|| {
                 let shown = if is_signed { (bits as i32).to_string() } else { bits.to_string() };
                 ("an index beyond the end is undefined (4.1.9)", format!("[{shown}] of {len}"))
@@ -97,7 +97,7 @@ fn ints<'v>(view: &'v View<'_, '_, Shadowed>, value: Value) -> impl Iterator<Ite
     view.value(value).iter().map(|cell| cell.bits())
 }
 
-/// Components side by side; a scalar goes with each.
+/// Pairs components; a scalar is paired with each.
 fn pairs(a: &[f32], b: &[f32]) -> impl Iterator<Item = (f32, f32)> {
     let at = |all: &[f32], i: usize| if all.len() == 1 { all[0] } else { all[i] };
     (0..a.len().max(b.len())).map(|i| (at(a, i), at(b, i))).collect::<Vec<_>>().into_iter()

@@ -1,4 +1,4 @@
-//! Watches a walk in both precisions.
+//! Observes a walk in both precisions.
 
 use super::{
     distance::apart,
@@ -16,13 +16,13 @@ use eddy_glsl::{
 };
 use std::collections::HashMap;
 
-/// Half the distance of single precision's numbers, relative to them.
+/// Half the spacing of single-precision numbers, relative to them.
 const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
-/// By how much an operation makes relative errors larger for its error to be its own and not its operands'.
-const GROWTH: f64 = 16.0;
-/// A sum is a cancellation where it is smaller than its operands by this.
-const CANCELLED: f64 = 1.0 / 16.0;
-/// The angle where the distance of single precision's numbers is a thousandth of a turn.
+/// The factor by which an operation must increase the relative error of its operands to be the cause.
+const MIN_GROWTH: f64 = 16.0;
+/// A sum is a cancellation if it is smaller than its operands by this factor.
+const CANCELLATION: f64 = 1.0 / 16.0;
+/// The angle at which the spacing of single-precision numbers is a thousandth of a turn.
 const LARGE_ANGLE: f32 = 1e4;
 
 /// An operation whose result is much less exact than its operands.
@@ -37,7 +37,7 @@ pub struct RootCause {
     span: Option<Span>,
 }
 
-/// An operation, a pixel's error, and what is left of it where the operation is exact.
+/// An operation, a pixel's error, and the error that remains if the operation is exact.
 pub struct Blame {
     pub cause: RootCause,
     pub error: f64,
@@ -53,19 +53,19 @@ pub struct Watch<'w> {
 }
 
 impl<'w> Watch<'w> {
-    /// `stored` has the number of components that each target stores.
+    /// `stored` is the number of components that each target stores.
     pub fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>, stored: &'w [usize]) -> Self {
         Self { walkable, inputs, root_causes: HashMap::new(), found: Vec::new(), flow: Flow::new(walkable, stored) }
     }
 
-    /// The operations in which errors are born, the largest first.
+    /// Returns the operations that cause errors, the largest first.
     pub fn root_causes(&self) -> Vec<&RootCause> {
         let mut root_causes: Vec<&RootCause> = self.root_causes.values().collect();
         root_causes.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.span.cmp_place(&b.span)));
         root_causes
     }
 
-    /// Returns what was found, and what is shown of what was never written.
+    /// Returns the findings, and the unwritten values that the output depends on.
     pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
@@ -165,7 +165,7 @@ impl Observer<Shadowed> for Watch<'_> {
             let span = self.span(loc);
             self.find(Kind::Undefined(what), span, String::new());
         }
-        // What follows from an undefined value is reported where that value comes from.
+        // Consequences of an undefined value are reported at its source.
         if self.flow.is_undefined(view, op) || self.flow.is_undefined_value(view, value) {
             return;
         }
@@ -178,19 +178,19 @@ impl Observer<Shadowed> for Watch<'_> {
         }
         let own = match op {
             Op::Binary { op, left, right } if op.is_comparison() => {
-                if decides_otherwise(view, *op, *left, *right) {
+                if comparison_differs(view, *op, *left, *right) {
                     let span = self.span(loc);
                     self.find(Kind::Decided, span, shown(view, &[*left, *right]));
                 }
                 return;
             }
-            Op::Binary { op, left, right } => birth_of_binary(view, *op, *left, *right, value),
-            Op::Math { fun, arg, .. } => birth_of_math(view, *fun, *arg),
+            Op::Binary { op, left, right } => cause_of_binary(view, *op, *left, *right, value),
+            Op::Math { fun, arg, .. } => cause_of_math(view, *fun, *arg),
             _ => return,
         };
         let operands: Vec<Value> = operands(op).into_iter().filter(|&operand| !view.is_place(operand)).collect();
-        let error = relative(view.value(value));
-        let before = operands.iter().map(|&operand| relative(view.value(operand))).fold(0.0, f64::max);
+        let error = relative_error(view.value(value));
+        let before = operands.iter().map(|&operand| relative_error(view.value(operand))).fold(0.0, f64::max);
         let is_finite =
             |value: Value| view.value(value).iter().all(|c| !matches!(c, Cell::Float(x) if !x.single.is_finite()));
         if !is_finite(value) && operands.iter().all(|&operand| is_finite(operand)) {
@@ -199,7 +199,7 @@ impl Observer<Shadowed> for Watch<'_> {
             let what = if is_nan { "first NaN here" } else { "first infinity here" };
             self.find(Kind::Nonfinite(what), span, shown(view, &operands));
         }
-        if error < GROWTH * ROUNDING || error < GROWTH * before.max(ROUNDING) {
+        if error < MIN_GROWTH * ROUNDING || error < MIN_GROWTH * before.max(ROUNDING) {
             return;
         }
         let key = (view.function_id(), value);
@@ -217,11 +217,11 @@ fn operands(op: &Op) -> Vec<Value> {
     all
 }
 
-fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value, value: Value) -> &'static str {
+fn cause_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value, value: Value) -> &'static str {
     let size = |value: Value| view.value(value).iter().map(|c| c.float().single.abs()).fold(0.0, f32::max);
     match op {
         Binary::Add | Binary::Subtract
-            if f64::from(size(value)) < CANCELLED * f64::from(size(left).max(size(right))) =>
+            if f64::from(size(value)) < CANCELLATION * f64::from(size(left).max(size(right))) =>
         {
             "cancellation: subtracting nearly equal numbers leaves mostly rounding error"
         }
@@ -230,7 +230,7 @@ fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right
     }
 }
 
-fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'static str {
+fn cause_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'static str {
     let is_large = view.value(arg).iter().any(|c| matches!(c, Cell::Float(x) if x.single.abs() >= LARGE_ANGLE));
     match fun {
         Math::Sin | Math::Cos | Math::Tan if is_large => {
@@ -244,8 +244,8 @@ fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'stat
     }
 }
 
-/// The largest error of a component, relative to it.
-fn relative(cells: &[Cell<Shadowed>]) -> f64 {
+/// Returns the largest relative error of a component.
+fn relative_error(cells: &[Cell<Shadowed>]) -> f64 {
     let one = |cell: &Cell<Shadowed>| match *cell {
         Cell::Float(x) => {
             let size = x.double.abs().max(f64::from(x.single).abs());
@@ -260,7 +260,7 @@ fn relative(cells: &[Cell<Shadowed>]) -> f64 {
     cells.iter().map(one).fold(0.0, f64::max)
 }
 
-fn decides_otherwise(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value) -> bool {
+fn comparison_differs(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value) -> bool {
     let (a, b) = (view.value(left), view.value(right));
     let outcome = |order: Option<std::cmp::Ordering>| match op {
         Binary::Equal => order.is_some_and(|o| o.is_eq()),
@@ -290,7 +290,7 @@ fn shown(view: &View<'_, '_, Shadowed>, values: &[Value]) -> String {
     each.collect::<Vec<_>>().join(" and ")
 }
 
-/// Places in the order of the text, so that equal errors are told in one order on every run.
+/// Compares places by text order, so that equal errors are reported in the same order on every run.
 trait ComparePlace {
     fn cmp_place(&self, other: &Self) -> std::cmp::Ordering;
 }

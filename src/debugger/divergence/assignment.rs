@@ -6,21 +6,21 @@ use eddy_engine::Sources;
 use eddy_glsl::Probe;
 use std::collections::HashMap;
 
-/// A value that a variable, or a part of one, takes.
+/// A value that is assigned to a variable, or to a part of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
-    /// As GLSL spells it.
+    /// The GLSL spelling.
     pub name: String,
-    /// The expression whose value it is.
+    /// The assigned expression.
     pub span: Span,
-    /// Draws that value.
+    /// The probe that draws the value.
     pub probe: Probe,
-    /// Holds what the walker has, one to four numbers.
+    /// The walker's value, one to four numbers.
     pub walker: Vec<Number>,
 }
 
-/// Returns the assignments in the order of the trace, but for those whose expression no probe can tell from another, as
-/// two of one macro, and for literals.
+/// Returns the assignments in the order of the trace, except literals, and those whose expression a probe cannot
+/// distinguish from another, as two in one macro.
 pub fn assignments(sources: &Sources<'_>, index: usize, trace: &Trace) -> Vec<Assignment> {
     let steps = || {
         trace.steps.iter().filter_map(|step| match &step.event {

@@ -1,9 +1,9 @@
-//! Says where a device parts from the walker: the first of a pixel's assignments that comes out otherwise on the
+//! Finds where a device diverges from the walker: the first of a pixel's assignments with a different value on the
 //! device.
 //!
-//! Owns which assignments of a trace can be compared ([`Assignment`]), in which order ([`search`]), the values that the
-//! device has of them, each drawn by a probe ([`Probes`]), and the search in a frame that is drawn again ([`find`]). A
-//! device's compiler makes another program of each probe, and a difference may vanish and come again; so what is named is
+//! Owns which assignments of a trace can be compared ([`Assignment`]), in which order ([`search`]), the device's values
+//! of them, each drawn by a probe ([`Probes`]), and the search in a frame that is drawn again ([`find`]). A device's
+//! compiler makes a different program for each probe, and a difference may vanish and reappear; so the reported one is
 //! the first that was found.
 
 mod assignment;

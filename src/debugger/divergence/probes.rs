@@ -1,4 +1,4 @@
-//! A frame that is drawn again and again, each time with another value beside it.
+//! A frame that is drawn repeatedly, each time with another value in addition.
 
 use super::assignment::Assignment;
 use eddy_engine::{BuildError, BuildOptions, Builder, Engine, EngineError, FrameInputs, Snapshot};
@@ -16,11 +16,11 @@ pub enum ProbeError {
     Snapshot,
 }
 
-/// A frame of a project before it is drawn, and what it is drawn with.
+/// A frame of a project before it is drawn, and its inputs.
 pub struct Probes<'p> {
     project: &'p Project,
     media: &'p MediaSet,
-    /// Holds what the program was built with that has drawn the frames before.
+    /// The options of the program that has drawn the previous frames.
     options: BuildOptions,
     pass: PassId,
     engine: Engine,
@@ -31,8 +31,8 @@ pub struct Probes<'p> {
 }
 
 impl<'p> Probes<'p> {
-    /// `before` is what the targets of the program that `options` make of the project held before the frame that
-    /// `inputs` and the author's own uniforms belong to. Values are those of `pass`.
+    /// `before` is the content of the targets before the frame of `inputs` and `values`, in the program built from the
+    /// project with `options`. Values are read from `pass`.
     pub fn new(
         (engine, before): (Engine, Snapshot),
         (project, media): (&'p Project, &'p MediaSet),
@@ -44,10 +44,10 @@ impl<'p> Probes<'p> {
         Self { project, media, options, pass, engine, builder, before, inputs, values }
     }
 
-    /// Draws the frame with the value of an assignment beside it, and gives that of a pixel from the bottom left;
-    /// `None` where the expression is not evaluated so often.
+    /// Draws the frame with the value of an assignment in addition, and returns the value at a pixel from the bottom
+    /// left; `None` if the expression is not evaluated that often.
     pub fn value(&mut self, of: &Assignment, (x, y): (u32, u32)) -> Result<Option<[f32; 4]>, ProbeError> {
-        // Buffers are put back into the program that they were taken of, and keep their texels in that of the probe.
+        // Buffers are restored into the program that they were captured from, and keep their texels in the probe's.
         let plain = self.builder.build(self.project, self.media, &self.options)?;
         self.engine.set_program(plain.program)?;
         if !self.engine.restore(&self.before) {

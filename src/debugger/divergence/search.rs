@@ -1,4 +1,4 @@
-//! The search for the first difference in a traced pixel: its frame is drawn again beside the picture, and assignments
+//! The search for the first difference in a traced pixel: its frame is drawn again in the background, and assignments
 //! are compared.
 
 use super::{
@@ -13,30 +13,30 @@ use eddy_media as media;
 use eddy_project::{CustomUniformValues, PassId};
 use std::{path::PathBuf, sync::Arc};
 
-/// An assignment that comes out otherwise on the device.
+/// An assignment with a different value on the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Divergence {
     pub assignment: Assignment,
-    /// Holds what the device has; `None`: it does not come there so often.
+    /// The device's value; `None` if it does not reach the assignment that often.
     pub device: Option<Vec<f32>>,
-    /// Numbers of single precision between the two; empty where the device does not come there.
+    /// The distance in single-precision numbers; empty if the device does not reach the assignment.
     pub ulps: Vec<u32>,
 }
 
-/// Holds what a search has found.
+/// The result of a search.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DivergenceFound {
     pub first: Option<Divergence>,
-    /// Assignments that were compared, of so many.
+    /// The number of compared assignments, out of `of`.
     pub compared: usize,
     pub of: usize,
 }
 
-/// Finds the first assignment at which the device parts from the walker, with `most` values of the device at most, which
-/// `draw` gives: `None` where the assignment is not reached.
+/// Finds the first assignment at which the device diverges from the walker, with at most `most` values of the device.
+/// `draw` returns such a value, or `None` if the assignment is not reached.
 ///
-/// Takes halves first where there are more assignments than that: where one agrees the search goes on behind it,
-/// else before it. What is left of `most` goes to the earliest ones.
+/// Bisects if there are more assignments than that: if one agrees, the search continues after it, otherwise before it.
+/// The remainder of `most` is used for the earliest ones.
 pub fn search<E>(
     assignments: Vec<Assignment>,
     most: usize,
@@ -54,10 +54,10 @@ pub fn search<E>(
     };
     let mut end = of;
     if of > most {
-        let mut begin = 0;
-        while begin < end && count < most {
-            let middle = begin + (end - begin) / 2;
-            if parts(middle, &mut count, &mut compared)? { end = middle } else { begin = middle + 1 }
+        let mut start = 0;
+        while start < end && count < most {
+            let middle = start + (end - start) / 2;
+            if parts(middle, &mut count, &mut compared)? { end = middle } else { start = middle + 1 }
         }
     }
     for at in 0..end {
@@ -69,7 +69,7 @@ pub fn search<E>(
     Ok(DivergenceFound { first, compared: count, of })
 }
 
-/// The difference of an assignment, if there is one.
+/// Returns the difference of an assignment, if there is one.
 fn divergence(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Divergence> {
     let Some(device) = device else {
         return Some(Divergence { assignment: assignment.clone(), device: None, ulps: Vec::new() });
@@ -83,9 +83,9 @@ fn divergence(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Diver
     ulps.iter().any(|ulps| *ulps > 0).then(|| Divergence { assignment: assignment.clone(), device, ulps })
 }
 
-/// Values of the device that are drawn at most: each is a program to compile.
+/// The limit of the device's values: each is a program to compile.
 pub const MOST: usize = 48;
-/// Steps of the walk that are looked at: half a minute of a person's time is not enough for more.
+/// The limit of steps of the walk: about what fits into half a minute.
 pub const STEPS_KEPT: usize = 200_000;
 
 /// A traced pixel, and the frames that lead to it.
@@ -97,13 +97,13 @@ pub struct DivergenceJob {
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
-    /// The picture of a camera that the last of the frames showed. Those before are drawn with it as well: theirs are not kept.
+    /// The camera picture of the last frame. The earlier frames are drawn with it as well: their pictures are not kept.
     pub camera: Option<CameraFrame>,
     /// The last one is the traced one.
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
-/// Draws the frame of a traced pixel again by an engine of its own, and finds the first assignment that differs there.
+/// Draws the frame of a traced pixel again by a separate engine, and finds the first assignment that differs there.
 pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound, String> {
     let DivergenceJob { gpu, traced, shown, size, media_dir, snapshot, camera, mut frames } = job;
     let (project, pass) = (&traced.project, &traced.pass);
@@ -150,8 +150,8 @@ mod tests {
         (0..count).map(one).collect()
     }
 
-    /// The visit that is named, and how many were compared, where `is_off` ones differ.
-    fn named(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
+    /// Returns the visit that is reported, and how many were compared, where those with `is_off` differ.
+    fn reported(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
         let draw = |assignment: &Assignment| {
             let visit = assignment.probe.visit;
             Ok::<_, Infallible>(Some([visit as f32 + if is_off(visit) { 0.5 } else { 0.0 }, 0.0, 0.0, 1.0]))
@@ -162,26 +162,26 @@ mod tests {
     }
 
     #[test]
-    fn few_are_compared_in_their_order() {
-        assert_eq!(named(10, 32, |_| false), (None, 10));
-        assert_eq!(named(10, 32, |visit| visit == 3 || visit > 6), (Some(3), 4));
+    fn few_assignments_are_compared_in_order() {
+        assert_eq!(reported(10, 32, |_| false), (None, 10));
+        assert_eq!(reported(10, 32, |visit| visit == 3 || visit > 6), (Some(3), 4));
     }
 
     #[test]
-    fn of_many_the_halves_are_taken_first() {
-        let (first, compared) = named(10_000, 32, |visit| visit >= 7_123);
+    fn many_assignments_are_bisected() {
+        let (first, compared) = reported(10_000, 32, |visit| visit >= 7_123);
         assert_eq!((first, compared), (Some(7_123), 32));
-        // One that vanishes again is found where it is early.
-        assert_eq!(named(10_000, 32, |visit| visit == 4 || visit >= 7_123).0, Some(4));
-        assert_eq!(named(10_000, 32, |_| false), (None, 32));
+        // One that vanishes again is found if it is early.
+        assert_eq!(reported(10_000, 32, |visit| visit == 4 || visit >= 7_123).0, Some(4));
+        assert_eq!(reported(10_000, 32, |_| false), (None, 32));
     }
 
     #[test]
-    fn an_assignment_that_the_device_does_not_come_to_parts() {
+    fn unreached_assignment_is_a_divergence() {
         let Ok(found) = search(all(3), 9, |_| Ok::<_, Infallible>(None));
         let first = found.first.unwrap();
         assert_eq!((first.device, first.ulps.len(), found.compared), (None, 0, 1));
-        // NaN is NaN, and both zeros are zero.
+        // NaN equals NaN, and both zeros are equal.
         let Ok(found) = search(all(1), 9, |_| Ok::<_, Infallible>(Some([-0.0, f32::NAN, 0.0, 1.0])));
         assert_eq!(found.first, None);
     }

@@ -1,12 +1,12 @@
 //! Clipping to the view volume: "Primitive Clipping" in chapter 2 of the OpenGL ES 3.0 specification.
 //!
-//! Positions are those that a device is given: depth goes from 0 to w. Devices may clip x and y to a larger guard band
-//! instead; a picture is the same but for vertices on its edge, which are rounded to subpixels.
+//! Positions are in the device's convention: depth is from 0 to w. Devices may clip x and y to a larger guard band
+//! instead; the picture is the same except for vertices on its edge, which are rounded to subpixels.
 
 /// The number of planes of the view volume.
 const PLANES: usize = 6;
 
-/// The distance of a position from a plane of the view volume, positive inside.
+/// Returns the signed distance of a position from a plane of the view volume, positive inside.
 fn distance([x, y, z, w]: [f64; 4], plane: usize) -> f64 {
     match plane {
         0 => z,
@@ -18,8 +18,8 @@ fn distance([x, y, z, w]: [f64; 4], plane: usize) -> f64 {
     }
 }
 
-/// The part of a triangle inside the view volume, as a polygon that turns the same way. Returns no corners where the
-/// triangle lies outside, and where a position is no finite number.
+/// Returns the part of a triangle inside the view volume, as a polygon with the same winding. Returns no corners if the
+/// triangle is outside, or if a position is not finite.
 pub fn clipped(triangle: [[f32; 4]; 3]) -> Vec<[f64; 4]> {
     if triangle.as_flattened().iter().any(|number| !number.is_finite()) {
         return Vec::new();
@@ -43,7 +43,7 @@ pub fn clipped(triangle: [[f32; 4]; 3]) -> Vec<[f64; 4]> {
         }
         polygon = kept;
     }
-    // The point where all planes meet has no place in the picture.
+    // The point where all planes meet has no position in the picture.
     if polygon.iter().any(|[.., w]| *w <= 0.0) { Vec::new() } else { polygon }
 }
 
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_inside_stays_and_what_is_outside_goes() {
+    fn inside_is_kept_and_outside_is_dropped() {
         let inside = [[-0.5, -0.5, 0.5, 1.0], [0.5, -0.5, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0]];
         assert_eq!(clipped(inside), inside.map(|corner| corner.map(f64::from)));
         let beside = inside.map(|[x, y, z, w]| [x + 2.0, y, z, w]);
@@ -61,10 +61,10 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_behind_the_eye_is_cut_off_at_the_near_plane() {
+    fn corner_with_negative_w_is_clipped_at_the_near_plane() {
         let polygon = clipped([[0.0, 0.0, 1.0, 2.0], [1.0, 0.0, 1.0, 2.0], [0.0, 1.0, -1.0, -1.0]]);
         assert_eq!(polygon.len(), 4);
-        // Half of the way to it depth is 0.
+        // Half-way to it depth is 0.
         assert_eq!((polygon[2], polygon[3]), ([0.5, 0.5, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5]));
     }
 

@@ -1,20 +1,20 @@
-//! Says which pixel centres a triangle covers, and which side of it is seen: section 3.6.1 of the OpenGL ES 3.0
-//! specification, "Basic Polygon Rasterization".
+//! The pixel centres that a triangle covers, and its facing: section 3.6.1 of the OpenGL ES 3.0 specification, "Basic
+//! Polygon Rasterization".
 //!
 //! Corners are rounded to 1/256 of a pixel first, as devices do (Vulkan's `subPixelPrecisionBits` is 8 with most, and
 //! `FIXED_ORDER` in Mesa's `lp_rast.h`; `calc_fixed_position` in `lp_setup_tri.c` rounds to the nearest, ties to even).
-//! From there on all is exact. A centre on an edge belongs to the triangle whose left edge or whose edge of the least
-//! row it is (`do_triangle_ccw` there), so that of two triangles that share an edge one alone has it.
+//! After that everything is exact. A centre on an edge belongs to the triangle whose left edge, or edge of the least
+//! row, that is (`do_triangle_ccw` there), so that it belongs to exactly one of two triangles that share an edge.
 
-/// Bits of a coordinate behind the point.
+/// The number of fractional bits of a coordinate.
 const SUBPIXEL_BITS: u32 = 8;
 const PIXEL: i32 = 1 << SUBPIXEL_BITS;
 
-/// A place in the picture in subpixels, from the left of its row 0.
+/// A position in the picture in subpixels, from the left of its row 0.
 pub type Subpixel = [i32; 2];
 
-/// The place of a position in a picture of a size: the perspective division and the viewport, in single precision as
-/// devices have them ("Coordinate Transformations" there). Row 0 is at y = w, as the engine turns y.
+/// Returns the place of a position in a picture of a size: the perspective division and the viewport, in single
+/// precision as on devices ("Coordinate Transformations" there). Row 0 is at y = w, as the engine negates y.
 pub fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel {
     let over_w = 1.0 / w;
     let (half_width, half_height) = (width as f32 / 2.0, height as f32 / 2.0);
@@ -27,21 +27,21 @@ pub fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel
 pub struct Coverage {
     /// In counter-clockwise order where rows grow upward.
     corners: [Subpixel; 3],
-    /// Its front is seen: its corners came in counter-clockwise order.
+    /// True if it is front-facing: its corners were in counter-clockwise order.
     pub is_front: bool,
 }
 
 impl Coverage {
-    /// `None` for a triangle without area, which covers nothing.
+    /// Returns `None` for a triangle without area, which covers nothing.
     pub fn new([a, b, c]: [Subpixel; 3]) -> Option<Self> {
-        match side(a, b, c) {
+        match doubled_area(a, b, c) {
             0 => None,
             area if area > 0 => Some(Self { corners: [a, b, c], is_front: true }),
             _ => Some(Self { corners: [a, c, b], is_front: false }),
         }
     }
 
-    /// The pixel's centre lies in the triangle.
+    /// Returns whether the triangle covers the pixel's centre.
     pub fn covers(&self, (x, y): (u32, u32)) -> bool {
         let centre = [x, y].map(|at| at as i32 * PIXEL + PIXEL / 2);
         let is_beyond = |axis: usize| {
@@ -52,16 +52,16 @@ impl Coverage {
             return false;
         }
         let [a, b, c] = self.corners;
-        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| match side(from, to, centre) {
-            // The triangle lies to the right of an edge that goes down, and above one that goes right.
+        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| match doubled_area(from, to, centre) {
+            // The triangle is to the right of an edge that goes down, and above one that goes right.
             0 => to[1] < from[1] || (to[1] == from[1] && to[0] > from[0]),
             side => side > 0,
         })
     }
 }
 
-/// Twice the area of a triangle: positive where its corners turn counter-clockwise.
-fn side(a: Subpixel, b: Subpixel, c: Subpixel) -> i64 {
+/// Returns twice the area of a triangle: positive if its corners are counter-clockwise.
+fn doubled_area(a: Subpixel, b: Subpixel, c: Subpixel) -> i64 {
     let along = |from: Subpixel, to: Subpixel, axis: usize| i64::from(to[axis]) - i64::from(from[axis]);
     along(a, b, 0) * along(a, c, 1) - along(a, b, 1) * along(a, c, 0)
 }
@@ -79,16 +79,16 @@ mod tests {
     }
 
     #[test]
-    fn a_centre_on_an_edge_is_of_the_triangle_to_its_right_or_above() {
+    fn centre_on_an_edge_belongs_to_the_triangle_to_its_right_or_above() {
         // All corners are centres of pixels.
         assert_eq!(covered([[0.5, 0.5], [2.5, 0.5], [0.5, 2.5]]), [(0, 0), (1, 0), (0, 1)]);
         assert_eq!(covered([[2.5, 2.5], [0.5, 2.5], [2.5, 0.5]]), [(1, 1)]);
-        // The same corners the other way round.
+        // The same corners in the opposite order.
         assert_eq!(covered([[0.5, 0.5], [0.5, 2.5], [2.5, 0.5]]), [(0, 0), (1, 0), (0, 1)]);
     }
 
     #[test]
-    fn triangles_about_a_point_have_each_centre_once() {
+    fn triangles_around_a_point_cover_each_centre_once() {
         let middle = [1.5, 1.5];
         let around = [[0.0, 0.0], [4.0, 0.5], [3.5, 4.0], [0.0, 4.0]];
         let mut all: Vec<_> = (0..4).flat_map(|i| covered([middle, around[i], around[(i + 1) % 4]])).collect();
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_front_turns_counter_clockwise_and_a_line_is_nothing() {
+    fn front_is_counter_clockwise_and_degenerate_triangles_are_empty() {
         let at = |x: i32, y: i32| [x * PIXEL, y * PIXEL];
         assert!(Coverage::new([at(0, 0), at(1, 0), at(0, 1)]).unwrap().is_front);
         assert!(!Coverage::new([at(0, 0), at(0, 1), at(1, 0)]).unwrap().is_front);
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_position_lands_where_the_viewport_puts_it() {
+    fn positions_are_mapped_by_the_viewport() {
         assert_eq!(subpixel([0.0, 0.0, 0.0, 2.0], (8, 4)), [4 * PIXEL, 2 * PIXEL]);
         // y = w is row 0.
         assert_eq!(subpixel([-3.0, 3.0, 0.0, 3.0], (8, 4)), [0, 0]);

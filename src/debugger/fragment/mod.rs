@@ -1,11 +1,11 @@
-//! Owns what a pass runs for a pixel: which program, and what it is handed.
+//! The program that a pass runs for a pixel, and its inputs.
 //!
 //! Owns the rasterizer of passes that draw meshes: the vertex stage by the walker, clipping, culling, the fill rule,
-//! the depth test and the interpolation of varyings, as chapters 2 to 4 of the OpenGL ES 3.0 specification have them
-//! and the engine's pipelines set them. A pass that draws no meshes runs its one program for every pixel. Texels of its
-//! boundary are what the boundary's expression makes of them, and those outside of its region nobody's. The trace, the
-//! debugger and the audit all ask here. Coverage and depth are those of single precision; what a fragment is handed is
-//! interpolated in both. Knows no device; nothing is blended, as no pipeline of the engine blends.
+//! the depth test and the interpolation of varyings, as specified in chapters 2 to 4 of the OpenGL ES 3.0 specification
+//! and configured by the engine's pipelines. A pass that draws no meshes runs its one program for every pixel. Texels
+//! of its boundary are values of the boundary's expression, and no program writes those outside of its region. The
+//! trace, the debugger and the audit all use it. Coverage and depth are those of single precision; the inputs of a
+//! fragment are interpolated in both. Knows no device; there is no blending, as in the engine's pipelines.
 
 mod clip;
 mod coverage;

@@ -1,4 +1,4 @@
-//! A pass in one frame, ready to be walked at any of its pixels.
+//! A pass in one frame, prepared for walks of any of its pixels.
 
 use super::{
     pixel::{Fragment, Origin, PixelContent},
@@ -13,7 +13,7 @@ use eddy_glsl::{
 };
 use eddy_project::PassSettings;
 
-/// The programs of a pass, and for one that draws meshes its triangles in the picture. Made once for all pixels.
+/// The programs of a pass and, if it draws meshes, its triangles in the picture. Built once for all pixels.
 pub struct PassFragments<'p> {
     inputs: &'p PassInputs,
     body: Body<'p>,
@@ -29,7 +29,7 @@ enum Body<'p> {
 }
 
 impl<'p> PassFragments<'p> {
-    /// Lowers `project.passes[index]`; of one that draws meshes all vertices are transformed. A program is given up
+    /// Lowers `project.passes[index]`; for one that draws meshes all vertices are transformed. A program is stopped
     /// after `limit` statements.
     ///
     /// # Panics
@@ -57,7 +57,7 @@ impl<'p> PassFragments<'p> {
                 Some(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Boundary),
                 None => return Ok(PixelContent::Undrawn(Origin::Boundary)),
             },
-            // Where meshes are drawn all is cleared first, beyond the region too.
+            // A pass that draws meshes first clears everything, outside of its region too.
             Writer::Nothing(region)
                 if self.settings.meshes().is_some() && region.within(self.inputs.size).is_some() =>
             {
@@ -77,7 +77,7 @@ impl<'p> PassFragments<'p> {
         Ok(PixelContent::Fragment(Fragment { walkable, world, inputs, origin, lane, limit: self.limit }))
     }
 
-    /// Every program of the pass.
+    /// Returns every program of the pass.
     pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
         let (screen, meshes) = match &self.body {
             Body::Screen(walkable) => (Some(&**walkable), None),
@@ -86,7 +86,7 @@ impl<'p> PassFragments<'p> {
         screen.into_iter().chain(meshes.into_iter().flatten()).chain(self.boundary.as_deref())
     }
 
-    /// Gives the program of what runs for a pixel away.
+    /// Returns the program that runs for a pixel, consuming the pass.
     pub fn into_walkable(self, origin: Origin) -> Walkable {
         match self.body {
             Body::Screen(walkable) => *walkable,

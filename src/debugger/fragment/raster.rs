@@ -1,4 +1,4 @@
-//! The triangles of a pass that draws meshes, as its depth buffer and its targets meet them.
+//! The triangles of a pass that draws meshes, with its depth buffer and targets.
 
 use super::{
     clip::clipped,
@@ -25,16 +25,16 @@ struct Piece {
     triangle: usize,
 }
 
-/// A draw with its vertices transformed.
+/// A draw with transformed vertices.
 struct Assembled {
-    /// Places among the vertex stages and the fragment stages.
+    /// Indices of its vertex stage and fragment stage.
     vertices: usize,
     fragments: usize,
     depth: DepthTest,
     depth_write: bool,
     color_write: bool,
     positions: Vec<[f32; 4]>,
-    /// In the order in which they are drawn; those that are culled are left out.
+    /// In drawing order; culled ones are left out.
     pieces: Vec<Piece>,
 }
 
@@ -55,7 +55,7 @@ pub struct Raster<'p> {
 }
 
 impl<'p> Raster<'p> {
-    /// Lowers the stages of `project.passes[index]` and transforms all vertices. A program is given up after `limit`
+    /// Lowers the stages of `project.passes[index]` and transforms all vertices. A program is stopped after `limit`
     /// statements.
     pub fn new(
         sources: &Sources<'_>,
@@ -104,13 +104,13 @@ impl<'p> Raster<'p> {
         Ok(raster)
     }
 
-    /// Every stage of the draws.
+    /// Returns every stage of the draws.
     pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
         let vertices = self.vertices.iter().map(|(_, walkable)| walkable);
         vertices.chain(self.fragments.iter().map(|stage| &stage.walkable))
     }
 
-    /// The fragment that leaves its colour in the first target's texel; `None` where none does.
+    /// Returns the fragment whose colour is in the first target's texel; `None` if there is none.
     pub fn shown(&self, pixel: (u32, u32)) -> Result<Option<MeshFragment>, Stop> {
         let lane = Machine::<f32>::lane_of(pixel);
         let (mut held, mut shown) = (FAR, None);
@@ -148,8 +148,8 @@ impl<'p> Raster<'p> {
         Ok(shown)
     }
 
-    /// Returns what the quad of a pixel is handed where it shows a fragment. Its other pixels may lie beyond the
-    /// triangle, and are handed what its plane has there.
+    /// Returns the inputs of the quad of a pixel that shows a fragment. Its other pixels may be outside the triangle;
+    /// their inputs are extrapolated on its plane.
     pub fn entry(&self, fragment: MeshFragment, pixel: (u32, u32)) -> Result<EntryInputs, Stop> {
         let draw = &self.draws[fragment.draw];
         let corners = self.stage(fragment.draw, draw.vertices).corners(fragment.triangle)?;
@@ -173,12 +173,12 @@ impl<'p> Raster<'p> {
         Ok(EntryInputs { position, is_front: fragment.is_front, vertices: [0; LANES], slots: slots.collect() })
     }
 
-    /// The fragment stage of a draw.
+    /// Returns the fragment stage of a draw.
     pub fn walkable(&self, draw: usize) -> &Walkable {
         &self.fragments[self.draws[draw].fragments].walkable
     }
 
-    /// Gives the fragment stage of a draw away.
+    /// Returns the fragment stage of a draw, consuming the raster.
     pub fn into_walkable(mut self, draw: usize) -> Walkable {
         self.fragments.swap_remove(self.draws[draw].fragments).walkable
     }
@@ -188,7 +188,7 @@ impl<'p> Raster<'p> {
         VertexStage::new(&self.vertices[vertices].1, world, &self.inputs.meshes[draw], self.limit)
     }
 
-    /// The depth of a fragment at a place in pixels, as a depth buffer of 32-bit floats holds it.
+    /// Returns the depth of a fragment at a position in pixels, as stored in a depth buffer of 32-bit floats.
     fn depth(&self, fragment: MeshFragment, place: [f64; 2]) -> f32 {
         let draw = &self.draws[fragment.draw];
         let corners = triangle(&self.inputs.meshes[fragment.draw], fragment.triangle);
@@ -198,7 +198,7 @@ impl<'p> Raster<'p> {
     }
 }
 
-/// A varying where the corners have these weights, in single and in double precision: of a flat one that of the
+/// Returns a varying for these weights of the corners, in single and in double precision; for a flat one that of the
 /// provoking vertex, which is the first (WebGPU, `@interpolate(flat, first)`).
 fn varying(corners: &[Corner; 3], n: usize, [single, double]: [[f64; 3]; 2]) -> [Cell<Shadowed>; 4] {
     let of = |corner: usize| &corners[corner].varyings[n].cells;
@@ -223,7 +223,7 @@ fn is_drawn(cull: Cull, is_front: bool) -> bool {
     }
 }
 
-/// The comparison of a fragment's depth with the one that is held: section 4.1.5 of the OpenGL ES 3.0 specification.
+/// Compares a fragment's depth with the stored one: section 4.1.5 of the OpenGL ES 3.0 specification.
 fn passes(test: DepthTest, depth: f32, held: f32) -> bool {
     match test {
         DepthTest::Less => depth < held,
@@ -236,14 +236,14 @@ fn passes(test: DepthTest, depth: f32, held: f32) -> bool {
     }
 }
 
-/// Holds what has to be known of a fragment stage before it runs.
+/// Static facts about a fragment stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentFacts {
-    /// Some way through it ends in `discard`.
+    /// True if some path through it ends in `discard`.
     pub may_discard: bool,
-    /// It sets `gl_FragDepth`.
+    /// True if it sets `gl_FragDepth`.
     pub sets_depth: bool,
-    /// It has a colour for the first target.
+    /// True if it has a colour for the first target.
     pub colours_first: bool,
 }
 

@@ -10,21 +10,21 @@ use eddy_glsl::{
 use eddy_media::mesh::Vertex;
 use std::thread;
 
-/// Vertices that a thread is worth.
-const A_THREAD: usize = 1024;
+/// The minimum number of vertices per thread.
+const MIN_VERTICES_PER_THREAD: usize = 1024;
 
-/// The vertex stage of a draw, and what it reads.
+/// The vertex stage of a draw, and its inputs.
 pub struct VertexStage<'p> {
     walkable: &'p Walkable,
     world: DrawInputs<'p>,
     mesh: &'p MeshInputs,
-    /// Those that the stage reads.
+    /// The attributes that the stage reads.
     attributes: Vec<Attribute>,
     limit: u64,
 }
 
 impl<'p> VertexStage<'p> {
-    /// A stage that gives up a vertex after `limit` statements.
+    /// Returns a stage that stops a vertex after `limit` statements.
     pub fn new(walkable: &'p Walkable, world: DrawInputs<'p>, mesh: &'p MeshInputs, limit: u64) -> Self {
         let reads = |attribute: &Attribute| {
             let mut entry = walkable.program.functions.iter().flat_map(|function| function.values());
@@ -36,14 +36,15 @@ impl<'p> VertexStage<'p> {
         Self { walkable, world, mesh, attributes, limit }
     }
 
-    /// The clip-space positions of all vertices of the mesh, on all processors.
+    /// Returns the clip-space positions of all vertices of the mesh, computed on all processors.
     pub fn positions(&self) -> Result<Vec<[f32; 4]>, Stop> {
         let count = self.mesh.mesh.vertices.len();
-        let threads = thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(A_THREAD)).max(1);
+        let threads =
+            thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(MIN_VERTICES_PER_THREAD)).max(1);
         let a_thread = count.div_ceil(threads).next_multiple_of(LANES).max(LANES);
         let parts: Result<Vec<Vec<[f32; 4]>>, Stop> = thread::scope(|scope| {
             let begins = (0..count).step_by(a_thread);
-            let spawned = begins.map(|begin| scope.spawn(move || self.part(begin..count.min(begin + a_thread))));
+            let spawned = begins.map(|first| scope.spawn(move || self.part(first..count.min(first + a_thread))));
             let spawned: Vec<_> = spawned.collect();
             spawned.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
         });
@@ -53,16 +54,16 @@ impl<'p> VertexStage<'p> {
     fn part(&self, range: std::ops::Range<usize>) -> Result<Vec<[f32; 4]>, Stop> {
         let mut positions = Vec::with_capacity(range.len());
         let mut machine = self.machine::<f32>();
-        for begin in range.clone().step_by(LANES) {
-            let count = LANES.min(range.end - begin);
-            machine.set_inputs(self.inputs(std::array::from_fn(|lane| (begin + lane.min(count - 1)) as u32)));
+        for first in range.clone().step_by(LANES) {
+            let count = LANES.min(range.end - first);
+            machine.set_inputs(self.inputs(std::array::from_fn(|lane| (first + lane.min(count - 1)) as u32)));
             let drawn = machine.run(0, &mut NoObserver)?;
             positions.extend((0..count).map(|lane| position(&drawn, lane).map(Real::to_f32)));
         }
         Ok(positions)
     }
 
-    /// The corners of a triangle of the mesh, in both precisions.
+    /// Returns the corners of a triangle of the mesh, in both precisions.
     pub fn corners(&self, triangle: usize) -> Result<[Corner; 3], Stop> {
         let [a, b, c] = self::triangle(self.mesh, triangle);
         let mut machine = self.machine::<Shadowed>();
@@ -97,7 +98,7 @@ impl<'p> VertexStage<'p> {
     }
 }
 
-/// The vertices of a triangle of a mesh; the first is the provoking one.
+/// Returns the vertices of a triangle of a mesh; the first is the provoking one.
 pub fn triangle(mesh: &MeshInputs, triangle: usize) -> [u32; 3] {
     std::array::from_fn(|corner| mesh.mesh.indices[3 * triangle + corner])
 }
@@ -128,7 +129,7 @@ pub struct Corner {
     pub varyings: Vec<CornerVarying>,
 }
 
-/// Holds what a vertex hands on at one location.
+/// The output of a vertex at one location.
 #[derive(Clone, Debug)]
 pub struct CornerVarying {
     pub location: u32,

@@ -1,4 +1,4 @@
-//! Owns what writes a texel of a pass: its own programs, its boundary, or nothing.
+//! The writer of a texel of a pass: its own programs, its boundary, or nothing.
 
 use eddy_project::{PassSettings, Region};
 
@@ -6,15 +6,15 @@ use eddy_project::{PassSettings, Region};
 pub enum Writer {
     /// The programs of the pass.
     Programs,
-    /// The value of the boundary, which is drawn over them.
+    /// The value of the boundary, which is drawn over their output.
     Boundary,
-    /// Nothing: the texel lies outside of this region.
+    /// Nothing: the texel is outside of this region.
     Nothing(Region),
 }
 
 impl Writer {
-    /// Returns what writes a texel of a target of a size. A pass whose region has no texel of it is not drawn at all,
-    /// and its boundary with it.
+    /// Returns the writer of a texel of a target of a size. A pass whose region contains no texel is not drawn at all,
+    /// and neither is its boundary.
     pub fn of(settings: &PassSettings, size: (u32, u32), (x, y): (u32, u32)) -> Self {
         let region = settings.region.unwrap_or(whole(size));
         let Some(drawn) = region.within(size) else { return Writer::Nothing(region) };
@@ -28,12 +28,12 @@ impl Writer {
     }
 }
 
-/// The texels of a target of a size that the programs of the pass write; `None` where there are none.
+/// Returns the texels of a target of a size that the programs of the pass write; `None` if there are none.
 pub fn own_texels(settings: &PassSettings, size: (u32, u32)) -> Option<Region> {
     let drawn = settings.region.unwrap_or(whole(size)).within(size)?;
     let margin = settings.boundary.as_ref().map_or(0, |boundary| boundary.width);
-    let between = |begin: u32, count: u32, size: u32| {
-        let (first, end) = (begin.max(margin), (begin + count).min(size.saturating_sub(margin)));
+    let between = |start: u32, count: u32, size: u32| {
+        let (first, end) = (start.max(margin), (start + count).min(size.saturating_sub(margin)));
         (first < end).then(|| (first, end - first))
     };
     let (x, width) = between(drawn.x, drawn.width, size.0)?;
@@ -51,7 +51,7 @@ mod tests {
     use eddy_project::{Boundary, Fill};
 
     #[test]
-    fn own_texels_are_those_that_the_programs_write() {
+    fn own_texels_are_written_by_the_programs() {
         let region = |x, y, width, height| Some(Region { x, y, width, height });
         for region in [None, region(2, 1, 3, 2), region(0, 0, 2, 9), region(6, 4, 1, 1), region(7, 0, 1, 1)] {
             for width in [0, 1, 2, 3, 9] {
@@ -66,7 +66,7 @@ mod tests {
                 }
             }
         }
-        // A region beyond the target: nothing is drawn, the boundary neither.
+        // A region outside the target: neither the pass nor its boundary is drawn.
         let settings = PassSettings {
             region: region(7, 0, 1, 1),
             boundary: Some(Boundary { width: 1, value: Fill::expression("vec4(0)") }),

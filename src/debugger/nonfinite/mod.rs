@@ -1,4 +1,4 @@
-//! NaN and infinities come from one place: the pass, the frame, the texel and the line that makes the first.
+//! The source of NaN and infinities: the pass, the frame, the texel and the line that produces the first.
 
 mod search;
 mod texels;

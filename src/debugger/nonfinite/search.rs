@@ -1,4 +1,4 @@
-//! The search for the first NaN among the frames that are kept: drawn once more beside the picture, which goes on.
+//! The search for the first NaN among the recent frames, which are drawn again in the background.
 
 use super::texels::{NonfiniteTexels, born, drawn, stored};
 use crate::trace::STEPS;
@@ -11,43 +11,43 @@ use eddy_project::TextLocation;
 use eddy_project::{CustomUniformValues, PassId, Project};
 use std::{path::PathBuf, sync::Arc};
 
-/// The first texels that are no finite numbers.
+/// The first texels that are not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FirstNonfinite {
     pub pass: PassId,
     pub frame: i32,
-    /// The first from the bottom left, and how many there are of the pass in that frame.
+    /// The first from the bottom left, and the number of such texels of the pass in that frame.
     pub texel: (u32, u32),
     pub value: [f32; 4],
     pub texels: usize,
-    /// They are older than the frames that are kept, of which this is the oldest.
+    /// They are older than the kept frames, of which this is the oldest.
     pub is_older: bool,
-    /// The operation; `None` where nothing but the pass's format or a texel that it reads can have made it.
+    /// The operation; `None` if the value can only come from the pass's format or from a texel that it reads.
     pub born: Option<NonfiniteOperation>,
 }
 
-/// An operation that makes what is no finite number.
+/// An operation whose result is not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NonfiniteOperation {
     pub message: &'static str,
-    /// `None` for what Eddy adds to the author's code.
+    /// `None` for code that Eddy adds to the author's.
     pub place: Option<TextLocation>,
-    /// The text that the author wrote there, its first line.
+    /// The author's text there, its first line.
     pub text: String,
-    /// The numbers there, as in `pow(-0.5, 2)`.
+    /// The operands there, as in `pow(-0.5, 2)`.
     pub numbers: String,
 }
 
-/// A search ended with one of these.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SearchEnd {
     /// The first texel that is not finite.
     Found(Box<FirstNonfinite>),
-    /// Every texel is finite in the frames from the one to the other.
+    /// Every texel is finite in this range of frames.
     Nowhere { first: i32, last: i32 },
 }
 
-/// Frames, and what they are drawn by.
+/// Frames, and what is needed to draw them.
 pub struct SearchJob {
     pub gpu: Gpu,
     pub project: Project,
@@ -56,12 +56,12 @@ pub struct SearchJob {
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
-    /// The picture of a camera that the last of the frames showed. Those before are drawn with it as well: theirs are not kept.
+    /// The camera picture of the last frame. The earlier frames are drawn with it as well: their pictures are not kept.
     pub camera: Option<CameraFrame>,
     pub frames: Vec<(FrameInputs, CustomUniformValues)>,
 }
 
-/// Draws the frames again by an engine of their own, and looks through the texels of each. Counts frames.
+/// Draws the frames again by a separate engine, and checks the texels of each. The progress counts frames.
 pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, String> {
     let SearchJob { gpu, project, shown, size, media_dir, snapshot, camera, frames } = job;
     let (mut media, _) = media::gather(&project, media_dir.as_deref());
@@ -77,7 +77,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     }
     let passes = drawn(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);
-    if let Some(found) = look(&mut engine, &project, &passes, first - 1) {
+    if let Some(found) = first_nonfinite(&mut engine, &project, &passes, first - 1) {
         return Ok(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
     }
     for (index, (inputs, values)) in frames.iter().enumerate() {
@@ -85,13 +85,13 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
         control.report(Count { done: index, of: frames.len() });
         engine.set_custom_uniforms(values);
         engine.draw(inputs).map_err(|e| e.to_string())?;
-        if let Some(found) = look(&mut engine, &project, &passes, inputs.frame) {
+        if let Some(found) = first_nonfinite(&mut engine, &project, &passes, inputs.frame) {
             let read = engine.inspect(&found.pass).map_err(|e| e.to_string())?;
             let born = born(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
             let born = born.map(|finding| NonfiniteOperation {
                 message: finding.kind.message(),
                 place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
-                text: finding.span.map_or_else(String::new, |span| written(&project, span)),
+                text: finding.span.map_or_else(String::new, |span| first_line(&project, span)),
                 numbers: finding.numbers,
             });
             return Ok(SearchEnd::Found(Box::new(FirstNonfinite { born, ..found })));
@@ -101,10 +101,10 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     Ok(SearchEnd::Nowhere { first, last })
 }
 
-/// The first pass whose newest texels are not all finite.
-fn look(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -> Option<FirstNonfinite> {
+/// Returns the first pass whose newest texels are not all finite.
+fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -> Option<FirstNonfinite> {
     passes.iter().find_map(|pass| {
-        // What no picture needs is not drawn, and has no texels.
+        // A pass that no picture needs is not drawn, and has no texels.
         let pixels = engine.read(pass).ok()?;
         let NonfiniteTexels { first, count } = NonfiniteTexels::find(&pixels, stored(project, pass))?;
         let value = pixels.texels[(first.1 * pixels.width + first.0) as usize];
@@ -113,7 +113,7 @@ fn look(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -
     })
 }
 
-fn written(project: &Project, span: Span) -> String {
+fn first_line(project: &Project, span: Span) -> String {
     let sources = project.sources();
     let text = sources.get(span.source).and_then(|source| source.text.get(span.range()));
     text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned()

@@ -1,4 +1,4 @@
-//! Texels that are no finite numbers, and the operation that makes one.
+//! Texels that are not finite, and the operation that produces one.
 
 use crate::{
     audit::{self, Class, Finding},
@@ -7,7 +7,7 @@ use crate::{
 use eddy_engine::{PassInputs, Pixels, Sources};
 use eddy_project::{PassId, Project};
 
-/// Texels of a picture of which a stored component is NaN or infinite.
+/// Texels of a picture with a stored component that is NaN or infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NonfiniteTexels {
     /// The first of them, from the bottom left, row by row.
@@ -16,7 +16,7 @@ pub struct NonfiniteTexels {
 }
 
 impl NonfiniteTexels {
-    /// `None`: every texel is a finite number.
+    /// Returns `None` if every texel is finite.
     pub fn find(pixels: &Pixels, stored: usize) -> Option<Self> {
         let is_bad = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
         let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
@@ -25,22 +25,22 @@ impl NonfiniteTexels {
     }
 }
 
-/// The passes that make pictures, in the order in which they are drawn.
+/// Returns the passes that draw pictures, in drawing order.
 pub fn drawn(project: &Project) -> Vec<PassId> {
     let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
     passes.retain(PassId::is_picture);
-    // All buffers are equal there: they stay in the order of the project.
+    // All buffers are equal there: they keep the order of the project.
     passes.sort_by(PassId::drawing_order);
     passes
 }
 
-/// The number of components that a pass stores.
+/// Returns the number of components that a pass stores.
 pub fn stored(project: &Project, pass: &PassId) -> usize {
     project.pass(pass).and_then(|p| p.formats().first().copied()).unwrap_or_default().components()
 }
 
-/// Walks through a pass for a texel of its first target. `None`: no operation makes it: it is too large for the pass's
-/// format, or was read from a texture, or comes from a vertex stage.
+/// Walks a pass for a texel of its first target. Returns `None` if no operation produces the value: it is too large for
+/// the pass's format, or was read from a texture, or comes from a vertex stage.
 pub fn born(
     project: &Project,
     pass: &PassId,
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_stored_does_not_count() {
+    fn unstored_components_are_ignored() {
         let (nan, inf) = (f32::NAN, f32::INFINITY);
         let texels = vec![[0.0, nan, 0.0, 1.0], [1.0; 4], [inf, 0.0, 0.0, 1.0], [nan, 0.0, 0.0, 1.0]];
         let pixels = Pixels { width: 2, height: 2, texels };

@@ -1,4 +1,4 @@
-//! A traced pixel as a person examines it: watches, breakpoints with conditions, what `//@print` asks for.
+//! Interactive examination of a traced pixel: watches, breakpoints with conditions, `//@print` comments.
 
 use super::{
     Extent, Trace, TraceError,
@@ -17,67 +17,67 @@ use eddy_glsl::{
 use eddy_project::{FillKind, PassId, Project, Stage, Tab, TexelFormat, inspect_comments};
 use std::sync::Arc;
 
-/// Statements after which a walk is given up: a few seconds.
-const STATEMENTS: u64 = 20_000_000;
-/// Values that a comment prints.
-const MOST_PRINTED: usize = 1000;
+/// The number of statements after which a walk is stopped: a few seconds.
+const MAX_STATEMENTS: u64 = 20_000_000;
+/// The limit of values that a comment prints.
+const MAX_PRINTED: usize = 1000;
 
-/// A pixel of a pass at a frame, with the way that leads to its value.
+/// A pixel of a pass at a frame, with the execution that leads to its value.
 #[derive(Debug)]
 pub struct Traced {
-    /// The texts that were walked through.
+    /// The texts that were walked.
     pub project: Project,
     pub pass: PassId,
-    /// The text with the pass's entry point: of a pass that draws meshes the fragment stage of a draw.
+    /// The text with the pass's entry point; for a pass that draws meshes the fragment stage of a draw.
     pub tab: Tab,
     text_id: SourceId,
     index: usize,
-    /// Holds what the value comes from: a program of the pass.
+    /// The origin of the value: a program of the pass.
     pub origin: Origin,
     pub pixel: (u32, u32),
     pub size: (u32, u32),
     pub frame: i32,
     pub history: History,
-    /// Holds what the walker found; `None` where the pass draws nothing there.
+    /// The walker's value; `None` if the pass draws nothing there.
     pub value: Option<[f32; 4]>,
-    /// The same way in double precision.
+    /// The same path in double precision.
     pub double: Option<[f64; 4]>,
-    /// The texel that the device drew, as it is stored.
+    /// The texel that the device drew, as stored.
     pub device: [f32; 4],
     pub format: TexelFormat,
-    /// The walk was given up: it is as long as this tells.
+    /// The walk was stopped at its limit: the history is incomplete.
     pub is_endless: bool,
     inputs: PassInputs,
     entry: EntryInputs,
 }
 
-/// A line at which one stops, where a condition holds.
+/// A line at which execution stops if a condition is true.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Breakpoint {
     pub tab: Tab,
     /// From 0.
     pub line: usize,
-    /// Empty: always.
+    /// Empty for none.
     pub condition: String,
     pub is_on: bool,
 }
 
-/// Holds what a comment asked for, each time that its turn came.
+/// The values that a comment printed, one for each time that it was reached.
 #[derive(Clone, Debug)]
 pub struct Printed {
     pub tab: Tab,
     /// From 0.
     pub line: usize,
     pub expression: String,
-    /// The moments, and what it was then.
+    /// The moments, and the value at each.
     pub values: Vec<(usize, Watched)>,
-    /// Its turn came more often.
+    /// It was reached more often than that.
     pub is_cut: bool,
 }
 
 impl Traced {
-    /// Walks through a pass for the pixel at a place of its picture, from 0 to 1 across and up. Fails where the pass
-    /// draws meshes and none of them is drawn at the pixel, and where its boundary or nothing is.
+    /// Walks a pass for the pixel at a position of its picture, from 0 to 1 across and up. Fails if the pass draws
+    /// meshes and none of them is drawn at the pixel, and if its boundary or nothing is drawn there.
     pub fn new(
         project: Project,
         pass: &PassId,
@@ -89,7 +89,7 @@ impl Traced {
         let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
         let pixel = (texel(place[0], inputs.size.0), texel(place[1], inputs.size.1));
         let sources = Sources::new(&project);
-        let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
+        let walked = PassFragments::new(&sources, index, &inputs, Detail::Statements, MAX_STATEMENTS)?;
         drop(sources);
         let at = match walked.at(pixel)? {
             PixelContent::Undrawn(Origin::Clear) => return Err(TraceError::Clear(pixel)),
@@ -100,7 +100,7 @@ impl Traced {
             PixelContent::Fragment(at) => at,
         };
         let mut recorder = HistoryRecorder::new(at.walkable);
-        // One walk gives both: the numbers of single precision know nothing of those beside them.
+        // One walk computes both: single precision does not depend on the double-precision shadows.
         let run = at.machine::<Shadowed>().run(at.lane, &mut recorder);
         let recorded = recorder.end();
         let is_endless = matches!(run, Err(Stop::Steps(_)));
@@ -134,24 +134,24 @@ impl Traced {
         })
     }
 
-    /// Numbers of single precision between the walker's value and the device's, of the components that are stored; none
-    /// where these are of fewer bits.
+    /// Returns the number of single-precision numbers between the walker's value and the device's, for each stored
+    /// component; `None` if the format has fewer bits.
     pub fn ulps(&self) -> Option<Vec<u32>> {
         let value = self.value.filter(|_| self.format.is_32_bit())?;
         Some((0..self.format.components()).map(|i| ulps(value[i], self.device[i])).collect())
     }
 
-    /// The place of the pass in the project.
+    /// Returns the index of the pass in the project.
     pub fn index(&self) -> usize {
         self.index
     }
 
-    /// Walks once more and gives the steps.
+    /// Repeats the walk and returns its steps.
     pub fn trace(&self, extent: Extent) -> Result<Trace, TraceError> {
         super::trace(&Sources::new(&self.project), self.index, &self.inputs, self.pixel, extent)
     }
 
-    /// The draw of the pass that the value is of, from 0, its mesh, and its triangle; `None` where the pass draws no
+    /// Returns the mesh fragment that the value comes from, and the name of its mesh; `None` if the pass draws no
     /// meshes.
     pub fn mesh(&self) -> Option<(MeshFragment, String)> {
         let Origin::Mesh(fragment) = self.origin else { return None };
@@ -159,7 +159,7 @@ impl Traced {
         Some((fragment, draw.mesh.name()))
     }
 
-    /// A place of the texts: its tab, its line from 0 and its bytes. `None` for one in a text that is no tab.
+    /// Returns the tab of a place of the texts, its line from 0, and its bytes. `None` for a text that is not a tab.
     pub fn place(&self, span: Span) -> Option<(Tab, usize, std::ops::Range<usize>)> {
         let tab = self.project.tab_of(span.source)?;
         let text = &self.project.source(&tab)?.text;
@@ -167,7 +167,7 @@ impl Traced {
         Some((tab, line, span.range()))
     }
 
-    /// The text of a tab, as it was walked through.
+    /// Returns the text of a tab, as it was walked.
     pub fn text(&self, tab: &Tab) -> &str {
         self.project.source(tab).map_or("", |source| &source.text)
     }
@@ -181,20 +181,20 @@ impl Traced {
         }
     }
 
-    /// The statement that a line stands for: its own or the next one.
+    /// Returns the statement for a line: its own or the next one.
     pub fn statement_at(&self, tab: &Tab, line: usize) -> Option<u32> {
         let text = self.text(tab);
         let start = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
         self.history.statement_from(self.source(tab)?, start as u32)
     }
 
-    /// The line, from 0, at which a breakpoint of a line really stops.
+    /// Returns the line, from 0, at which a breakpoint of a line actually stops.
     pub fn line_of(&self, statement: u32) -> Option<usize> {
         Some(self.place(self.history.statement_head(statement)?)?.1)
     }
 }
 
-/// The place of a pass's boundary in its manifest, and its value there.
+/// Returns the location of a pass's boundary in its manifest, and its value there.
 fn boundary(project: &Project, index: usize) -> String {
     let (sources, span) = (project.sources(), project.fill_span(index, FillKind::Boundary));
     let source = span.and_then(|span| Some((sources.get(span.source)?, sources.line_column(span)?.line, span)));
@@ -204,7 +204,7 @@ fn boundary(project: &Project, index: usize) -> String {
     })
 }
 
-/// A traced pixel with what is asked of it.
+/// A traced pixel with its watches.
 pub struct Examiner {
     pub traced: Arc<Traced>,
     watches: Watches,
@@ -215,7 +215,7 @@ impl Examiner {
         Self { traced, watches: Watches::default() }
     }
 
-    /// An expression at a moment.
+    /// Evaluates an expression at a moment.
     pub fn watch(&mut self, at: usize, expression: &str) -> Watched {
         let traced = &*self.traced;
         let draw = traced.origin.draw();
@@ -224,8 +224,8 @@ impl Examiner {
         self.watches.value((&traced.history, at), place, read, expression)
     }
 
-    /// Returns the nearest moment that way at which a breakpoint stops; a condition that is no truth value or number,
-    /// or does not compile, stops and is told of where it stands.
+    /// Returns the nearest moment in a direction at which a breakpoint stops. A condition that is not a truth value or
+    /// number, or does not compile, also stops; its error is shown at the breakpoint.
     pub fn go_on(&mut self, at: usize, breakpoints: &[Breakpoint], direction: Direction) -> Option<usize> {
         let traced = self.traced.clone();
         let on = breakpoints.iter().filter(|breakpoint| breakpoint.is_on);
@@ -240,7 +240,7 @@ impl Examiner {
         travel::run(&traced.history, at, is_there, accepts, direction)
     }
 
-    /// Returns whether a condition holds at a moment.
+    /// Returns whether a condition is true at a moment.
     pub fn holds(&mut self, at: usize, condition: &str) -> Result<bool, String> {
         match &self.watch(at, condition)?.numbers[..] {
             [number] => Ok(number.as_f64() != 0.0),
@@ -248,13 +248,13 @@ impl Examiner {
         }
     }
 
-    /// Returns the nearest moment that way at which a line runs.
+    /// Returns the nearest moment in a direction at which a line runs.
     pub fn run_to(&self, at: usize, (tab, line): (&Tab, usize), direction: Direction) -> Option<usize> {
         let statement = self.traced.statement_at(tab, line)?;
         travel::run(&self.traced.history, at, |other| other == statement, |_| true, direction)
     }
 
-    /// Returns what the comments of the texts ask for.
+    /// Returns the values that the comments of the texts print.
     pub fn printed(&mut self) -> Vec<Printed> {
         let traced = self.traced.clone();
         let tabs = [Tab::Common, traced.tab.clone()];
@@ -265,7 +265,7 @@ impl Examiner {
                 let mut values = Vec::new();
                 let mut is_cut = false;
                 for at in traced.history.turns_of_comment(source, traced.text(&tab), comment.at as u32) {
-                    is_cut = values.len() == MOST_PRINTED;
+                    is_cut = values.len() == MAX_PRINTED;
                     if is_cut {
                         break;
                     }

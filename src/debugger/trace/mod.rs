@@ -1,8 +1,8 @@
-//! Owns what a pass does for one pixel, step by step.
+//! The execution of a pass for one pixel, step by step.
 //!
-//! Owns the record of a walk: calls, turns of loops, and every value that one of the author's names takes, each with
-//! its place in the text; and the history that a person goes forwards and backwards in, with expressions over it. The
-//! walk itself is [`eddy_glsl::walk`]'s.
+//! Owns the record of a walk: calls, iterations of loops, and every value of the author's names, each with its place in
+//! the text; and the history for stepping forwards and backwards, with expressions over it. The walk itself is
+//! implemented in [`eddy_glsl::walk`].
 
 mod examine;
 mod history;
@@ -28,22 +28,22 @@ use eddy_glsl::{
 use eddy_project::Region;
 use recorder::Recorder;
 
-/// Statements after which a walk is given up, unless somebody asks for another limit.
+/// The default number of statements after which a walk is stopped.
 pub const STEPS: u64 = 100_000_000;
 
-/// The way of one pixel through a pass.
+/// The steps of one pixel of a pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     pub steps: Vec<Step>,
-    /// Steps that were left out, as there were more than wanted.
+    /// The number of steps that were left out because of the limit.
     pub left_out: u64,
-    /// Holds what the pass draws into its first target, in single precision; none where it draws nothing.
+    /// The value that the pass draws into its first target, in single precision; none if it draws nothing.
     pub value: Option<[f32; 4]>,
-    /// The same along the same way in double precision.
+    /// The same path in double precision.
     pub double: Option<[f64; 4]>,
-    /// Statements that were run.
+    /// The number of executed statements.
     pub statements: u64,
-    /// Holds what the value comes from. What no program leaves there has no steps, and but for what is clear no value.
+    /// The origin of the value. A texel that no program writes has no steps and, unless it is cleared, no value.
     pub origin: Origin,
 }
 
@@ -93,12 +93,12 @@ impl From<WalkError> for TraceError {
     }
 }
 
-/// Says how much is recorded.
+/// The limits of a recording.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
-    /// Statements after which the walk is given up.
+    /// The number of statements after which the walk is stopped.
     pub statements: u64,
-    /// Steps that are kept, from the first on.
+    /// The number of steps that are kept, from the first.
     pub steps: usize,
 }
 
@@ -116,7 +116,7 @@ pub struct Tracer<'p> {
 }
 
 impl<'p> Tracer<'p> {
-    /// Lowers `project.passes[index]`; of one that draws meshes all vertices are transformed.
+    /// Lowers `project.passes[index]`; for one that draws meshes all vertices are transformed.
     pub fn new(
         sources: &Sources<'_>,
         index: usize,
@@ -127,7 +127,7 @@ impl<'p> Tracer<'p> {
         Ok(Self { pass, size: inputs.size, extent })
     }
 
-    /// Walks through the pass for a pixel, counted from the bottom left.
+    /// Walks the pass for a pixel, counted from the bottom left.
     pub fn trace(&self, pixel: (u32, u32)) -> Result<Trace, TraceError> {
         if pixel.0 >= self.size.0 || pixel.1 >= self.size.1 {
             return Err(TraceError::Outside { pixel, size: self.size });
@@ -141,7 +141,7 @@ impl<'p> Tracer<'p> {
             }
         };
         let mut recorder = Recorder::new(at.walkable, self.extent.steps);
-        // One walk gives both: the numbers of single precision know nothing of those beside them.
+        // One walk computes both: single precision does not depend on the double-precision shadows.
         let drawn = at.machine::<Shadowed>().run(at.lane, &mut recorder)?;
         let (steps, left_out) = recorder.end();
         let numbers = at.value(&drawn);
@@ -151,7 +151,7 @@ impl<'p> Tracer<'p> {
     }
 }
 
-/// Walks through `project.passes[index]` for one pixel, counted from the bottom left; see [`Tracer`].
+/// Walks `project.passes[index]` for one pixel, counted from the bottom left; see [`Tracer`].
 pub fn trace(
     sources: &Sources<'_>,
     index: usize,
@@ -162,10 +162,10 @@ pub fn trace(
     Tracer::new(sources, index, inputs, extent)?.trace(pixel)
 }
 
-/// Returns how many numbers of single precision lie between two: 0 for equal ones and for two NaN, `u32::MAX` where
+/// Returns the number of single-precision steps between two numbers: 0 for equal ones and for two NaN, `u32::MAX` if
 /// only one is NaN.
 pub fn ulps(a: f32, b: f32) -> u32 {
-    // The order of the numbers is that of these integers.
+    // These integers are in the order of the numbers.
     let rank = |x: f32| {
         let bits = x.to_bits() as i32;
         i64::from(if bits < 0 { i32::MIN.wrapping_sub(bits) } else { bits })

@@ -4,7 +4,7 @@ use eddy_glsl::types::Scalar;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// A scalar of the language, as it is shown.
+/// A scalar of the language, for display.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
     Bool(bool),
@@ -16,7 +16,7 @@ pub enum Number {
 }
 
 impl Number {
-    /// The scalar whose bits these are.
+    /// Returns the scalar with these bits.
     pub(super) fn of(scalar: Scalar, bits: u32) -> Self {
         match scalar {
             Scalar::Bool => Number::Bool(bits != 0),
@@ -26,7 +26,7 @@ impl Number {
         }
     }
 
-    /// The number; 1 for true and 0 for false.
+    /// Returns the number; 1 for true and 0 for false.
     pub fn as_f64(self) -> f64 {
         match self {
             Number::Bool(value) => u8::from(value).into(),
@@ -39,7 +39,7 @@ impl Number {
 }
 
 impl fmt::Display for Number {
-    /// A float has as many digits as tell it from its neighbours.
+    /// Writes a float with as many digits as distinguish it from its neighbours.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Number::Bool(value) => value.fmt(f),
@@ -58,7 +58,7 @@ impl fmt::Display for Number {
 }
 
 impl Serialize for Number {
-    /// JSON has no NaN and no infinities: these are texts, `NaN`, `inf` and `-inf`.
+    /// JSON has no NaN and no infinities: these become strings, `NaN`, `inf` and `-inf`.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match *self {
             Number::Bool(value) => serializer.serialize_bool(value),

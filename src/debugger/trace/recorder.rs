@@ -1,4 +1,4 @@
-//! Writes down what an observer of a walk sees, by the author's names.
+//! Records the events of a walk in terms of the author's names.
 
 use super::number::Number;
 use eddy_diag::Span;
@@ -17,11 +17,11 @@ pub struct Recorder<'w> {
     names: Vec<Vec<Option<&'w str>>>,
     steps: Vec<Step>,
     most: usize,
-    /// Bytes that are left for steps, what they hold among them.
+    /// Remaining bytes for steps, including their contents.
     room: usize,
     left_out: u64,
     depth: u32,
-    /// The turns of the loops so far, of each call under way.
+    /// The number of loop iterations so far, for each active call.
     turns: Vec<u64>,
 }
 
@@ -45,13 +45,13 @@ impl<'w> Recorder<'w> {
         }
     }
 
-    /// The steps, and how many more there were.
+    /// Returns the steps, and how many were left out.
     pub fn end(self) -> (Vec<Step>, u64) {
         (self.steps, self.left_out)
     }
 
-    /// Returns whether a step is kept that holds so many bytes beside its own; one that is not is counted. From the first
-    /// that is not kept on, none is.
+    /// Returns whether a step with this number of bytes in addition to its own is kept; one that is not is counted.
+    /// After the first that is not kept, none is.
     fn has_room(&mut self, bytes: usize) -> bool {
         let room = self.room.checked_sub(size_of::<Step>() + bytes);
         let is_kept = self.left_out == 0 && self.steps.len() < self.most && room.is_some();
@@ -84,7 +84,7 @@ impl<'w> Recorder<'w> {
         self.push(Event::Set { name, value }, span);
     }
 
-    /// A place as GLSL spells it, if it is or lies in one of the author's variables.
+    /// Returns a place in GLSL syntax, if it is one of the author's variables or a part of one.
     fn place<R: Real>(&self, view: &View<'_, '_, R>, place: Value) -> Option<String> {
         if let Some(name) = self.name(view.function_id(), place) {
             return Some(name.to_owned());
@@ -114,7 +114,7 @@ impl<'w> Recorder<'w> {
     }
 }
 
-/// The scalars of a value.
+/// Returns the scalars of a value.
 fn numbers<R: Real>(
     view: &View<'_, '_, R>,
     ty: TypeId,
@@ -144,7 +144,7 @@ impl<R: Real> Observer<R> for Recorder<'_> {
             self.push(Event::Enter(name.to_owned()), None);
         }
         self.depth += 1;
-        // What was passed by value; the rest is the caller's.
+        // Arguments passed by value; all others are the caller's.
         let function = view.function();
         for (value, op) in function.values() {
             if let (Op::Param(_), false, Some(name)) =
@@ -185,23 +185,23 @@ impl<R: Real> Observer<R> for Recorder<'_> {
     fn store(&mut self, view: &View<'_, '_, R>, place: Value, value: Value) {
         let Some(name) = self.place(view, place) else { return };
         let function = view.function();
-        // A literal is made once, where it is met first: the place of what it is written to is nearer.
+        // A literal exists once, at its first use: the place of the store is more exact.
         let loc = if view.op(value).is_free() { function.loc(place) } else { function.loc(value) };
         self.set(view, name, (function.ty(place), view.memory(place)), loc);
     }
 }
 
-/// Says what happened in a step.
+/// The event of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// A function of this name begins.
+    /// A function of this name starts.
     Enter(String),
-    /// The function that began last has ended.
+    /// The function that started last has ended.
     Leave,
-    /// A loop begins its next turn, counted from 1 through all loops of the call. The last is the one whose test ends
-    /// the loop.
+    /// A loop starts its next iteration, counted from 1 through all loops of the call. The last is the one whose test
+    /// ends the loop.
     Iteration(u64),
-    /// A variable, or a part of one, takes a value: its name as GLSL spells it, and its scalars in memory order.
+    /// A variable, or a part of one, is assigned: its name in GLSL syntax, and its scalars in memory order.
     Set { name: String, value: Vec<Number> },
 }
 
@@ -209,8 +209,8 @@ pub enum Event {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     pub event: Event,
-    /// Calls that the step lies in.
+    /// The number of enclosing calls.
     pub depth: u32,
-    /// The part of the text; none where it is no part of it.
+    /// The part of the text; none if it is not from the text.
     pub span: Option<Span>,
 }

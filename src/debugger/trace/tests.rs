@@ -46,7 +46,7 @@ fn inputs() -> PassInputs {
     }
 }
 
-/// The line, from 1, of a moment.
+/// Returns the line, from 1, of a moment.
 fn line(traced: &Traced, at: usize) -> usize {
     traced.place(traced.history.span(at).unwrap()).unwrap().1 + 1
 }
@@ -60,7 +60,7 @@ fn lines(traced: &Traced, mut at: usize, stride: Stride, direction: Direction, c
     found
 }
 
-fn begin(traced: &Traced) -> usize {
+fn first_moment(traced: &Traced) -> usize {
     travel::end(&traced.history, Direction::Back).unwrap()
 }
 
@@ -69,12 +69,12 @@ fn number(traced: &Traced, at: usize, name: &str) -> f64 {
 }
 
 #[test]
-fn one_steps_into_over_and_out_of_calls_both_ways() {
+fn stepping_into_over_and_out_works_in_both_directions() {
     use {Direction::*, Stride::*};
     let traced = traced(CODE);
-    let first = begin(&traced);
+    let first = first_moment(&traced);
     assert_eq!(line(&traced, first), 8);
-    // Two variables are declared in one line; the head of a loop is one stop at its begin.
+    // Two variables are declared in one line; the head of a loop is one stop at its start.
     assert_eq!(lines(&traced, first, Into, Forward, 9), [8, 9, 10, 11, 12, 4, 5, 5, 13]);
     assert_eq!(lines(&traced, first, Over, Forward, 10), [8, 9, 10, 11, 12, 13, 14, 15, 11, 12]);
     let inside = (0..).find(|at| line(&traced, *at) == 5).unwrap();
@@ -82,10 +82,10 @@ fn one_steps_into_over_and_out_of_calls_both_ways() {
     assert_eq!((line(&traced, out), traced.history.depth(out)), (13, 0));
     let back = travel::step(&traced.history, inside, Out, Back).unwrap();
     assert_eq!((line(&traced, back), traced.history.stack(inside).len()), (12, 2));
-    // Backwards over the call, and into it from behind.
+    // Backwards over the call, and into it from its end.
     assert_eq!(lines(&traced, out, Over, Back, 2), [12, 11]);
     assert_eq!(lines(&traced, out, Into, Back, 3), [5, 5, 4]);
-    // Each way ends, and every step forward is one step back.
+    // Each direction ends, and every step forward is one step back.
     let last = travel::end(&traced.history, Forward).unwrap();
     assert_eq!(travel::step(&traced.history, last, Into, Forward), None);
     assert_eq!(travel::step(&traced.history, first, Into, Back), None);
@@ -97,15 +97,15 @@ fn one_steps_into_over_and_out_of_calls_both_ways() {
 }
 
 #[test]
-fn variables_are_what_they_were() {
+fn variables_have_their_values_at_each_moment() {
     let traced = traced(CODE);
     let history = &traced.history;
-    // At the begin of the third turn.
+    // At the start of the third iteration.
     let third = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(3)).unwrap();
     let names: Vec<String> = history.visible(third).into_iter().map(|shown| shown.name).collect();
     assert_eq!(names, ["o", "c", "p", "rd", "steps", "hit", "i", "glow"]);
     assert_eq!([number(&traced, third, "i"), number(&traced, third, "steps")], [2.0, 2.0]);
-    // Half of the distance is gone each time: 4.5, then 2.25.
+    // The distance is halved each time: 4.5, then 2.25.
     let z = 4.5 + 2.25;
     assert_eq!(history.value(third, "p").unwrap().numbers[2], Number::Float(z));
     let hit = history.value(third, "hit").unwrap();
@@ -121,7 +121,7 @@ fn variables_are_what_they_were() {
     let end = (callee..).find(|at| history.moments[*at].kind == MomentKind::Return).unwrap();
     let result = history.result(end).unwrap();
     assert_eq!(result.numbers, [Number::Float(10.0 - z - 1.0)]);
-    // A global before and after it is written, and what the pass drew.
+    // A global before and after it is written, and the output of the pass.
     let last = history.moments.len() - 1;
     assert_eq!([number(&traced, 0, "glow"), number(&traced, last, "glow")], [0.25, 0.5]);
     let drawn: Vec<f64> = history.value(last, "o").unwrap().numbers.iter().map(|n| n.as_f64()).collect();
@@ -130,7 +130,7 @@ fn variables_are_what_they_were() {
 }
 
 #[test]
-fn the_turns_of_a_loop_are_its_rows() {
+fn loop_iterations_are_listed_as_rows() {
     let traced = traced(CODE);
     let history = &traced.history;
     let inside = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(2)).unwrap();
@@ -149,7 +149,7 @@ fn the_turns_of_a_loop_are_its_rows() {
 }
 
 #[test]
-fn expressions_mean_what_they_mean_in_the_code() {
+fn watch_expressions_have_the_meaning_of_the_code() {
     let mut examiner = Examiner::new(Arc::new(traced(CODE)));
     let third = examiner.traced.history.moments.iter().position(|m| m.kind == MomentKind::Iteration(3)).unwrap();
     let mut watch = |expression: &str| {
@@ -171,7 +171,7 @@ fn expressions_mean_what_they_mean_in_the_code() {
 }
 
 #[test]
-fn breakpoints_stop_where_their_condition_holds_both_ways() {
+fn conditional_breakpoints_stop_in_both_directions() {
     use Direction::*;
     let mut examiner = Examiner::new(Arc::new(traced(CODE)));
     let traced = examiner.traced.clone();
@@ -179,17 +179,17 @@ fn breakpoints_stop_where_their_condition_holds_both_ways() {
     let at_line = |line: usize, condition: &str| {
         [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
     };
-    let first = begin(&traced);
+    let first = first_moment(&traced);
     let stop = examiner.go_on(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
     assert_eq!((line(&traced, stop), number(&traced, stop, "i")), (14, 7.0));
     let before = examiner.go_on(stop, &at_line(14, ""), Back).unwrap();
     assert_eq!(number(&traced, before, "i"), 6.0);
     assert_eq!(examiner.go_on(stop, &at_line(14, "i == 7"), Forward), None);
     assert_eq!(examiner.go_on(stop, &at_line(14, "i == 99"), Back), None);
-    // A line of Image where nothing begins is that of the next statement.
+    // A line of Image without a statement is mapped to the next statement.
     let slid = examiner.go_on(first, &at_line(2, ""), Forward).unwrap();
     assert_eq!(line(&traced, slid), 4);
-    // One that is wrong stops, and says why where it stands.
+    // An invalid condition stops, and has an error.
     assert!(examiner.go_on(first, &at_line(14, "i =="), Forward).is_some());
     assert!(examiner.holds(stop, "p").is_err() && examiner.holds(stop, "d").unwrap());
     let off = Breakpoint { is_on: false, ..at_line(14, "")[0].clone() };
@@ -199,7 +199,7 @@ fn breakpoints_stop_where_their_condition_holds_both_ways() {
 }
 
 #[test]
-fn comments_print_what_is_true_where_they_stand() {
+fn print_comments_show_values_at_their_position() {
     let code = CODE.replace(
         "    glow *= 2.0;",
         "    if (p.z > 1.0) { glow *= 2.0; } else { //@print p\n glow = 0.0; }\n    //@print glow",
@@ -216,7 +216,7 @@ fn comments_print_what_is_true_where_they_stand() {
 }
 
 #[test]
-fn a_loop_that_does_not_end_is_still_told_of() {
+fn endless_loop_has_a_partial_history() {
     let traced = traced(
         "void mainImage(out vec4 o, in vec2 c) { float x = 1.0; for (;;) { x += 1.0; if (x < 0.0) break; } \
          o = vec4(x); }",
@@ -226,7 +226,7 @@ fn a_loop_that_does_not_end_is_still_told_of() {
 }
 
 #[test]
-fn distances_are_counted_in_numbers() {
+fn ulps_count_single_precision_steps() {
     let next = |x: f32| f32::from_bits(x.to_bits() + 1);
     assert_eq!([ulps(1.0, 1.0), ulps(1.0, next(1.0)), ulps(next(-1.0), -1.0), ulps(0.0, -0.0)], [0, 1, 1, 0]);
     assert_eq!([ulps(f32::from_bits(1), -f32::from_bits(1)), ulps(f32::NAN, f32::NAN)], [2, 0]);
@@ -234,7 +234,7 @@ fn distances_are_counted_in_numbers() {
 }
 
 #[test]
-fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
+fn undrawn_texel_reports_its_origin() {
     use eddy_project::{Boundary, Fill, Region};
     let mut project = Project::of_image("Untitled".into(), CODE.into());
     let settings = &mut project.passes[0].settings;
@@ -258,8 +258,8 @@ fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
 }
 
 #[test]
-fn the_steps_of_a_trace_have_a_limit_of_bytes() {
-    // Each turn sets 4,000 numbers.
+fn trace_steps_have_a_byte_limit() {
+    // Each iteration sets 4,000 numbers.
     let code = "void mainImage(out vec4 o, in vec2 c) { float a[4000], b[4000]; a[0] = c.x; \
                 for (int i = 0; i < 6000; i++) { b = a; a[0] += 1.0; } o = vec4(b[0]); }";
     let project = Project::of_image("Untitled".into(), code.into());

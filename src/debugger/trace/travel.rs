@@ -1,26 +1,26 @@
-//! Movements through a history: each goes from one moment to another, forwards or backwards.
+//! Stepping through a history, forwards or backwards from a moment.
 
 use super::history::{History, MomentKind};
 
-/// A step of a person's who reads a program.
+/// A step of the debugger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stride {
     /// To the next line that runs, wherever it is.
     Into,
     /// To the next line of this call, or of one that it was made in.
     Over,
-    /// To where this call was made.
+    /// To the place where this call was made.
     Out,
 }
 
-/// Says which way time goes.
+/// The direction of a step in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Forward,
     Back,
 }
 
-/// Returns the moment that a step leads to; `None` where there is nothing more that way.
+/// Returns the moment that a step leads to; `None` if there is none in that direction.
 pub fn step(history: &History, at: usize, stride: Stride, direction: Direction) -> Option<usize> {
     let depth = history.depth(at);
     let fits = |other: &usize| {
@@ -32,11 +32,11 @@ pub fn step(history: &History, at: usize, stride: Stride, direction: Direction) 
             }
     };
     let found = ahead(history, at, direction).find(fits);
-    // Out of the outermost call one comes to an end of all.
+    // Stepping out of the outermost call leads to the start or end of the history.
     found.or_else(|| (stride == Stride::Out && depth == 0).then(|| end(history, direction)).flatten())
 }
 
-/// The moments that way, the nearest first.
+/// Returns the moments in a direction, the nearest first.
 fn ahead(history: &History, at: usize, direction: Direction) -> Box<dyn Iterator<Item = usize>> {
     match direction {
         Direction::Forward => Box::new(at + 1..history.moments.len()),
@@ -44,7 +44,7 @@ fn ahead(history: &History, at: usize, direction: Direction) -> Box<dyn Iterator
     }
 }
 
-/// Returns the first moment at which one stops, or the last.
+/// Returns the first stop of the history, or the last.
 pub fn end(history: &History, direction: Direction) -> Option<usize> {
     let mut all = 0..history.moments.len();
     match direction {
@@ -53,8 +53,8 @@ pub fn end(history: &History, direction: Direction) -> Option<usize> {
     }
 }
 
-/// Returns the nearest moment that way at which a statement is about to run that `accepts`: each time that it begins,
-/// and of a loop each turn.
+/// Returns the nearest accepted moment in a direction at which a statement with `statement` true is about to run: each
+/// start of it, and for a loop each iteration.
 pub fn run(
     history: &History,
     at: usize,

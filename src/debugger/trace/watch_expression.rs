@@ -1,8 +1,8 @@
-//! Expressions of the language over what a history holds at a moment.
+//! Evaluates expressions of the language at a moment of a history.
 //!
-//! An expression is compiled by this program's own front end, behind the text of the pass, with the variables that it
-//! names as parameters, and run by the walker. So it means what it would mean there: it can call the author's functions
-//! and read uniforms and channels.
+//! An expression is compiled by the compiler's own front end, after the text of the pass, with the variables that it
+//! names as parameters, and run by the walker. So it has the same meaning as in the text: it can call the author's
+//! functions and read uniforms and channels.
 
 use super::{
     history::{History, Value},
@@ -18,35 +18,36 @@ use eddy_glsl::{
 use eddy_project::Project;
 use std::collections::HashMap;
 
-/// Types that a result can have, beside those of variables that are shown as they are.
+/// Types that a result can have, besides those of variables that are shown directly.
 const TYPES: [&str; 25] = [
     "float", "vec2", "vec3", "vec4", "int", "ivec2", "ivec3", "ivec4", "uint", "uvec2", "uvec3", "uvec4", "bool",
     "bvec2", "bvec3", "bvec4", "mat2", "mat3", "mat4", "mat2x3", "mat2x4", "mat3x2", "mat3x4", "mat4x2", "mat4x3",
 ];
 
-/// Statements after which an expression is given up.
-const MOST: u64 = 10_000_000;
+/// The number of statements after which an expression is stopped.
+const MAX_STATEMENTS: u64 = 10_000_000;
 
-/// Says what an expression is at a moment, or why it is nothing.
+/// The value of an expression at a moment, or an error message.
 pub type Watched = Result<Value, String>;
 
-/// Expressions over one history that were compiled, each by the variables that it names.
+/// Compiled expressions of one history, each by the variables that it names.
 #[derive(Default)]
 pub struct Watches {
     known: HashMap<String, Result<Compiled, String>>,
 }
 
-/// An expression behind the text of its pass.
+/// An expression compiled after the text of its pass.
 struct Compiled {
     walkable: Walkable,
-    /// Says where each variable that it names begins.
+    /// The parameter of each variable that it names.
     inputs: Vec<Option<GlobalId>>,
     kind: Option<GlobalId>,
     results: Vec<(usize, GlobalId)>,
 }
 
 impl Watches {
-    /// The value of an expression at a moment of a history, in its pass, which may be one of the draws of meshes.
+    /// Returns the value of an expression at a moment of a history, in its pass, which may be one of the draws of
+    /// meshes.
     pub fn value(
         &mut self,
         (history, at): (&History, usize),
@@ -58,7 +59,7 @@ impl Watches {
         if expression.is_empty() {
             return Err("the expression is empty".into());
         }
-        // A variable alone is shown whatever its type.
+        // A variable by itself is shown whatever its type.
         if let Some(value) = history.value(at, expression) {
             return Ok(value);
         }
@@ -69,11 +70,11 @@ impl Watches {
         // The rest of what is compiled is the same for a history.
         let key = named.iter().flat_map(|(name, ty)| [ty, " ", name, ", "]).chain([expression]).collect();
         let compiled = self.known.entry(key).or_insert_with(|| {
-            let text = text(&named, &globals, expression);
+            let text = generated_text(&named, &globals, expression);
             compile(&Sources::new(project), (index, draw), &text, [named.len(), globals.len()])
         });
         let compiled = compiled.as_ref().map_err(Clone::clone)?;
-        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, entry.clone(), MOST);
+        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, entry.clone(), MAX_STATEMENTS);
         let held = named.iter().map(|(name, _)| history.value(at, name).map(|value| value.words));
         let held = held.chain(globals.iter().map(|(name, _)| history.global_words(at, name)));
         for (global, words) in compiled.inputs.iter().zip(held) {
@@ -87,7 +88,7 @@ impl Watches {
     }
 }
 
-/// Takes the result as the function that runs leaves it.
+/// Captures the result when the function that runs ends.
 struct ResultCapture<'c> {
     compiled: &'c Compiled,
     value: Option<Value>,
@@ -115,14 +116,14 @@ impl Observer<f32> for ResultCapture<'_> {
     }
 }
 
-/// The names in an expression, and other words.
+/// Returns the names in an expression, and other words.
 fn words(expression: &str) -> impl Iterator<Item = &str> {
     expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
-/// Returns what stands behind the pass: variables as parameters, and a function for each type that gives the result
-/// away; and what the entry point does there.
-fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
+/// Returns the text that is appended to the pass: variables as parameters, and a function for each type that stores the
+/// result; and the body of the entry point there.
+fn generated_text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
     let mut out = String::from("int eddy_kind;\n");
     for (index, ty) in TYPES.iter().enumerate() {
         out += &format!("{ty} eddy_{ty}; void eddy_put({ty} x) {{ eddy_kind = {}; eddy_{ty} = x; }}\n", index + 1);
@@ -138,7 +139,7 @@ fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str)
     };
     let parameters = list(&|_, (name, ty)| format!("{ty} {name}"));
     let arguments = list(&|index, _| format!("eddy_local_{index}"));
-    // Written, so that they are memory, which can be given values.
+    // Written, so that they are memory, which can be initialised.
     let touched: String = (0..named.len()).map(|i| format!("eddy_local_{i} = eddy_local_{i}; ")).collect();
     let restored: String = globals
         .iter()

@@ -1,4 +1,4 @@
-//! Arenas and pools: 4-byte ids, lists of children, and the impls that give an owner both.
+//! Arenas and pools: 4-byte ids, lists of children, and the impls that add both to an owner.
 
 use std::{fmt, marker::PhantomData};
 
@@ -89,20 +89,20 @@ impl<T> fmt::Debug for List<T> {
     }
 }
 
-/// Copies a list that will grow. A clone has no room: its first push would copy everything once more.
+/// Copies a list with spare capacity. A plain clone has none, so its first push would copy everything again.
 pub(crate) fn with_room<T: Copy>(list: &[T]) -> Vec<T> {
     let mut copy = Vec::with_capacity(list.len() + list.len() / 2 + 16);
     copy.extend_from_slice(list);
     copy
 }
 
-/// A type that `Owner` has a pool of [`List`]s for.
+/// A type of which `Owner` has a pool for [`List`]s.
 pub trait Pooled<Owner>: Copy {
     fn pool(owner: &Owner) -> &Vec<Self>;
     fn pool_mut(owner: &mut Owner) -> &mut Vec<Self>;
 }
 
-/// Gives an owner its arenas (`id => node in field`) and pools (`element in field`).
+/// Implements indexing for an owner's arenas (`id => node in field`) and pools (`element in field`).
 macro_rules! arenas {
     ($owner:ty; $($id:ty => $node:ty, $field:ident;)* @pools $($elem:ty, $pool:ident;)*) => {
         $(impl ::std::ops::Index<$id> for $owner {

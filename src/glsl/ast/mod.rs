@@ -4,15 +4,15 @@
 //! are [`List`]s, ranges of shared pools. Nothing is boxed, so dropping never recurses and parsing allocates a handful
 //! of times.
 //!
-//! The parser guarantees this, and everyone may rely on it:
+//! The parser guarantees the following invariants:
 //! - Ids are in post-order: a child's id is smaller than its parent's, in each arena, and each node has one parent.
 //!   The expressions of one full expression are contiguous, so types can be found in one loop over the arena, without
 //!   recursion.
 //! - Nesting is limited to [`MAX_NESTING`] along any path from the root, statements and expressions counted together.
 //!   Not counted are the left spines `Binary.lhs`, `Comma.lhs`, `Index.base`, `Member.base`, `Method.base` and
 //!   `Postfix.operand`: chains of 10,000 terms are legal, so a walker descends these with a loop, never with a call.
-//! - A tree exists for any input. Where text was not understood stands an `Error` node, whose diagnostic has been
-//!   reported: whatever an `Error` touches is not reported again.
+//! - A tree exists for any input. An `Error` node marks text that was not understood. Its diagnostic has been reported:
+//!   errors that involve an `Error` node are not reported again.
 //! - Every [`Loc`] names tokens that exist in [`Origins`]; even an empty text has its end-of-file token.
 
 mod arena;
@@ -70,7 +70,7 @@ pub struct Ast {
     idents: Vec<Ident>,
 }
 
-/// A copy is gone on with: what follows Common is parsed into it.
+/// The clone has spare capacity: the text that follows Common is parsed into it.
 impl Clone for Ast {
     fn clone(&self) -> Self {
         Self {
@@ -120,7 +120,7 @@ impl Ast {
         ExprId::new(self.exprs.len() - 1)
     }
 
-    /// Calls `visit` for each expression that one consists of, in text order.
+    /// Calls `visit` for each direct subexpression, in text order.
     pub fn parts(&self, expr: ExprId, mut visit: impl FnMut(ExprId)) {
         match self[expr].kind {
             ExprKind::Error
@@ -186,13 +186,13 @@ pub struct Expr {
     pub loc: Loc,
 }
 
-/// Says what an expression is. Parentheses leave no node.
+/// The kind of an expression. Parentheses have no node.
 #[derive(Clone, Copy, Debug)]
 pub enum ExprKind {
-    /// Not understood; reported. Its type is the error type, which silences all further checks.
+    /// Could not be parsed; reported. It has the error type, which silences all further checks.
     Error,
-    /// `12`, `0x1F`, `017`: the 32 bits as ESSL 4.1.3 reads them (`0xFFFFFFFF` is -1). The lexer reports what does not
-    /// fit.
+    /// `12`, `0x1F`, `017`: the 32 bits as ESSL 4.1.3 reads them (`0xFFFFFFFF` is -1). The lexer reports literals that
+    /// do not fit.
     Int(i32),
     /// `12u`.
     Uint(u32),
@@ -206,14 +206,14 @@ pub enum ExprKind {
     Call { name: Symbol, args: List<ExprId> },
     /// A constructor spelled with a type keyword or with array dimensions: `vec3(..)`, `float[](..)`, `S[2](..)`.
     Construct { ty: TypeSpecId, args: List<ExprId> },
-    /// `base.name(args)`; only `.length()` is legal, which the checker checks. The name is not `loc.last`, hence
-    /// `Ident`.
+    /// `base.name(args)`; only `.length()` is legal, which the checker checks. The name is an `Ident` because it is not
+    /// `loc.last`.
     Method { base: ExprId, name: Ident },
     /// `base.name`, member or swizzle. The name is token `loc.last`.
     Member { base: ExprId, name: Symbol },
     /// `base[index]`.
     Index { base: ExprId, index: ExprId },
-    /// Prefix operators, `++x` and `--x` among them.
+    /// Prefix operators, including `++x` and `--x`.
     Unary { op: UnaryOp, operand: ExprId },
     /// `x++`, `x--`.
     Postfix { op: PostfixOp, operand: ExprId },
@@ -247,7 +247,7 @@ pub enum PostfixOp {
     Decrement,
 }
 
-/// Binary operators as written; which operation they are depends on types (`hir::BinaryOp`, `hir::Shape`).
+/// Binary operators as written; the operation depends on the operand types (`hir::BinaryOp`, `hir::Shape`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BinaryOp {
     Mul,
@@ -272,7 +272,7 @@ pub enum BinaryOp {
 }
 
 impl BinaryOp {
-    /// As the author wrote it, for messages.
+    /// Returns the operator as the author wrote it, for messages.
     pub fn text(self) -> &'static str {
         match self {
             BinaryOp::Mul => "*",
@@ -307,31 +307,31 @@ pub struct Stmt {
     pub loc: Loc,
 }
 
-/// Says what a statement is. Placement (`break` outside a loop, `case` outside a switch) is the checker's to judge.
+/// The kind of a statement. The checker rejects misplaced ones (`break` outside a loop, `case` outside a switch).
 #[derive(Clone, Copy, Debug)]
 pub enum StmtKind {
-    /// Not understood; reported, and skipped by the checker.
+    /// Could not be parsed; reported, and skipped by the checker.
     Error,
     /// `;`
     Empty,
-    /// `{ .. }`, a scope. A function's body is one too, which shares the scope of the parameters (section 4.2.2).
+    /// `{ .. }`, a scope. A function's body is also a `Block`; it shares the scope of the parameters (section 4.2.2).
     Block(List<StmtId>),
     /// `a = b;`
     Expr(ExprId),
     /// `float a = 1.0;`
     Decl(DeclId),
-    /// Branches may be any statement; one that is no `Block` still opens a scope.
+    /// Branches may be any statement; one that is not a `Block` still opens a scope.
     If { cond: ExprId, then: StmtId, otherwise: Option<StmtId> },
     /// `init` is an `Expr`, `Decl`, `Empty` or `Error` statement. Names of `init` and `cond` share one scope with the
-    /// body, as section 6.3 has it.
+    /// body (section 6.3).
     For { init: StmtId, cond: Option<Condition>, step: Option<ExprId>, body: StmtId },
     /// `while (cond) body`
     While { cond: Condition, body: StmtId },
     /// `do body while (cond);`
     DoWhile { body: StmtId, cond: ExprId },
-    /// The body's statements with `Case` and `Default` labels among them.
+    /// The body's statements, including `Case` and `Default` labels.
     Switch { value: ExprId, body: List<StmtId> },
-    /// `case value:`, a label that stands for itself.
+    /// `case value:`, a label that is a statement of its own.
     Case(ExprId),
     /// `default:`
     Default,
@@ -345,7 +345,7 @@ pub enum StmtKind {
     Discard,
 }
 
-/// Says what a `for` or `while` tests.
+/// The condition of a `for` or `while`.
 #[derive(Clone, Copy, Debug)]
 pub enum Condition {
     Expr(ExprId),
@@ -356,8 +356,8 @@ pub enum Condition {
 
 // ------------------------------------------------------------------------------------------------------- declarations
 
-/// A declaration, outside or inside a function. The parser accepts all kinds in both places; the checker sorts them
-/// out.
+/// A declaration, outside or inside a function. The parser accepts all kinds in both places; the checker rejects
+/// misplaced ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Decl {
     pub kind: DeclKind,
@@ -366,9 +366,9 @@ pub struct Decl {
 
 #[derive(Clone, Copy, Debug)]
 pub enum DeclKind {
-    /// Not understood; reported.
+    /// Could not be parsed; reported.
     Error,
-    /// A stray `;` at file scope (an error in ESSL 3.00 that ANGLE forgives: no diagnostic by the parser).
+    /// A stray `;` at file scope (an error in ESSL 3.00 that ANGLE accepts: the parser reports no diagnostic).
     Empty,
     /// Variables: `qualifiers type a, b[2] = ..;`. No declarators: `struct S {..};` or `float;`.
     Vars { qualifiers: List<Qualifier>, ty: TypeSpecId, declarators: List<Declarator> },
@@ -383,14 +383,14 @@ pub enum DeclKind {
     Block { qualifiers: List<Qualifier>, name: Ident, fields: List<Field>, instance: Option<Ident>, dims: List<Dim> },
 }
 
-/// One name of a [`DeclKind::Vars`], a struct's field or the like.
+/// One name of a [`DeclKind::Vars`], of a struct's field or the like.
 #[derive(Clone, Copy, Debug)]
 pub struct Declarator {
     pub name: Ident,
-    /// Dimensions behind the name, outermost first. ESSL 3.00 has no arrays of arrays: the checker counts these
-    /// together with those of the type.
+    /// Dimensions after the name, outermost first. ESSL 3.00 has no arrays of arrays: the checker counts these together
+    /// with those of the type.
     pub dims: List<Dim>,
-    /// `None`: no initialiser (the value is zero). An `Error` expression where one was not understood, brace lists
+    /// `None`: no initialiser (the value is zero). An `Error` expression where one could not be parsed, brace lists
     /// included.
     pub init: Option<ExprId>,
 }
@@ -404,8 +404,8 @@ pub struct Dim {
     pub loc: Loc,
 }
 
-/// A qualifier where it is written. Lists keep text order and repetitions: the checker judges order (section 4.7),
-/// doubles and combinations.
+/// A qualifier with its location. Lists keep text order and repetitions: the checker checks order (section 4.7),
+/// duplicates and combinations.
 #[derive(Clone, Copy, Debug)]
 pub struct Qualifier {
     pub kind: QualifierKind,
@@ -428,7 +428,7 @@ pub enum QualifierKind {
 }
 
 impl QualifierKind {
-    /// Position in the order that section 4.7 and the grammar demand.
+    /// Returns the position in the order that section 4.7 and the grammar require.
     pub fn rank(self) -> u8 {
         match self {
             QualifierKind::Layout(_) => 0,
@@ -460,20 +460,20 @@ pub enum Precision {
 #[derive(Clone, Copy, Debug)]
 pub struct TypeSpec {
     pub kind: TypeSpecKind,
-    /// Dimensions behind the type, `float[3]`; outermost first.
+    /// Dimensions after the type, `float[3]`; outermost first.
     pub dims: List<Dim>,
     pub loc: Loc,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub enum TypeSpecKind {
-    /// Not understood; reported.
+    /// Could not be parsed; reported.
     Error,
     /// A keyword.
     Basic(BasicType),
     /// A struct's name. Token `loc.first`.
     Named(Symbol),
-    /// A definition in place.
+    /// A definition in place of a name.
     Struct(StructDefId),
 }
 
@@ -498,7 +498,7 @@ pub struct Field {
 /// A function's prototype or definition.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionDecl {
-    /// Before the result type: precision is legal, the rest the checker reports.
+    /// Qualifiers before the result type: precision is legal; the checker reports all others.
     pub qualifiers: List<Qualifier>,
     pub result: TypeSpecId,
     pub name: Ident,
@@ -506,7 +506,7 @@ pub struct FunctionDecl {
     pub params: List<Param>,
     /// `None` for a prototype; else a `Block`, or `Error`.
     pub body: Option<StmtId>,
-    /// From the first qualifier or type to the closing parenthesis; the whole is the [`Decl::loc`].
+    /// From the first qualifier or type to the closing parenthesis; the whole function is [`Decl::loc`].
     pub header: Loc,
 }
 
@@ -516,7 +516,7 @@ pub struct Param {
     pub qualifiers: List<Qualifier>,
     pub ty: TypeSpecId,
     pub name: Option<Ident>,
-    /// Dimensions behind the name.
+    /// Dimensions after the name.
     pub dims: List<Dim>,
     pub loc: Loc,
 }
@@ -534,7 +534,7 @@ macro_rules! basic_types {
             /// All, in order.
             pub const ALL: &'static [BasicType] = &[$(BasicType::$name),*];
 
-            /// As GLSL spells it; `mat2` stands for `mat2x2`, which the lexer maps to the same.
+            /// The GLSL spelling; `mat2` is also the name of `mat2x2`, which the lexer maps to the same type.
             pub fn name(self) -> &'static str {
                 match self { $(BasicType::$name => $text,)* }
             }

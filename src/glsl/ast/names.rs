@@ -1,4 +1,4 @@
-//! Identifiers as numbers.
+//! Interned identifiers.
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 
@@ -8,9 +8,9 @@ pub struct Symbol(pub u32);
 
 /// Identifiers to [`Symbol`]s and back.
 ///
-/// Make one seeded interner a process (`LazyLock`) with [`Interner::seeded`] and clone it for each compile. The seed
-/// must begin with the names of `Builtin::all()` and then `Uniform::ALL`, in order, so that a symbol tells
-/// which it is without a look-up; keywords and other known words follow as the lexer likes.
+/// Create one seeded interner per process (`LazyLock`) with [`Interner::seeded`] and clone it for each compile. The
+/// seed must start with the names of `Builtin::all()` and then `Uniform::ALL`, in order, so that a symbol identifies
+/// its built-in without a look-up; keywords and other known words follow in the lexer's order.
 #[derive(Clone)]
 pub struct Interner {
     text: String,
@@ -18,15 +18,14 @@ pub struct Interner {
     ends: Vec<u32>,
     /// Open addressing, power of two in size.
     table: Vec<Slot>,
-    /// Another one in every process: names that all fall into one place of the table cannot be made up beforehand.
-    /// Symbols do not depend on it.
+    /// Differs in every process, so that colliding names cannot be prepared in advance. Symbols do not depend on it.
     seed: u64,
 }
 
-/// A place of the table.
+/// A slot of the table.
 #[derive(Clone, Copy, Default)]
 struct Slot {
-    /// The first bytes of the text, zeros behind a shorter one. Most names are no longer, and told by this alone.
+    /// The first bytes of the text, padded with zeros. Most names fit and are distinguished by this alone.
     head: u64,
     length: u32,
     /// 0 is free, otherwise symbol + 1.
@@ -41,7 +40,7 @@ impl Default for Interner {
 }
 
 impl Interner {
-    /// Symbols 0, 1, 2... for the words given, which must be distinct.
+    /// Returns an interner with symbols 0, 1, 2... for the given words, which must be distinct.
     pub fn seeded<'a>(words: impl IntoIterator<Item = &'a str>) -> Self {
         let mut interner = Self::default();
         for (i, word) in words.into_iter().enumerate() {
@@ -120,7 +119,7 @@ impl Interner {
 /// Bytes in [`Slot::head`].
 const HEAD: usize = 8;
 
-/// Returns the first bytes of a text; the last ones of it are the highest.
+/// Returns the first bytes of a text; the last of them are the highest.
 #[inline]
 fn head(text: &str) -> u64 {
     let bytes = text.as_bytes();
@@ -130,7 +129,7 @@ fn head(text: &str) -> u64 {
     }
 }
 
-/// `head` is that of the text.
+/// Returns the hash of a text, whose head is `head`.
 #[inline]
 fn hash(seed: u64, text: &str, head: u64) -> u64 {
     const K: u64 = 0x9E37_79B9_7F4A_7C15;

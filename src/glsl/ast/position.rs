@@ -1,4 +1,4 @@
-//! Says where things are: tokens, the ranges nodes cover, and the way through macros back to the author's text.
+//! Source positions: tokens, the ranges that nodes cover, and the path through macros back to the author's text.
 
 use super::{
     arena::ids,
@@ -23,9 +23,9 @@ ids! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TokenId(pub u32);
 
-/// Says where a node stands: its first and last token, both included. Turned into text positions by [`Origins`] only
-/// when a diagnostic or an editor asks, so nodes stay small. Parentheses around an expression are outside its `Loc`,
-/// but inside its parent's. A node the checker inserts (a conversion) takes the `Loc` of its operand.
+/// The range of a node: its first and last token, both included. [`Origins`] turns it into text positions only when a
+/// diagnostic or an editor requests them, so nodes stay small. Parentheses around an expression are outside its `Loc`,
+/// but inside its parent's. A node that the checker inserts (a conversion) takes the `Loc` of its operand.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Loc {
     pub first: TokenId,
@@ -38,7 +38,7 @@ impl Loc {
         Self { first, last }
     }
 
-    /// From the start of `self` to the end of `end`.
+    /// Returns the range from the start of `self` to the end of `end`.
     #[inline]
     pub fn to(self, end: Loc) -> Loc {
         Loc { first: self.first, last: end.last }
@@ -71,15 +71,14 @@ impl Hash for Loc {
     }
 }
 
-/// Says where one token comes from (16 bytes).
+/// The origin of one token (16 bytes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Says where its characters are: in the text itself, in a macro's replacement list, or in a macro's argument at
-    /// the use. For `__LINE__` and the like, the place of use.
+    /// The place of its characters: in the text itself, in a macro's replacement list, or in a macro's argument at the
+    /// use. For `__LINE__` and the like, the place of use.
     pub spelled: Span,
-    /// For a token of a replacement list, the (innermost) use that brought it in. `None` for what the author wrote in
-    /// place, and for argument tokens written in place: these point at themselves, which is more exact than the whole
-    /// use.
+    /// For a token of a replacement list, the (innermost) use that inserted it. `None` for tokens that the author wrote
+    /// in place, arguments of macros included: these point at themselves, which is more exact than the whole use.
     pub expansion: Option<ExpansionId>,
 }
 
@@ -89,11 +88,11 @@ pub struct Expansion {
     /// The outermost use in the author's running text (name and arguments): never inside a `#define`.
     pub used_at: Span,
     pub macro_id: MacroId,
-    /// The use whose replacement list held this one; `None` for an outermost use.
+    /// The use whose replacement list contained this one; `None` for an outermost use.
     pub parent: Option<ExpansionId>,
 }
 
-/// A macro as `#define` gave it, kept after `#undef` and redefinition (each definition is its own entry).
+/// A macro as defined by `#define`, kept after `#undef` and redefinition (each definition is its own entry).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MacroDef {
     pub name: Symbol,
@@ -104,7 +103,7 @@ pub struct MacroDef {
     pub function_like: bool,
 }
 
-/// Positions of all tokens and the macros they went through. Made by the preprocessor, outlives tree and HIR.
+/// Positions of all tokens and the macros they went through. Built by the preprocessor; outlives tree and HIR.
 /// Invariant: `tokens` is not empty; its last entry is the end of file, an empty span at the end of the pass's text.
 #[derive(Debug, Default)]
 pub struct Origins {
@@ -114,13 +113,13 @@ pub struct Origins {
     /// Every macro name used in the running text, in a directive, or in a replacement list that was expanded; for
     /// editors.
     pub macro_uses: Vec<(Span, MacroId)>,
-    /// Lines that an `#if` leaves out, its directives not among them; for editors.
+    /// Lines that an `#if` leaves out, excluding the directives; for editors.
     pub inactive: Vec<Span>,
-    /// Names in lines that were refused: who does not find one of them need not be told of it again.
+    /// Names in lines that were rejected: an undeclared one of them is not reported again.
     pub unread: Vec<Symbol>,
 }
 
-/// A copy is gone on with: the tokens that follow Common's are put behind.
+/// The clone has spare capacity: the tokens that follow Common's are appended to it.
 impl Clone for Origins {
     fn clone(&self) -> Self {
         Self {
@@ -135,7 +134,7 @@ impl Clone for Origins {
 }
 
 impl Origins {
-    /// Place of use of one token in the author's text.
+    /// Returns the place of use of one token in the author's text.
     pub fn token_span(&self, token: TokenId) -> Span {
         let origin = &self.tokens[token.0 as usize];
         match origin.expansion {
@@ -144,7 +143,7 @@ impl Origins {
         }
     }
 
-    /// Place of use in the author's text: for what a macro brought in, the use of the macro. The main span of a
+    /// Returns the place of use in the author's text; for tokens from a macro, the use of the macro. The main span of a
     /// diagnostic.
     pub fn span(&self, loc: Loc) -> Span {
         let (first, last) = (self.token_span(loc.first), self.token_span(loc.last));
@@ -154,7 +153,7 @@ impl Origins {
         Span { source: first.source, start: first.start.min(last.start), end: first.end.max(last.end) }
     }
 
-    /// Returns where the characters are, if a macro brought them in: the place in its replacement list.
+    /// Returns the place of the characters in a macro's replacement list, if a macro inserted them.
     pub fn definition_span(&self, loc: Loc) -> Option<(Span, ExpansionId)> {
         let in_macro = |token: TokenId| {
             let origin = self.tokens[token.0 as usize];
@@ -212,7 +211,7 @@ impl IndexMut<ExpansionId> for Origins {
     }
 }
 
-/// A name where it is written: the symbol and its token.
+/// A name with its location: the symbol and its token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Ident {
     pub symbol: Symbol,

@@ -1,5 +1,5 @@
-//! Values of built-in functions on constants (chapter 8), in 32-bit floats as a device computes them. Where a function
-//! is undefined ANGLE gives zero, and so does this, but for `atan` and `clamp`.
+//! Constant folding of built-in functions (chapter 8), in 32-bit floats as a device computes them. Where a function is
+//! undefined the value is zero, as in ANGLE, except for `atan` and `clamp`.
 
 use std::{
     cmp::Ordering,
@@ -9,25 +9,25 @@ use std::{
 use super::row::Row;
 use crate::{ir::Binary, types::Scalar};
 
-/// The value of a function on constants.
+/// The evaluation of a function on constants.
 #[derive(Debug)]
 pub enum Constant {
-    /// It has none: it reads a texture, or has an effect.
+    /// Not evaluated: it reads a texture, or has an effect.
     None,
-    /// Floats of floats, component by component, and zero in the function's gaps.
+    /// Floats to floats, component by component, and zero in the function's gaps.
     Each(fn(f32) -> f32),
     Each2(fn(f32, f32) -> f32),
     Each3(fn(f32, f32, f32) -> f32),
-    /// The scalars of the result, which are as many as there is room for, of those of the arguments.
+    /// Computes the scalars of the result, which fill the output slice, from those of the arguments.
     Whole(fn(&[Arg<'_>], &mut [u32])),
 }
 
-/// A constant argument: its scalars, one of which may stand for all components.
+/// A constant argument: its scalars. A single one is broadcast to all components.
 #[derive(Clone, Copy, Debug)]
 pub struct Arg<'w> {
     pub words: &'w [u32],
     pub scalar: Scalar,
-    /// Columns of a matrix, else one.
+    /// Columns of a matrix, otherwise 1.
     pub columns: usize,
 }
 
@@ -40,7 +40,7 @@ impl Arg<'_> {
         f32::from_bits(self.bits(i))
     }
 
-    /// A component as a number of its type.
+    /// Returns a component as a number of its type.
     pub fn number(&self, i: usize) -> f64 {
         match self.scalar {
             Scalar::Float => self.float(i).into(),
@@ -49,7 +49,7 @@ impl Arg<'_> {
         }
     }
 
-    /// A component as GLSL writes it.
+    /// Returns a component as GLSL writes it.
     pub fn text(&self, i: usize) -> String {
         match self.scalar {
             Scalar::Float => format!("{:?}", self.float(i)),
@@ -64,7 +64,7 @@ impl Arg<'_> {
 }
 
 impl Row {
-    /// Computes the scalars of the value on constants; returns whether there is one.
+    /// Computes the scalars of the value on constants; returns whether the function has one.
     pub fn fold(&self, args: &[Arg<'_>], out: &mut [u32]) -> bool {
         let mut each = |f: &dyn Fn(usize) -> f32| {
             for (i, word) in out.iter_mut().enumerate() {
@@ -83,12 +83,12 @@ impl Row {
     }
 }
 
-/// Puts a word into each component of the result.
+/// Sets each component of the result.
 fn fill(out: &mut [u32], f: impl Fn(usize) -> u32) {
     out.iter_mut().enumerate().for_each(|(i, word)| *word = f(i));
 }
 
-/// The same of floats.
+/// As [`fill`], with floats.
 fn fill_floats(out: &mut [u32], f: impl Fn(usize) -> f32) {
     fill(out, |i| f(i).to_bits());
 }
@@ -106,7 +106,7 @@ pub(super) fn hyperbolic_tangent(x: f32) -> f32 {
     (x.exp() - (-x).exp()) / (x.exp() + (-x).exp())
 }
 
-/// The polynomial of OpenGL's compilers, right to 0.0002.
+/// The polynomial that OpenGL's compilers use, accurate to 0.0002.
 pub(super) fn arc_sine(x: f32, cubic: f32, quartic: f32) -> f32 {
     let size = x.abs();
     let sum = FRAC_PI_2 + size * ((FRAC_PI_4 - 1.0) + size * (cubic + size * quartic));
@@ -137,7 +137,7 @@ pub(super) fn sign(args: &[Arg<'_>], out: &mut [u32]) {
     }
 }
 
-/// The order of two scalars; none with a NaN.
+/// Returns the order of two scalars; `None` with a NaN.
 fn order(scalar: Scalar, a: u32, b: u32) -> Option<Ordering> {
     match scalar {
         Scalar::Float => f32::from_bits(a).partial_cmp(&f32::from_bits(b)),
@@ -146,7 +146,7 @@ fn order(scalar: Scalar, a: u32, b: u32) -> Option<Ordering> {
     }
 }
 
-/// The smaller or the larger of two scalars; the first where they have no order.
+/// Returns the smaller or the larger of two scalars; the first if they are unordered.
 fn extreme_of(scalar: Scalar, a: u32, b: u32, is_max: bool) -> u32 {
     let wanted = if is_max { Ordering::Greater } else { Ordering::Less };
     if order(scalar, b, a) == Some(wanted) { b } else { a }
@@ -163,7 +163,7 @@ pub(super) fn clamped(args: &[Arg<'_>], out: &mut [u32]) {
     fill(out, |i| extreme_of(x.scalar, above(i), high.bits(i), false));
 }
 
-/// No order, as with a NaN, makes everything false but inequality.
+/// Unordered operands (NaN) make every comparison false except inequality.
 pub(super) fn compare(op: Binary, args: &[Arg<'_>], out: &mut [u32]) {
     let [a, b] = [args[0], args[1]];
     let holds = |order: Option<Ordering>| match op {
@@ -227,7 +227,7 @@ fn dot(a: Arg<'_>, b: Arg<'_>) -> f32 {
     a.floats().zip(b.floats()).map(|(x, y)| x * y).reduce(|sum, term| sum + term).unwrap_or(0.0)
 }
 
-/// The length of a vector.
+/// Returns the length of a vector.
 pub(super) fn length(floats: &[f32]) -> f32 {
     floats.iter().map(|x| x * x).reduce(|sum, term| sum + term).unwrap_or(0.0).sqrt()
 }
@@ -285,7 +285,7 @@ pub(super) fn transposed(args: &[Arg<'_>], out: &mut [u32]) {
     fill(out, |i| words[(i % columns) * rows + i / columns]);
 }
 
-/// The determinant of a square matrix, column by column.
+/// Returns the determinant of a square matrix, column by column.
 pub(super) fn determinant(floats: &[f32]) -> f64 {
     determinant_of(&wide(floats), floats.len().isqrt())
 }
@@ -302,7 +302,7 @@ pub(super) fn inverted(args: &[Arg<'_>], out: &mut [u32]) {
     fill_floats(out, |i| inverse(i) as f32);
 }
 
-/// A matrix in 64 bits, column-major.
+/// Returns a matrix in 64 bits, column-major.
 fn wide(floats: &[f32]) -> [f64; 16] {
     let mut out = [0.0; 16];
     out.iter_mut().zip(floats).for_each(|(slot, &value)| *slot = value.into());
@@ -316,7 +316,7 @@ fn determinant_of(m: &[f64; 16], n: usize) -> f64 {
     (0..n).map(|column| m[column * n] * cofactor(m, n, column, 0)).sum()
 }
 
-/// The signed determinant of what is left without a column and a row.
+/// Returns the signed determinant of the matrix without one column and one row.
 fn cofactor(m: &[f64; 16], n: usize, column: usize, row: usize) -> f64 {
     let mut minor = [0.0; 16];
     let mut at = 0;
@@ -356,14 +356,14 @@ mod tests {
     }
 
     #[test]
-    fn scalars_stand_for_all_components() {
+    fn scalars_are_broadcast_to_all_components() {
         assert_eq!(call("max", &[(&[1., -2., 3.], 1), (&[0.], 1)], 3), [1., 0., 3.]);
         assert_eq!(call("mod", &[(&[-1., 5.5], 1), (&[3.], 1)], 2), [2., 2.5]);
         assert_eq!(call("mix", &[(&[0., 10.], 1), (&[1., 20.], 1), (&[0.5], 1)], 2), [0.5, 15.]);
         assert_eq!(call("smoothstep", &[(&[0.], 1), (&[1.], 1), (&[0.5, 2.], 1)], 2), [0.5, 1.]);
     }
 
-    /// The last bits are those of the operations in which OpenGL's compilers write these functions out.
+    /// The last bits are those of the operations to which OpenGL's compilers expand these functions.
     #[test]
     fn last_bits() {
         assert_eq!(call("normalize", &[(&[0.2, 0., -1.], 1)], 3)[0].to_bits(), 0x3e48_d2ab);
@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn halves_round_to_even_and_come_back() {
+    fn halves_round_to_even_and_round_trip() {
         for (x, bits) in
             [(1.0, 0x3C00), (-2.0, 0xC000), (65504.0, 0x7BFF), (65520.0, 0x7C00), (5.96e-8, 1), (0.1, 0x2E66)]
         {
@@ -400,7 +400,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_its_domain_a_function_is_zero_and_noted() {
+    fn function_outside_its_domain_is_zero_and_reported() {
         let words = floats(&[-1.0, 4.0]);
         let arg = Arg { words: &words, scalar: Scalar::Float, columns: 1 };
         let mut folded = [0; 2];

@@ -1,8 +1,8 @@
-//! Says what the language and the site bring along: built-in functions, uniforms, variables.
+//! Everything that is predefined by the language and by Shadertoy: built-in functions, uniforms, variables.
 //!
-//! A function is a [`Row`] of a table, which holds everything about it: its overloads, the operation that a call becomes,
-//! its value on constants, where it is undefined, and its words for the editor. The checker, lowering, the audit and the
-//! editor services ask the row; none of them knows a function by its name.
+//! A function is a [`Row`] of a table, which contains everything about it: its overloads, the operation that a call
+//! becomes, its value on constants, where it is undefined, and its description for the editor. The checker, lowering,
+//! the audit and the editor services read the row; none of them knows a function by its name.
 
 mod constant;
 mod numbers;
@@ -40,33 +40,33 @@ static TABLE: [&Row; COUNT] = {
     table
 };
 
-/// A function of chapter 8, one a name, or of the site: the number of its [`Row`]. ESSL 3.00 lets nobody redefine or
-/// overload them (section 6.1), but a variable or struct of the name hides them.
+/// A function of chapter 8, one per name, or of Shadertoy: the number of its [`Row`]. ESSL 3.00 does not allow to
+/// redefine or overload them (section 6.1), but a variable or struct of the same name hides them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Builtin(u8);
 
 impl Builtin {
     pub const COUNT: usize = COUNT;
 
-    /// Returns what is known of it.
+    /// Returns its row of the table.
     #[inline]
     pub fn row(self) -> &'static Row {
         TABLE[usize::from(self.0)]
     }
 
-    /// All, in order of their symbols.
+    /// Returns all functions, in order of their symbols.
     pub fn all() -> impl Iterator<Item = Builtin> {
         (0..COUNT).map(|index| Builtin(index as u8))
     }
 
-    /// Returns what a symbol names, by the order of the interner's seed ([`super::ast::Interner`] says how it must
-    /// begin).
+    /// Returns the function that a symbol names, by the order of the interner's seed (see [`super::ast::Interner`] for
+    /// how it must start).
     #[inline]
     pub fn from_symbol(symbol: Symbol) -> Option<Self> {
         ((symbol.0 as usize) < COUNT).then_some(Builtin(symbol.0 as u8))
     }
 
-    /// The opposite of `from_symbol`.
+    /// The inverse of `from_symbol`.
     #[inline]
     pub fn symbol(self) -> Symbol {
         Symbol(self.0.into())

@@ -1,4 +1,4 @@
-//! Functions of numbers, each component alone: sections 8.1 to 8.3.
+//! Component-wise functions of numbers: sections 8.1 to 8.3.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -94,7 +94,7 @@ pub(super) const ROWS: &[Row] = &[
         constant: Each(|x| 1.0 / x.sqrt()),
         gaps: &[gap("inversesqrt is undefined for 0 and below (8.2)", 0..1, Component(|[x, ..]| x <= 0.0))],
         text: "1 / sqrt(x). Undefined where x ≤ 0.", ..ROW },
-    // 8.3 Common. Second and third arguments may be scalars where the first is a vector, as the overloads say.
+    // 8.3 Common. Second and third arguments may be scalars where the first is a vector (see the overloads).
     Row { name: "abs", params: "x", overloads: &[sig(F, &[F]), sig(I, &[I])], operation: Function(Math::Abs),
         constant: Whole(constant::absolute), text: "x without its sign. The most negative int stays as it is.", ..ROW },
     Row { name: "sign", params: "x", overloads: &[sig(F, &[F]), sig(I, &[I])], operation: Function(Math::Sign),

@@ -1,11 +1,11 @@
-//! Overloads as patterns over sizes, and finding the one that takes given types.
+//! Overloads as patterns over sizes, and the search for the one that accepts given types.
 
 use crate::{
     ast::BasicType,
     types::{SamplerDim, Scalar, Type, TypeId, TypeTable},
 };
 
-/// A parameter's or result's type in an overload. Sizes and matrices agree within one overload.
+/// The type of a parameter or result in an overload. Sizes and matrices agree within one overload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// `genType`, `genIType`, `genUType`, `genBType`: a scalar or vector.
@@ -18,9 +18,9 @@ pub enum Pattern {
     Square,
     /// As a result: the transpose of the matrix.
     Transposed,
-    /// A sampler of floats, ints or uints; those that compare give floats.
+    /// A sampler of floats, ints or uints; those that compare return floats.
     Sampler(SamplerDim, bool),
-    /// As a result: `gvec4`, of the sampler's components.
+    /// As a result: `gvec4`, of the sampler's component type.
     Texel,
     Exactly(TypeId),
 }
@@ -31,7 +31,7 @@ pub struct Overload {
     pub params: &'static [Pattern],
 }
 
-/// Returns an overload: its result, and its parameters.
+/// Returns an overload with this result and these parameters.
 pub(super) const fn sig(result: Pattern, params: &'static [Pattern]) -> Overload {
     Overload { result, params }
 }
@@ -81,7 +81,7 @@ pub(super) mod patterns {
     pub const FLOATS: &[Overload] = &[sig(F, &[F, F])];
 }
 
-/// Holds what the patterns of one overload have been bound to by the arguments so far.
+/// The bindings of one overload's patterns, from the arguments so far.
 #[derive(Clone, Copy)]
 struct Bound {
     size: u8,
@@ -90,7 +90,7 @@ struct Bound {
 }
 
 impl Overload {
-    /// The result's type if the overload takes these arguments.
+    /// Returns the result's type if the overload accepts these arguments.
     pub fn result_for(&self, args: &[TypeId], types: &TypeTable) -> Option<TypeId> {
         if args.len() != self.params.len() {
             return None;
@@ -107,8 +107,8 @@ impl Overload {
             && self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types))
     }
 
-    /// The parameters' types where generic ones have `size` components; samplers and matrices as the arguments have
-    /// them.
+    /// Returns the parameters' types where generic ones have `size` components; samplers and matrices are those of the
+    /// arguments.
     pub fn params_at(&self, size: u8, given: &[TypeId], types: &TypeTable) -> Option<Vec<TypeId>> {
         if given.len() != self.params.len() {
             return None;
@@ -127,7 +127,7 @@ impl Overload {
         self.params.iter().zip(given).map(at).collect()
     }
 
-    /// Types to show for a pattern where the arguments have `size` components.
+    /// Returns the types to show for a pattern where the arguments have `size` components.
     pub fn shown(&self, pattern: Pattern, size: u8) -> String {
         let size = size.max(1);
         let prefix = |scalar| match scalar {

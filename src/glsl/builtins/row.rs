@@ -1,4 +1,4 @@
-//! A row of the table: all that is known of one built-in function.
+//! A row of the table: everything that is known about one built-in function.
 
 use std::ops::Range;
 
@@ -15,21 +15,21 @@ use crate::{
 #[derive(Debug)]
 pub struct Row {
     pub name: &'static str,
-    /// The commoner ones first.
+    /// The more common ones first.
     pub overloads: &'static [Overload],
     pub operation: Operation,
     pub constant: Constant,
-    /// The arguments that it has no result for.
+    /// The arguments for which the result is undefined.
     pub gaps: &'static [UndefinedCase],
     /// The argument that is an `out` place.
     pub writes: Option<usize>,
-    /// Section 6.1 forbids to declare a built-in again, but ANGLE, and so the site, takes overloads of these.
+    /// Section 6.1 forbids redeclaring a built-in, but ANGLE, and therefore Shadertoy, accepts overloads of these.
     pub may_be_overloaded: bool,
-    /// The site defines it, in the text of Image passes alone.
+    /// Shadertoy defines it, only in the text of Image passes.
     pub is_of_image: bool,
-    /// Names of the parameters, for a person.
+    /// Names of the parameters, as shown to users.
     pub params: &'static str,
-    /// Explanation for a person: what it returns, where it is undefined.
+    /// Explanation for users: what it returns, where it is undefined.
     pub text: &'static str,
 }
 
@@ -47,10 +47,10 @@ pub(super) const ROW: Row = Row {
     text: "",
 };
 
-/// The code that a call becomes: `lower::builtin` writes it.
+/// The code that a call becomes; written by `lower::builtin`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// An operation of the intermediate representation. Scalars among its arguments stand for all components.
+    /// An operation of the intermediate representation. Scalar arguments are broadcast to all components.
     Function(Math),
     Compare(Binary),
     Bitcast(Scalar),
@@ -58,7 +58,7 @@ pub enum Operation {
     Any,
     All,
     Not,
-    /// A comparison of a float's magnitude with infinity, by their bits.
+    /// A comparison of a float's magnitude with infinity, on their bits.
     Exponent(Binary),
     /// The arc tangent of one number or of two.
     Atan,
@@ -86,41 +86,41 @@ pub enum Operation {
     Assert,
 }
 
-/// The differences between the functions that sample.
+/// The variants of the sampling functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
-    /// The coordinate's last component divides.
+    /// The coordinate is divided by its last component.
     pub is_projected: bool,
     pub lod: Lod,
     /// The argument that is a constant offset.
     pub offset: Option<usize>,
 }
 
-/// The level that is read.
+/// The mip level that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lod {
-    /// By the derivatives of the coordinate, with or without a bias at the end.
+    /// From the derivatives of the coordinate, with or without a bias as the last argument.
     Implicit,
     Exact,
     Gradient,
 }
 
-/// Arguments that a function has no result for.
+/// Arguments for which a function's result is undefined.
 #[derive(Debug)]
 pub struct UndefinedCase {
-    /// The reason for a person, with the section of the specification.
+    /// The reason for users, with the section of the specification.
     pub what: &'static str,
-    /// The arguments that are asked for it.
+    /// The arguments that are tested.
     pub decides: Range<usize>,
     test: Test,
 }
 
-/// Says which arguments are in a gap.
+/// The test for arguments in a gap.
 #[derive(Debug)]
 pub(super) enum Test {
-    /// By the numbers of one component; NaN stands for what is no argument.
+    /// On the numbers of one component; NaN for missing arguments.
     Component(fn([f64; 3]) -> bool),
-    /// By all numbers of the first argument.
+    /// On all numbers of the first argument.
     Vector(fn(&[f32]) -> bool),
 }
 
@@ -131,7 +131,7 @@ pub(super) const fn gap(what: &'static str, decides: Range<usize>, test: Test) -
 impl Row {
     /// Returns the name of parameter `index` of an overload that has `count`.
     pub fn param(&self, index: usize, count: usize) -> &'static str {
-        // `atan` alone calls its one parameter something else than the first of two.
+        // Only `atan` names its single parameter differently from the first of two.
         if count == 1 && self.operation == Operation::Atan {
             return "y_over_x";
         }
@@ -151,17 +151,17 @@ impl Row {
         }
     }
 
-    /// Returns whether a call does more than give a value.
+    /// Returns whether a call has an effect besides its value.
     pub fn has_effect(&self) -> bool {
         self.writes.is_some() || self.operation == Operation::Assert
     }
 
-    /// Returns whether it makes floats of other bits, which may stand for anything.
+    /// Returns whether it reinterprets bits as floats, which may be any value.
     pub fn reads_bits(&self) -> bool {
         matches!(self.operation, Operation::Bitcast(Scalar::Float) | Operation::Function(Math::Unpack2x16float))
     }
 
-    /// Returns the gap that some arguments are in, and the component that is; none for a whole vector or matrix.
+    /// Returns the gap that the arguments are in, and the component that is; no component for a whole vector or matrix.
     pub fn gap(&self, args: &[Arg<'_>]) -> Option<(&'static UndefinedCase, Option<usize>)> {
         let components = args.iter().map(|arg| arg.words.len()).max().unwrap_or(0);
         (0..components).find_map(|index| {

@@ -1,11 +1,11 @@
-//! The table itself: every row is complete, and all that asks it is content with the row alone.
+//! The table itself: every row is complete, and all its readers need the row alone.
 
 use super::{constant::Constant, *};
 use crate::{PassSource, compile, services::Analysis, source::PassKind};
 use eddy_diag::{Diagnostic, SourceId};
 use std::collections::BTreeSet;
 
-/// A type that fits a pattern, of three components where it can have several.
+/// Returns a type that fits a pattern, of three components where it can have several.
 fn type_text(overload: &Overload, pattern: Pattern) -> String {
     match pattern {
         Pattern::Matrix | Pattern::Square | Pattern::Transposed => "mat3".to_owned(),
@@ -13,7 +13,7 @@ fn type_text(overload: &Overload, pattern: Pattern) -> String {
     }
 }
 
-/// A plain shader that calls an overload: with arguments that are constants, or that are not.
+/// Returns a plain shader that calls an overload, with constant or non-constant arguments.
 fn shader(builtin: Builtin, overload: &Overload, is_constant: bool) -> String {
     let result = type_text(overload, overload.result);
     let (mut uniforms, mut locals, mut args) = (String::new(), String::new(), Vec::new());
@@ -39,7 +39,7 @@ fn shader(builtin: Builtin, overload: &Overload, is_constant: bool) -> String {
 }
 
 #[test]
-fn every_row_has_words() {
+fn every_row_has_a_description() {
     let names: BTreeSet<&str> = Builtin::all().map(|builtin| builtin.row().name).collect();
     assert_eq!(names.len(), Builtin::COUNT, "a name stands twice");
     for builtin in Builtin::all() {
@@ -60,12 +60,12 @@ fn every_row_has_words() {
 }
 
 #[test]
-fn a_row_is_enough_for_the_compiler_and_the_editor() {
+fn compiler_and_editor_need_the_row_alone() {
     for builtin in Builtin::all().filter(|builtin| !builtin.is_of_image) {
         for overload in builtin.overloads {
             let text = shader(builtin, overload, false);
             let source = PassSource::fragment(&text);
-            // WebGPU compares depths in the first level alone.
+            // WebGPU compares depths only in the first level.
             let has_none = |found: &Diagnostic| found.message.contains("WebGPU");
             if let Err(found) = compile(&source) {
                 assert!(found.iter().any(has_none), "{text}{found:?}");

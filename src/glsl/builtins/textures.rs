@@ -1,4 +1,4 @@
-//! Functions that read textures or neighbouring pixels, sections 8.8 and 8.9, and the site's own.
+//! Functions that read textures or neighbouring pixels, sections 8.8 and 8.9, and Shadertoy's own.
 
 use super::{
     constant::Constant::Each,
@@ -126,7 +126,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "fwidth", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width), constant: Each(|_| 0.0),
         text: "abs(dFdx(p)) + abs(dFdy(p)): about how much p changes over one pixel; the width of a smooth edge.",
         ..ROW },
-    // The site's own, in Image passes: `st_assert(bool)` and `st_assert(bool, int)`, void.
+    // Shadertoy's own, in Image passes: `st_assert(bool)` and `st_assert(bool, int)`, void.
     Row { name: "st_assert", params: "condition, value", overloads: &[sig(VOID, &[BOOL]), sig(VOID, &[BOOL, I1])],
         operation: Assert, is_of_image: true,
         text: "Shadertoy only, in Image: paints the picture if the condition is false: red, or red, green, blue or \

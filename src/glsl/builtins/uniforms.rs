@@ -1,4 +1,4 @@
-//! The site's uniforms.
+//! Shadertoy's uniforms.
 
 use super::Builtin;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     types::{TypeId, TypeTable},
 };
 
-/// One of them, in the order of `interface::UniformBlock`. Which of them a pass may name is the checker's matter.
+/// A uniform, in the order of `interface::UniformBlock`. The checker decides which of them a pass may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Uniform {
@@ -24,13 +24,13 @@ pub enum Uniform {
     ChannelResolution,
     TimeOffset,
     SampleOffset,
-    // Of programs that draw meshes, in the order of `interface::GeometryBlock`.
+    // For programs that draw meshes, in the order of `interface::GeometryBlock`.
     Model,
     View,
     Projection,
     NormalMatrix,
     CameraPosition,
-    /// `int[4]`, reached only as `iCh0.loaded`; its name is no identifier a user can write.
+    /// `int[4]`, reached only as `iCh0.loaded`; its name is not an identifier that a user can write.
     ChannelLoaded,
 }
 
@@ -45,7 +45,7 @@ impl Uniform {
         ]
     };
 
-    /// As GLSL spells it.
+    /// Returns the GLSL name.
     pub fn name(self) -> &'static str {
         match self {
             Uniform::Resolution => "iResolution",
@@ -69,19 +69,19 @@ impl Uniform {
         }
     }
 
-    /// Returns what a symbol names: the interner's seed has these names behind those of [`Builtin`].
+    /// Returns the uniform that a symbol names: the interner's seed has these names after those of [`Builtin`].
     #[inline]
     pub fn from_symbol(symbol: Symbol) -> Option<Self> {
         Self::ALL.get((symbol.0 as usize).checked_sub(Builtin::COUNT)?).copied()
     }
 
-    /// The opposite of `from_symbol`.
+    /// The inverse of `from_symbol`.
     #[inline]
     pub fn symbol(self) -> Symbol {
         Symbol(self as u32 + Builtin::COUNT as u32)
     }
 
-    /// Its place in `interface::GeometryBlock`, if it is of that.
+    /// Returns its place in `interface::GeometryBlock`, if it is a member of it.
     pub fn geometry_member(self) -> Option<u32> {
         match self {
             Uniform::Model => Some(0),
@@ -93,7 +93,7 @@ impl Uniform {
         }
     }
 
-    /// Its type; the arrays are interned on the way.
+    /// Returns its type, interning array types.
     pub fn ty(self, types: &mut TypeTable) -> TypeId {
         match self {
             Uniform::Resolution | Uniform::CameraPosition => TypeId::VEC3,

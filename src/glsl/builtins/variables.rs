@@ -5,9 +5,9 @@ use crate::types::TypeId;
 /// Built-in variables (section 7.2). The `gl_Max..` constants (section 7.3) are folded to literals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BuiltinVar {
-    /// `vec4`, a place of vertex stages.
+    /// `vec4`, writable, in vertex stages.
     Position,
-    /// `float`, a place of vertex stages; triangles have no use for it.
+    /// `float`, writable, in vertex stages; triangles do not use it.
     PointSize,
     /// `int`, read only, in vertex stages.
     VertexId,
@@ -15,11 +15,11 @@ pub enum BuiltinVar {
     InstanceId,
     /// `vec4`, read only.
     FragCoord,
-    /// `bool`, read only; always true but for meshes.
+    /// `bool`, read only; always true except for meshes.
     FrontFacing,
     /// `vec2`, read only; always zero.
     PointCoord,
-    /// `float`, a place; nobody reads the depth but for meshes.
+    /// `float`, writable; the depth is only read for meshes.
     FragDepth,
 }
 
@@ -34,12 +34,12 @@ impl BuiltinVar {
         }
     }
 
-    /// It may be written.
+    /// Returns whether it may be written.
     pub fn is_place(self) -> bool {
         matches!(self, BuiltinVar::Position | BuiltinVar::PointSize | BuiltinVar::FragDepth)
     }
 
-    /// It belongs to vertex stages, and not to what draws fragments.
+    /// Returns whether it exists in vertex stages and not in fragment stages.
     pub fn is_of_vertices(self) -> bool {
         matches!(self, BuiltinVar::Position | BuiltinVar::PointSize | BuiltinVar::VertexId | BuiltinVar::InstanceId)
     }

@@ -35,7 +35,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "unpackHalf2x16", params: "p", overloads: &[sig(F2, &[U1])], operation: Function(Math::Unpack2x16float),
         constant: Whole(|args, out| unpack(args, out, constant::half_value)),
         text: "The two floats that `packHalf2x16` stored; x from the low bits.", ..ROW },
-    // 8.5 Geometry; all but `cross` take floats as vectors of one.
+    // 8.5 Geometry; all but `cross` take floats as vectors of one component.
     Row { name: "length", params: "x", overloads: &[sig(F1, &[F])], operation: Length,
         constant: Whole(constant::vector_length),
         text: "Length of a vector, sqrt(dot(x, x)); for a float its absolute value.", ..ROW },

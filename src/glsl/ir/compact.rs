@@ -1,9 +1,9 @@
-//! Values in the order of their statements, and none that no statement names.
+//! Renumbers values in the order of their statements and drops values that no statement uses.
 
 use super::{Block, Function, Op, Stmt, Value};
 
 impl Function {
-    /// Numbers all values anew: operands come before what uses them, and what is not used is gone.
+    /// Renumbers all values: operands come before their users, and unused values are dropped.
     pub fn compact(&mut self) {
         let mut body = std::mem::take(&mut self.body);
         let mut old = std::mem::replace(self, Function::new(self.result));
@@ -27,7 +27,7 @@ struct Compact<'a> {
 }
 
 impl Compact<'_> {
-    /// Returns the new number of a value that is free, or was computed.
+    /// Returns the new number of a value that is free or has been computed.
     fn value(&mut self, old: Value) -> Value {
         if let Some(new) = self.map[old.index()] {
             return new;
@@ -56,7 +56,7 @@ impl Compact<'_> {
                 *value = self.append(*value, op);
                 continue;
             }
-            // The test at the end of a loop is computed within.
+            // The test at the end of a loop is computed inside it.
             if matches!(stmt, Stmt::Loop { .. }) {
                 stmt.blocks_mut(|block| self.block(block));
                 stmt.operands_mut(|operand| *operand = self.value(*operand));

@@ -1,4 +1,4 @@
-//! Names of what a program and its functions hold.
+//! Ids of the items of a program and its functions.
 
 use crate::ast;
 
@@ -11,6 +11,6 @@ ast::ids! {
     GlobalId;
     /// A function of the module.
     FuncId;
-    /// A constant that is no scalar.
+    /// A constant that is not a scalar.
     ConstId;
 }

@@ -1,4 +1,4 @@
-//! The type of what an op computes.
+//! Type inference for ops.
 
 use super::{Binary, Function, Input, Math, Module, Op, Unary, Value};
 use crate::types::{Scalar, Type, TypeId};
@@ -30,7 +30,7 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
             if matches!(op, Binary::ShiftLeft | Binary::ShiftRight) {
                 return of(left);
             }
-            // A scalar meets each component of the other side.
+            // A scalar is combined with each component of the other side.
             match module.types.get(of(left)) {
                 Type::Scalar(_) => of(right),
                 _ => of(left),

@@ -1,10 +1,10 @@
-//! The layout of values in memory that a device shares: sizes and alignments of WGSL's storage address space (section
+//! The layout of values in memory shared with the device: sizes and alignments of WGSL's storage address space (section
 //! 14.4.1 of its specification).
 
 use super::Module;
 use crate::types::{Scalar, Type, TypeId};
 
-/// Bytes. Saturating: what is too large, a validator refuses.
+/// Size and alignment in bytes. Saturating: the validator rejects types that are too large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     pub size: u32,
@@ -23,7 +23,7 @@ impl Layout {
 pub struct Layouts(Vec<Option<Layout>>);
 
 impl Layouts {
-    /// Returns whether a type is an array or structure that takes the memory of so many scalars, or more.
+    /// Returns whether a type is an array or structure that takes the memory of at least this number of scalars.
     pub fn is_aggregate_of(&mut self, module: &Module, ty: TypeId, scalars: u32) -> bool {
         matches!(module.types.get(ty), Type::Array { .. } | Type::Struct(_)) && self.of(module, ty).size >= 4 * scalars
     }
@@ -70,7 +70,7 @@ pub fn round_up(align: u32, size: u32) -> u32 {
     size.div_ceil(align).saturating_mul(align)
 }
 
-/// Returns the bytes of a scalar. No buffer holds bools, so that naga's width will do for them.
+/// Returns the size of a scalar in bytes. Buffers never contain bools, so naga's width is sufficient.
 fn width(scalar: Scalar) -> u32 {
     if scalar == Scalar::Bool { 1 } else { 4 }
 }

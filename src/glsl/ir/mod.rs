@@ -2,23 +2,23 @@
 //! API.
 //!
 //! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the
-//! walk that passes rewrite functions by ([`rewrite`]), and [`verify`], which checks the rules that can be read off a
-//! program. Knows neither where programs come from nor what they become.
+//! walk by which passes rewrite functions ([`rewrite`]), and [`verify`], which checks the rules that can be checked
+//! statically. Knows neither where programs come from nor what they become.
 //!
 //! The form is structured SSA over memory:
-//! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever
-//!   that statement dominates: later in the same block, and in blocks within.
+//! - A [`Value`] is computed once, by the [`Op`] that it names, at its [`Stmt::Let`]. It may be used wherever that
+//!   statement dominates: later in the same block, and in nested blocks.
 //! - Constants, inputs and addresses of variables are *free* ([`Op::is_free`]): no statement computes them, and they
 //!   may be used everywhere in their function.
-//! - A variable is memory. [`Op::Load`] reads it, [`Stmt::Store`] writes it. There are no phis: what differs between
-//!   two ways to one place lies in a variable.
+//! - A variable is memory. [`Op::Load`] reads it, [`Stmt::Store`] writes it. There are no phis: a value that differs
+//!   between two control-flow paths is kept in a variable.
 //! - A *place* is an address: a variable, or a part of one. [`Op::Part`] and [`Op::Element`] of a place are places.
 //!   Places are operands of loads, stores, calls and of these two only.
-//! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] hold blocks.
+//! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] contain blocks.
 //!
 //! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range.
-//! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step
-//! by step on the processor.
+//! Lowering guarantees this, and each pass preserves it; [`verify`] cannot check it. So a program can be run, by a
+//! device or step by step on the processor.
 
 pub mod analysis;
 mod compact;
@@ -51,7 +51,7 @@ pub struct Module {
     pub textures: Vec<Texture>,
     /// The uniform buffers that a plain shader declares.
     pub blocks: Vec<UniformBlock>,
-    /// The names of structures, in a plain shader alone.
+    /// The names of structures; only in a plain shader.
     pub struct_names: Vec<StructNames>,
     /// Callees before their callers; the last is the entry point.
     pub functions: Vec<Function>,
@@ -60,19 +60,19 @@ pub struct Module {
 /// A texture and its sampler.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    /// As the author calls it; empty for a channel.
+    /// The author's name; empty for a channel.
     pub name: String,
     pub dim: SamplerDim,
-    /// The component type that a read gives: float, int or uint.
+    /// The component type of a read: float, int or uint.
     pub scalar: Scalar,
-    /// Reads compare a depth, and give the share of texels that pass.
+    /// Reads compare a depth, and return the share of texels that pass.
     pub shadow: bool,
     pub group: u32,
     /// Binding of the texture; that of the sampler follows.
     pub binding: u32,
 }
 
-/// The names of a structure and its members; empty: it has none.
+/// The names of a structure and its members; empty if it has none.
 #[derive(Clone, Debug, Default)]
 pub struct StructNames {
     pub name: String,
@@ -82,7 +82,7 @@ pub struct StructNames {
 /// A uniform buffer, laid out by the rules of std140 (section 2.12.6.4 of the OpenGL ES 3.0 specification).
 #[derive(Clone, Debug)]
 pub struct UniformBlock {
-    /// As the author calls it; empty for the uniforms outside of blocks.
+    /// The author's name; empty for the uniforms outside of blocks.
     pub name: String,
     pub group: u32,
     pub binding: u32,
@@ -112,16 +112,16 @@ pub struct Global {
     pub kind: GlobalKind,
 }
 
-/// The place of a variable of the module.
+/// The storage of a variable of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GlobalKind {
-    /// Memory of one invocation, which begins with this constant, or with zeros.
+    /// Memory of one invocation, initialised with this constant, or with zeros.
     Private(Option<ConstId>),
-    /// One of the site's uniforms: read only.
+    /// One of Shadertoy's uniforms: read only.
     Uniform(Uniform),
-    /// The words, a `uvec4`, of the author's own uniform in this slot: read only.
+    /// The words, a `uvec4`, of the custom uniform in this slot: read only.
     CustomUniform(u16),
-    /// Face of the cube map that is drawn, 0 to 5: read only.
+    /// Face of the cube map that is being drawn, 0 to 5: read only.
     CubeFace,
     /// The column and the row of the target's first texel in the picture, an `ivec2`: read only.
     TileOrigin,
@@ -132,7 +132,7 @@ pub enum GlobalKind {
 }
 
 impl GlobalKind {
-    /// Returns whether nothing writes it.
+    /// Returns whether it is never written.
     pub fn is_read_only(self) -> bool {
         !matches!(self, GlobalKind::Private { .. })
     }
@@ -149,7 +149,7 @@ pub struct Function {
     nodes: Vec<Node>,
 }
 
-/// A value: the operation that computes it, its type, and what it is computed for.
+/// A value: the operation that computes it, its type, and its origin.
 #[derive(Clone, Debug)]
 struct Node {
     op: Op,
@@ -157,11 +157,11 @@ struct Node {
     origin: Origin,
 }
 
-/// The part of the author's program that a value is computed for. Passes keep it.
+/// The part of the author's program that a value is computed for. Passes preserve it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     pub loc: Loc,
-    /// The built-in function that the operation belongs to: the call became this one, or several.
+    /// The built-in function that the operation belongs to: the call became one operation or several.
     pub builtin: Option<Builtin>,
 }
 
@@ -175,7 +175,7 @@ impl From<Loc> for Origin {
 #[derive(Clone, Copy, Debug)]
 pub struct Param {
     pub ty: TypeId,
-    /// It is the address of a variable of the caller's that nothing else leads to.
+    /// The address of a variable of the caller's that is not accessible in any other way.
     pub by_reference: bool,
 }
 
@@ -183,11 +183,11 @@ pub struct Param {
 #[derive(Clone, Copy, Debug)]
 pub struct Var {
     pub ty: TypeId,
-    /// A constant that it holds whenever the function begins; else it is written before it is read.
+    /// A constant that is its value whenever the function starts; without one it is written before it is read.
     pub init: Option<Value>,
 }
 
-/// Statements that run one after the other.
+/// Statements that run in order.
 pub type Block = Vec<Stmt>;
 
 /// A statement.
@@ -209,14 +209,15 @@ pub enum Stmt {
     Continue,
     /// Ends the function, with its result unless that is void.
     Return(Option<Value>),
-    /// Ends the invocation; it draws nothing.
+    /// Ends the invocation without drawing anything.
     Discard,
-    /// Ends the entry point, and hands these on.
+    /// Ends the entry point with these outputs.
     Output(Vec<(Output, Value)>),
 }
 
 impl Stmt {
-    /// Visits the operands of the statement itself, in order; each may be changed. What a `Let` computes is none.
+    /// Visits the operands of the statement itself, in order; each may be changed. The operands of the op of a `Let`
+    /// are not visited.
     pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {
         match self {
             Stmt::Store { place, value } => {
@@ -230,7 +231,7 @@ impl Stmt {
         }
     }
 
-    /// Visits the blocks within, in order.
+    /// Visits the nested blocks, in order.
     pub fn blocks<'a>(&'a self, mut visit: impl FnMut(&'a Block)) {
         match self {
             Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
@@ -242,7 +243,7 @@ impl Stmt {
         }
     }
 
-    /// Visits the blocks within, in order; each may be changed.
+    /// Visits the nested blocks, in order; each may be changed.
     pub fn blocks_mut(&mut self, mut visit: impl FnMut(&mut Block)) {
         match self {
             Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
@@ -261,7 +262,7 @@ pub struct Case {
     /// Bits of an int or uint; none for the default.
     pub label: Option<u32>,
     pub body: Block,
-    /// The body is empty, and control goes on with the next case.
+    /// The body is empty, and control continues with the next case.
     pub falls_through: bool,
 }
 
@@ -270,9 +271,9 @@ pub struct Case {
 pub enum Output {
     /// A target of a fragment stage.
     Target(u32),
-    /// A variable for the fragment stage.
+    /// A vertex output for the fragment stage.
     Varying { location: u32, flat: bool },
-    /// The place of a vertex, in clip space.
+    /// The position of a vertex, in clip space.
     Position,
     /// The depth of a fragment.
     Depth,
@@ -284,33 +285,33 @@ impl Function {
         Self { result, ..Self::default() }
     }
 
-    /// Makes room for so many more values.
+    /// Reserves capacity for this number of additional values.
     pub fn reserve(&mut self, values: usize) {
         self.nodes.reserve(values);
     }
 
-    /// Appends an op, for a statement to compute, or a free one.
+    /// Appends an op: a free one, or one for a statement to compute.
     pub fn append(&mut self, op: Op, ty: TypeId, origin: impl Into<Origin>) -> Value {
         self.nodes.push(Node { op, ty, origin: origin.into() });
         Value::new(self.nodes.len() - 1)
     }
 
-    /// Puts another op in the place of the one that computes a value, which it returns. Its type stays.
+    /// Replaces the op that computes a value and returns the old one. The type stays the same.
     pub fn replace(&mut self, value: Value, op: Op) -> Op {
         std::mem::replace(&mut self.nodes[value.index()].op, op)
     }
 
-    /// Returns the type of a value, or of what a place holds.
+    /// Returns the type of a value, or of the contents of a place.
     pub fn ty(&self, value: Value) -> TypeId {
         self.nodes[value.index()].ty
     }
 
-    /// Returns the part of the text that a value is computed for.
+    /// Returns the source range that a value is computed for.
     pub fn loc(&self, value: Value) -> Loc {
         self.origin(value).loc
     }
 
-    /// Returns what a value is computed for.
+    /// Returns the origin of a value.
     pub fn origin(&self, value: Value) -> Origin {
         self.nodes[value.index()].origin
     }
@@ -330,7 +331,7 @@ impl Function {
         VarId::new(self.vars.len() - 1)
     }
 
-    /// Returns the variable, parameter or global that a place is or lies in.
+    /// Returns the variable, parameter or global that a place is, or is a part of.
     pub fn root(&self, mut place: Value) -> Value {
         while let Op::Part { base, .. } | Op::Element { base, .. } = self[place] {
             place = base;
@@ -371,7 +372,7 @@ impl Module {
         }
     }
 
-    /// Returns the number of statements of each function with all calls written out, by [`FuncId::index`].
+    /// Returns the number of statements of each function with all calls inlined, by [`FuncId::index`].
     pub fn inlined_sizes(&self) -> Vec<u64> {
         fn add(f: &Function, block: &Block, sizes: &[u64]) -> u64 {
             let mut sum = block.len() as u64;
@@ -392,7 +393,7 @@ impl Module {
         sizes
     }
 
-    /// Drops functions that nothing calls any more.
+    /// Drops functions that are no longer called.
     pub fn drop_uncalled(&mut self) {
         let mut called = vec![false; self.functions.len()];
         let Some(entry) = called.last_mut() else { return };
@@ -443,7 +444,7 @@ impl Module {
         }
     }
 
-    /// Returns whether some scalar of a value is a float.
+    /// Returns whether a type contains a float.
     pub fn holds_floats(&self, ty: TypeId) -> bool {
         use super::types::Type;
         match self.types.get(ty) {

@@ -1,12 +1,12 @@
-//! Operations: what computes a value.
+//! Operations, which compute values.
 
 use super::ids::{ConstId, FuncId, GlobalId, Value, VarId};
 use crate::types::{Scalar, Swizzle, TypeId};
 
-/// The operation that computes a value. Operands have the types that each op says; `verify` checks them.
+/// The operation that computes a value. Operands have the types documented for each op; `verify` checks them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
-    // Free: no statement computes these.
+    // Free: these are not computed by a statement.
     /// A scalar, bit for bit; bools are 0 or 1.
     Literal(Scalar, u32),
     /// All zeros, of any type.
@@ -19,19 +19,19 @@ pub enum Op {
     Var(VarId),
     /// The address of a variable of the module.
     Global(GlobalId),
-    /// A value that the device hands to the entry point.
+    /// A value that the device passes to the entry point.
     Input(Input),
 
     // Parts of values and of places.
     /// A member, an element, a column or a component, at an index that is in range.
     Part { base: Value, index: u32 },
-    /// The same at an index, int or uint, that is known when the program runs. Of values only vectors have such.
+    /// The same at an index, int or uint, that is known only at run time. Of values only vectors can be indexed so.
     Element { base: Value, index: Value },
     /// Two to four components of a vector.
     Swizzle { vector: Value, swizzle: Swizzle },
     /// A vector of `size` equal components.
     Splat { size: u8, value: Value },
-    /// A value of its parts, in order. Of a vector they may be vectors themselves.
+    /// A value composed of its parts, in order. The parts of a vector may themselves be vectors.
     Compose { ty: TypeId, parts: Box<[Value]> },
 
     // Arithmetic.
@@ -39,19 +39,19 @@ pub enum Op {
     Unary { op: Unary, operand: Value },
     /// An operator on two values.
     Binary { op: Binary, left: Value, right: Value },
-    /// A function that the device has, of as many arguments as it takes.
+    /// A function that the device provides, with the number of arguments that it takes.
     Math { fun: Math, arg: Value, arg1: Option<Value>, arg2: Option<Value>, arg3: Option<Value> },
-    /// One of two values of one type; `condition` is a bool, or a vector of as many.
+    /// One of two values of one type; `condition` is a bool, or a vector of bools of the same size.
     Select { condition: Value, accept: Value, reject: Value },
-    /// A scalar or vector of another component type.
+    /// A scalar or vector converted to another component type.
     Convert { value: Value, to: Scalar },
-    /// The same bits as another component type of 32 bits.
+    /// The same bits as another 32-bit component type.
     Bitcast { value: Value, to: Scalar },
     /// True where all components of a vector of bools are true.
     All(Value),
     /// True where some component of a vector of bools is true.
     Any(Value),
-    /// The change of a float from pixel to pixel.
+    /// The derivative of a float between neighbouring pixels.
     Derivative { axis: Axis, value: Value },
 
     // Textures: of a channel, 0 to 3.
@@ -67,18 +67,18 @@ pub enum Op {
     // Memory and calls.
     /// The value at a place.
     Load { place: Value },
-    /// Void if the function is; a parameter by reference takes a place.
+    /// Void if the function is; the argument of a parameter by reference is a place.
     Call { function: FuncId, args: Box<[Value]> },
 
     // Barriers.
-    /// The int 0, which no compiler behind this one can know.
+    /// The int 0, unknown to every later compiler.
     OpaqueZero,
 }
 
-/// A value that the device hands to an entry point.
+/// A value that the device passes to an entry point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Input {
-    /// `vec4`: where a fragment lies.
+    /// `vec4`: the position of a fragment.
     Position,
     /// `uint`.
     VertexIndex,
@@ -88,7 +88,7 @@ pub enum Input {
     FrontFacing,
     /// A vertex attribute.
     Attribute { location: u32, ty: TypeId },
-    /// A variable from the vertex stage.
+    /// An output of the vertex stage.
     Varying { location: u32, ty: TypeId, flat: bool },
 }
 
@@ -188,7 +188,7 @@ pub enum Math {
 }
 
 impl Math {
-    /// Returns whether each component of the result is the function of those of the operands.
+    /// Returns whether each component of the result depends only on the same component of the operands.
     pub fn is_by_component(self) -> bool {
         use Math::*;
         !matches!(
@@ -209,7 +209,7 @@ impl Math {
     }
 }
 
-/// A direction in which a value changes.
+/// A direction of a derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     X,
@@ -221,13 +221,13 @@ pub enum Axis {
 /// The mip level that a sample reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
-    /// By the derivatives of the coordinate.
+    /// From the derivatives of the coordinate.
     Auto,
-    /// This one.
+    /// This level.
     Exact(Value),
-    /// So much more than the change of the coordinate asks for.
+    /// This bias added to the level from the derivatives.
     Bias(Value),
-    /// By these changes of the coordinate from pixel to pixel.
+    /// From these derivatives of the coordinate.
     Gradient { x: Value, y: Value },
 }
 
@@ -286,7 +286,7 @@ macro_rules! each_operand {
 }
 
 impl Op {
-    /// Returns whether the value is there from the start of its function, without a statement.
+    /// Returns whether the value exists from the start of its function, without a statement.
     pub fn is_free(&self) -> bool {
         use Op::*;
         matches!(self, Literal(..) | Zero(_) | Const(_) | Param(_) | Var(_) | Global(_) | Input(_))
@@ -298,7 +298,7 @@ impl Op {
         each_operand!(self, visit, iter);
     }
 
-    /// Visits the operands, in order, each of which may be changed.
+    /// Visits the operands, in order; each may be changed.
     pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {
         each_operand!(self, visit, iter_mut);
     }

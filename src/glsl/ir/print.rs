@@ -1,7 +1,7 @@
-//! The text form of a program, for people and for snapshots.
+//! The text form of a program, for debugging and for snapshots.
 //!
 //! A value is `%n`, numbered in the order of its statement, a variable of the function `$n`, one of the module `@n`, a
-//! function `fn n`. Places stand as paths: `$1.2`, `@0[%4]`. Literals stand where they are used.
+//! function `fn n`. Places are printed as paths: `$1.2`, `@0[%4]`. Literals are printed where they are used.
 
 use std::fmt::Write;
 
@@ -73,7 +73,7 @@ impl Printer<'_> {
     fn statement(&mut self, stmt: &Stmt, depth: usize) {
         match stmt {
             Stmt::Let(value) => {
-                // Places stand where they are used.
+                // Places are printed where they are used.
                 if self.function.is_place(*value) {
                     return;
                 }
@@ -226,7 +226,7 @@ impl Printer<'_> {
     }
 }
 
-/// `InverseSqrt` as `inverse_sqrt`.
+/// Returns the snake-case name: `InverseSqrt` as `inverse_sqrt`.
 fn name(op: &impl std::fmt::Debug) -> String {
     let mut out = String::new();
     for c in format!("{op:?}").chars() {
@@ -248,7 +248,7 @@ fn literal(scalar: Scalar, bits: u32) -> String {
 }
 
 fn constant(module: &Module, index: usize) -> String {
-    /// Scalars of a constant that are printed.
+    /// The number of a constant's scalars that are printed.
     const SHOWN: usize = 16;
     let constant = &module.consts[index];
     let scalar = module.types.scalar(constant.ty);

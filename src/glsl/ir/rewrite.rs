@@ -1,7 +1,7 @@
-//! A walk over a function that computes it anew, statement by statement: what most passes have in common.
+//! A walk that rebuilds a function statement by statement: the common part of most passes.
 //!
-//! Operands are seen as what stands for them by now. A rule says what stands for an operation; what it adds for that
-//! comes before.
+//! A rule sees each operation with operands already replaced. It may return a replacement for the value; the operations
+//! that it adds for that come before.
 
 use rustc_hash::FxHashMap;
 
@@ -10,29 +10,29 @@ use crate::types::{Scalar, Type, TypeId};
 
 /// A rule that a pass applies to the operations and statements of a function.
 pub trait Rule {
-    /// Returns the value that stands for this one, whose operation has the operands that stand for its own. `None`: the
-    /// operation itself stands.
+    /// Returns the value that replaces this one. The operands of its operation are already replaced. `None` keeps the
+    /// operation.
     fn operation(&mut self, _: &mut Rewriter<'_>, _value: Value, _op: &Op) -> Option<Value> {
         None
     }
 
-    /// The function has begun.
+    /// Called at the start of the function.
     fn begin(&mut self, _: &mut Rewriter<'_>) {}
 
-    /// A store is about to be made.
+    /// Called before a store.
     fn store(&mut self, _: &Rewriter<'_>, _place: Value, _value: Value) {}
 
-    /// The body of a loop has begun: what is added comes before it.
+    /// Called at the start of a loop's body: statements that it adds come before the body.
     fn begin_body(&mut self, _: &mut Rewriter<'_>, _body: &Block) {}
 
-    /// It has ended; what follows it in each round comes next.
+    /// Called at the end of a loop's body; its `continuing` block comes next.
     fn end_body(&mut self) {}
 
-    /// Control meets again after a branch.
+    /// Called where control flow joins after a branch.
     fn after_if(&mut self, _: &Rewriter<'_>) {}
 }
 
-/// Applies a rule, made anew for each, to the functions of a program.
+/// Applies a rule, created for each function, to the functions of a program.
 pub fn each_function<R: Rule>(module: &mut Module, rule: impl Fn() -> R) {
     for index in 0..module.functions.len() {
         function(module, index, &mut rule());
@@ -46,18 +46,18 @@ pub fn function(module: &mut Module, index: usize, rule: &mut impl Rule) {
     module.functions[index] = function;
 }
 
-/// A function that is being computed anew.
+/// A function that is being rebuilt.
 pub struct Rewriter<'m> {
     pub module: &'m Module,
     pub f: Function,
     out: Block,
-    /// Statements that come before all else.
+    /// Statements that come before all others.
     start: Block,
-    /// The value that stands for each one of the old function.
+    /// The replacement of each value of the old function.
     map: Vec<Value>,
-    /// Made when a rule asks for one; each is one value already.
+    /// Built when a rule first requests a literal; each is a single value.
     literals: Option<FxHashMap<(Scalar, u32), Value>>,
-    /// That of the operation at hand: what is added for it has the same.
+    /// The origin of the current operation: operations added for it have the same.
     origin: Origin,
 }
 
@@ -96,7 +96,7 @@ impl<'m> Rewriter<'m> {
         self.out.push(stmt);
     }
 
-    /// Lets `add` add before all else that the function does.
+    /// Makes `add` insert its operations at the start of the function.
     pub fn at_start<T>(&mut self, add: impl FnOnce(&mut Self) -> T) -> T {
         std::mem::swap(&mut self.out, &mut self.start);
         let added = add(self);
@@ -104,8 +104,8 @@ impl<'m> Rewriter<'m> {
         added
     }
 
-    /// Adds the same bits, of a scalar or vector of numbers, joined with a zero that no compiler behind this one can
-    /// know.
+    /// Adds the same bits, of a scalar or vector of numbers, combined with a zero that is unknown to every later
+    /// compiler.
     pub fn opaque(&mut self, value: Value) -> Value {
         let scalar = self.module.scalar(self.f.ty(value));
         let bits = if scalar == Scalar::Int { value } else { self.add(Op::Bitcast { value, to: Scalar::Int }) };
@@ -117,7 +117,7 @@ impl<'m> Rewriter<'m> {
         if scalar == Scalar::Int { value } else { self.add(Op::Bitcast { value, to: scalar }) }
     }
 
-    /// Adds a jump that is never taken, though no compiler behind this one can know it.
+    /// Adds a jump that is never taken, which no later compiler can know.
     pub fn seem_to(&mut self, jump: Stmt) {
         let number = self.add(Op::OpaqueZero);
         let zero = self.literal(Scalar::Int, 0);
@@ -137,9 +137,9 @@ impl<'m> Rewriter<'m> {
         *literals.entry((scalar, bits)).or_insert_with(new)
     }
 
-    /// Returns the value that stands for one of the old function by now.
+    /// Returns the current replacement of a value of the old function.
     pub fn value(&self, old: Value) -> Value {
-        // What was added has no other stand-in.
+        // Values that were added are not replaced.
         self.map.get(old.index()).copied().unwrap_or(old)
     }
 
@@ -153,7 +153,7 @@ impl<'m> Rewriter<'m> {
         self.out.reserve(block.len());
         for mut stmt in block {
             if let Stmt::Let(value) = stmt {
-                // Taken out, so that the rule sees it while it changes the function.
+                // Taken out, so that the rule can read it while it changes the function.
                 let mut op = self.f.replace(value, Op::OpaqueZero);
                 op.operands_mut(|operand| *operand = self.value(*operand));
                 self.origin = self.f.origin(value);
@@ -165,7 +165,7 @@ impl<'m> Rewriter<'m> {
                 }
                 continue;
             }
-            // What a loop ends with is computed in it.
+            // The exit condition of a loop is computed inside it.
             if !matches!(stmt, Stmt::Loop { .. }) {
                 stmt.operands_mut(|operand| *operand = self.value(*operand));
             }

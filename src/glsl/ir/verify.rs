@@ -1,15 +1,15 @@
-//! Checks of the rules that can be read off a program. A broken one is a bug of the part of the compiler that ran last.
+//! Checks the rules that can be checked statically. A broken rule is a bug of the part of the compiler that ran last.
 
 use super::{Block, FuncId, Function, Module, Op, Stmt, Value};
 use crate::types::{Scalar, Type, TypeId};
 
-/// Checks a program; an error says which rule is broken, and where.
+/// Checks a program; the error names the broken rule and the place.
 ///
-/// - Each value is computed once, and where it is used its statement dominates.
-/// - Places are operands of loads, stores, parts and calls alone; stores write no read-only memory.
+/// - Each value is computed once, and its statement dominates its uses.
+/// - Places are operands of loads, stores, parts and calls only; stores never write read-only memory.
 /// - Types agree.
-/// - A variable without a first value is not read before something writes to it, in the order of the text.
-/// - A `Break` or `Continue` stands in a loop or switch, and is the last statement of its block.
+/// - A variable without an initial value is not read before it is written, in text order.
+/// - A `Break` or `Continue` is inside a loop or switch, and is the last statement of its block.
 pub fn verify(module: &Module) -> Result<(), String> {
     for (index, function) in module.functions.iter().enumerate() {
         let mut check = Check {
@@ -47,14 +47,13 @@ pub fn assert_kept(module: &Module, culprit: &str) {
 struct Check<'a> {
     module: &'a Module,
     function: &'a Function,
-    /// The number of the function, which calls only those before it.
+    /// The number of the function, which may only call earlier ones.
     index: usize,
-    /// True where the value is computed wherever control passes here, by [`Value::index`].
+    /// True if the value has been computed on every path to this point, by [`Value::index`].
     available: Vec<bool>,
-    /// True where a variable begins with a value, or something was written to it, by
-    /// [`VarId::index`](super::VarId::index).
+    /// True if a variable has an initial value or has been written, by [`VarId::index`](super::VarId::index).
     written: Vec<bool>,
-    /// Loops and switches around, and loops.
+    /// The number of enclosing loops and switches; `loops` is that of loops only.
     breakable: usize,
     loops: usize,
 }
@@ -141,7 +140,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Notes what a call may write, and refuses loads of what nothing has written.
+    /// Records what a call may write, and rejects loads of memory that has not been written.
     fn memory(&mut self, value: Value) -> Result<(), String> {
         let function = self.function;
         match function[value] {
@@ -316,7 +315,7 @@ mod tests {
     use crate::ast::Loc;
 
     #[test]
-    fn memory_that_nothing_has_written_is_not_read() {
+    fn load_of_unwritten_memory_is_rejected() {
         let mut f = Function::new(TypeId::VOID);
         let var = f.add_var(TypeId::FLOAT);
         let place = f.append(Op::Var(var), TypeId::FLOAT, Loc::default());

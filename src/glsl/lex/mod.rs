@@ -1,12 +1,12 @@
 //! Characters to tokens: comments, line continuation, numbers, and characters that GLSL does not have (chapter 3.1 to
 //! 3.9).
 //!
-//! Owns [`Lexer`] and the [`Token`] that the preprocessor handles; [`words`] says which names are keywords. Knows no
-//! macros and reports nothing: a number or character that is wrong becomes a token that says so, because it only
-//! matters where it reaches the parser (not in a group that `#if` leaves out, nor in a macro that nobody uses).
+//! Owns [`Lexer`] and the [`Token`] that the preprocessor handles; [`words`] lists the keywords. Knows no macros and
+//! reports no diagnostics: a malformed number or character becomes an error token, because it only matters if it
+//! reaches the parser (not in a group that `#if` leaves out, nor in an unused macro).
 //!
-//! Line continuation joins lines before anything else is looked at (section 3.1), so that it works inside names and
-//! comments. A text that has one is copied without it, and [`Splices`] leads back to the author's positions.
+//! Line continuation joins lines before anything else (section 3.1), so that it works inside names and comments. A text
+//! with continuations is copied without them, and [`Splices`] maps back to the author's positions.
 
 mod number;
 mod splice;
@@ -22,16 +22,16 @@ use std::{borrow::Cow, ops::Range};
 pub(super) use token::{Kind, LINE_START, PAINTED, SPACE, Token};
 use token::{is_name, is_name_start};
 
-/// Reads one text.
+/// A lexer of one text.
 pub(super) struct Lexer<'a> {
     text: Cow<'a, str>,
     source: SourceId,
     pos: usize,
-    /// Says where `text` begins in its source.
+    /// The offset of `text` in its source.
     base: u32,
     splices: Splices,
     line_start: bool,
-    /// Ends of lines are tokens.
+    /// True if ends of lines are tokens.
     in_directive: bool,
 }
 
@@ -40,7 +40,7 @@ impl<'a> Lexer<'a> {
         Self::part(source, text, 0..text.len())
     }
 
-    /// Reads a stretch of a text, as if nothing stood around it.
+    /// Returns a lexer of a part of a text, without its surroundings.
     pub fn part(source: SourceId, text: &'a str, range: Range<usize>) -> Self {
         let base = range.start as u32;
         let (text, splices) = join_lines(&text[range]);
@@ -49,22 +49,22 @@ impl<'a> Lexer<'a> {
         Self { text, source, pos, base, splices, line_start: true, in_directive: false }
     }
 
-    /// Returns the place between what was read and what comes next.
+    /// Returns the empty span between the last token and the next one.
     pub fn here(&mut self) -> Span {
         self.span(self.pos, self.pos)
     }
 
-    /// Makes the end of this line a token, once.
+    /// Makes the lexer return the end of this line as a token, once.
     pub fn begin_directive(&mut self) {
         self.in_directive = true;
     }
 
-    /// Ends of lines are blank again.
+    /// Makes ends of lines white space again.
     pub fn end_directive(&mut self) {
         self.in_directive = false;
     }
 
-    /// Returns the rest of the directive's line as it stands, up to where [`Lexer::next`] would give its end.
+    /// Returns the unprocessed rest of the directive's line, up to where [`Lexer::next`] would return its end.
     pub fn rest_of_line(&mut self) -> (String, Span) {
         let start = self.pos;
         let text = self.text.as_bytes();
@@ -89,13 +89,13 @@ impl<'a> Lexer<'a> {
         Span { source: self.source, start: self.base + start, end: self.base + end }
     }
 
-    /// Leaves out the lines of a group that is not compiled: stops after the `#` that begins a directive (true), or at
-    /// the end of the text (false).
+    /// Skips the lines of a group that is not compiled: stops after the `#` of a directive (true), or at the end of the
+    /// text (false).
     pub fn skip_to_directive(&mut self) -> bool {
         loop {
             let token = self.blank();
             if let Some(open) = token {
-                // An unclosed comment hides the rest.
+                // An unclosed comment hides the rest of the text.
                 self.pos = open.max(self.text.len());
                 return false;
             }
@@ -118,7 +118,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Passes white space, comments and (outside directives) ends of lines. Gives the start of a comment without end.
+    /// Skips white space, comments and (outside directives) ends of lines. Returns the start of an unclosed comment.
     #[inline]
     fn blank(&mut self) -> Option<usize> {
         let text = self.text.as_bytes();
@@ -161,7 +161,7 @@ impl<'a> Lexer<'a> {
         None
     }
 
-    /// Returns the next token; `Eof` again and again at the end.
+    /// Returns the next token; at the end always `Eof`.
     #[inline]
     pub fn next(&mut self, names: &mut Interner) -> Token {
         let before = self.pos;
@@ -256,7 +256,7 @@ impl<'a> Lexer<'a> {
             (b'#', b'#', _) => (HashHash, 2),
             (b'#', ..) => (Hash, 1),
             (b'\n' | b'\r', ..) => {
-                // Only in a directive: `blank` passes it elsewhere. The end of line itself is left for `blank`.
+                // Only in a directive: `blank` skips it elsewhere. The end of line itself is left for `blank`.
                 self.in_directive = false;
                 return (Newline, 0);
             }
@@ -266,7 +266,7 @@ impl<'a> Lexer<'a> {
         (kind, 0)
     }
 
-    /// Characters that GLSL does not have.
+    /// Lexes characters that GLSL does not have.
     #[cold]
     fn foreign(&mut self, names: &mut Interner) -> (Kind, u32) {
         let rest = &self.text[self.pos..];
@@ -280,7 +280,7 @@ impl<'a> Lexer<'a> {
             let length = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
             let symbol = names.intern(&rest[..length]);
             self.pos += length;
-            // A name that touches another foreign character (a curly quote) is itself in order.
+            // A name next to another foreign character (a curly quote) is itself valid.
             let kind = if rest[..length].is_ascii() { Kind::Ident } else { Kind::BadName };
             return (kind, symbol.0);
         }
@@ -289,7 +289,7 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// Returns the length in bytes of the number that `text` begins with, whatever is wrong with it.
+/// Returns the length in bytes of the number at the start of `text`, whether it is valid or not.
 pub(super) fn number_length(text: &str) -> usize {
     number::scan(text).2
 }

@@ -1,12 +1,12 @@
-//! Number literals (sections 4.1.3 and 4.1.4), and what can be wrong with one.
+//! Number literals (sections 4.1.3 and 4.1.4), and their possible errors.
 
 use super::token::{Kind, is_name};
 
-/// The reason that a number is none.
+/// The reason that a number literal is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum BadNumber {
-    /// Letters or a second point directly behind it.
+    /// Letters or a second point directly after it.
     Tail,
     /// `1f`.
     IntWithF,
@@ -29,7 +29,7 @@ const REASONS: [BadNumber; 6] = [
     BadNumber::NoExponent,
 ];
 
-/// Message and hints for a number that is none.
+/// Returns the message and the hint for an invalid number.
 pub(crate) fn bad_number(value: u32, text: &str) -> (String, Option<String>) {
     let digits: &str = &text[..text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len())];
     match REASONS[value as usize] {
@@ -75,7 +75,7 @@ fn tail_hint(text: &str) -> Option<String> {
     None
 }
 
-/// Kind, value and length of the number that `text` begins with.
+/// Returns kind, value and length of the number at the start of `text`.
 pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
     let bytes = text.as_bytes();
     let digits = |mut at: usize, ok: fn(u8) -> bool| {
@@ -86,19 +86,19 @@ pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
     };
     let byte = |at: usize| bytes.get(at).copied().unwrap_or(0);
     let decimal: fn(u8) -> bool = |b| b.is_ascii_digit();
-    // Whatever sticks to a number makes it wrong as a whole.
+    // Trailing letters and digits invalidate the whole number.
     let tail = |reason: BadNumber, from: usize| {
         let end = digits(from, |b| is_name(b) || b == b'.');
         (Kind::BadNumber, reason as u32, end)
     };
-    let sticks = |at: usize| is_name(byte(at)) || byte(at) == b'.';
+    let trailing = |at: usize| is_name(byte(at)) || byte(at) == b'.';
 
     if byte(0) == b'0' && matches!(byte(1), b'x' | b'X') {
         let end = digits(2, |b| b.is_ascii_hexdigit());
         if end == 2 {
             return tail(BadNumber::NoHexDigits, end);
         }
-        return integer(&text[2..end], 16, byte(end), end, &tail, &sticks);
+        return integer(&text[2..end], 16, byte(end), end, &tail, &trailing);
     }
     let mut end = digits(0, decimal);
     let whole = end;
@@ -111,7 +111,7 @@ pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
         let sign = usize::from(matches!(byte(end + 1), b'+' | b'-'));
         let exponent = digits(end + 1 + sign, decimal);
         if exponent == end + 1 + sign {
-            // `1.e` may be a swizzle gone wrong: `1.expand`.
+            // `1.e` may be a mistyped swizzle: `1.expand`.
             let reason = if is_name(byte(exponent)) { BadNumber::Tail } else { BadNumber::NoExponent };
             return tail(reason, exponent);
         }
@@ -119,24 +119,24 @@ pub(super) fn scan(text: &str) -> (Kind, u32, usize) {
         end = exponent;
     }
     if float {
-        // All such texts are floats to Rust as well; too large a value is infinity, as in ANGLE.
+        // Rust parses all such texts as floats as well; a value that is too large is infinity, as in ANGLE.
         let value: f32 = text[..end].parse().unwrap_or(f32::INFINITY);
         let end = end + usize::from(matches!(byte(end), b'f' | b'F'));
-        if sticks(end) {
+        if trailing(end) {
             return tail(BadNumber::Tail, end);
         }
         return (Kind::Float, value.to_bits(), end);
     }
-    if matches!(byte(end), b'f' | b'F') && !sticks(end + 1) {
+    if matches!(byte(end), b'f' | b'F') && !trailing(end + 1) {
         return (Kind::BadNumber, BadNumber::IntWithF as u32, end + 1);
     }
     if byte(0) == b'0' && whole > 1 {
         if text[..whole].bytes().any(|b| b > b'7') {
             return tail(BadNumber::Octal, whole);
         }
-        return integer(&text[1..whole], 8, byte(end), end, &tail, &sticks);
+        return integer(&text[1..whole], 8, byte(end), end, &tail, &trailing);
     }
-    integer(&text[..whole], 10, byte(end), end, &tail, &sticks)
+    integer(&text[..whole], 10, byte(end), end, &tail, &trailing)
 }
 
 fn integer(
@@ -145,13 +145,13 @@ fn integer(
     suffix: u8,
     mut end: usize,
     tail: &dyn Fn(BadNumber, usize) -> (Kind, u32, usize),
-    sticks: &dyn Fn(usize) -> bool,
+    trailing: &dyn Fn(usize) -> bool,
 ) -> (Kind, u32, usize) {
     let kind = if matches!(suffix, b'u' | b'U') { Kind::Uint } else { Kind::Int };
     if kind == Kind::Uint {
         end += 1;
     }
-    if sticks(end) {
+    if trailing(end) {
         return tail(BadNumber::Tail, end);
     }
     match u32::from_str_radix(digits, radix) {

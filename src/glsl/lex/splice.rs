@@ -1,13 +1,13 @@
-//! Line continuation: joining lines, and the way back to the author's positions.
+//! Line continuation: joining lines, and mapping back to the author's positions.
 
 use std::borrow::Cow;
 
-/// Says where line continuations were taken out of a text.
+/// The places where line continuations were removed from a text.
 #[derive(Default)]
 pub(super) struct Splices {
-    /// Position in the joined text, and how many bytes are missing from there on.
+    /// Position in the joined text, and the number of bytes removed before it.
     list: Vec<(u32, u32)>,
-    /// First entry that lies behind the last position asked for: the lexer asks in text order.
+    /// First entry after the last queried position: the lexer queries in text order.
     at: usize,
 }
 
@@ -16,7 +16,7 @@ impl Splices {
         self.list.is_empty()
     }
 
-    /// The author's positions of a range of the joined text.
+    /// Returns the author's positions of a range of the joined text.
     pub fn original(&mut self, start: u32, end: u32) -> (u32, u32) {
         while self.at > 0 && self.list[self.at - 1].0 > start {
             self.at -= 1;
@@ -25,15 +25,15 @@ impl Splices {
             self.at += 1;
         }
         let missing = |count: usize| if count == 0 { 0 } else { self.list[count - 1].1 };
-        let mut behind = self.at;
-        while self.list.get(behind).is_some_and(|splice| splice.0 < end) {
-            behind += 1;
+        let mut end_at = self.at;
+        while self.list.get(end_at).is_some_and(|splice| splice.0 < end) {
+            end_at += 1;
         }
-        (start + missing(self.at), (end + missing(behind)).max(start + missing(self.at)))
+        (start + missing(self.at), (end + missing(end_at)).max(start + missing(self.at)))
     }
 }
 
-/// Takes out every backslash that ends a line, with the line's end (section 3.1).
+/// Removes every backslash at the end of a line, with the line's end (section 3.1).
 pub(super) fn join_lines(text: &str) -> (Cow<'_, str>, Splices) {
     let bytes = text.as_bytes();
     let ending = |at: usize| match (bytes.get(at), bytes.get(at + 1)) {

@@ -4,7 +4,7 @@
 use super::{Kind, Lexer, bad_number, words};
 use eddy_diag::SourceId;
 
-/// Kind, characters in the author's text, value.
+/// Returns the kind, the characters in the author's text, and the value of each token.
 fn lex(text: &str) -> Vec<(Kind, String, u32)> {
     let mut names = words::interner();
     let mut lexer = Lexer::new(SourceId(0), text);
@@ -53,7 +53,7 @@ fn the_longest_operator_wins() {
 }
 
 #[test]
-fn comments_are_space() {
+fn comments_are_white_space() {
     assert_eq!(texts("a/* b // */c// d\ne"), ["a", "c", "e"]);
     assert_eq!(texts("a/**/b"), ["a", "b"]);
     assert_eq!(texts("a // \u{2603} \u{0} \"\nb"), ["a", "b"], "anything may stand in a comment");
@@ -62,7 +62,7 @@ fn comments_are_space() {
 }
 
 #[test]
-fn lines_end_in_three_ways() {
+fn all_three_line_ends_are_recognised() {
     for end in ["\n", "\r\n", "\r"] {
         assert_eq!(texts(&format!("a // b{end}c")), ["a", "c"]);
         assert_eq!(texts(&format!("ab\\{end}cd // x \\{end} y{end}e")).last().unwrap(), "e");
@@ -70,14 +70,14 @@ fn lines_end_in_three_ways() {
 }
 
 #[test]
-fn a_joined_line_keeps_its_places() {
+fn joined_lines_keep_original_positions() {
     let text = "fl\\\noat x\\\r\n = 1\\\n.5;\\\n";
     let tokens = lex(text);
     let spelled: Vec<&str> = tokens.iter().map(|t| t.1.as_str()).collect();
     assert_eq!(spelled, ["fl\\\noat", "x", "=", "1\\\n.5", ";"]);
     assert_eq!(words::kind(tokens[0].2), Kind::Type);
     assert_eq!(f32::from_bits(tokens[3].2), 1.5);
-    // Only a backslash that ends its line joins.
+    // Only a backslash at the end of its line joins.
     assert_eq!(kinds("a \\ \nb"), [Kind::Ident, Kind::BadChar, Kind::Ident]);
 }
 
@@ -113,7 +113,7 @@ fn numbers() {
 }
 
 #[test]
-fn numbers_that_are_none_say_why() {
+fn invalid_numbers_have_a_reason() {
     for (text, expected) in [
         ("1f", "takes no `f`"),
         ("08", "octal"),
@@ -141,7 +141,7 @@ fn numbers_that_are_none_say_why() {
 }
 
 #[test]
-fn foreign_characters_are_tokens_of_their_own() {
+fn foreign_characters_are_separate_tokens() {
     use Kind::*;
     assert_eq!(kinds("a \u{201c}b\u{201d} c"), [Ident, BadChar, Ident, BadChar, Ident]);
     assert_eq!(kinds("\u{3b1} = \u{e9}t\u{e9}2;"), [BadName, Equal, BadName, Semicolon]);
@@ -151,7 +151,7 @@ fn foreign_characters_are_tokens_of_their_own() {
 }
 
 #[test]
-fn words_know_what_they_are() {
+fn words_are_classified() {
     let mut names = words::interner();
     let mut kind = |word: &str| words::kind(names.intern(word).0);
     for word in ["vec3", "mat2x2", "mat4x4", "usampler2DArray", "void"] {
@@ -160,7 +160,7 @@ fn words_know_what_they_are() {
     for word in ["sample", "filter", "input", "double", "varying", "isampler2DMS", "using", "attribute"] {
         assert_eq!(kind(word), Kind::Reserved, "{word}");
     }
-    // Kept for other versions only, so names here.
+    // Reserved only in other versions, so plain names here.
     for word in
         ["buffer", "shared", "sampler", "texture2D", "precise", "packed", "dmat2", "samplerCubeArray", "sin", "iTime"]
     {

@@ -1,18 +1,18 @@
-//! Says what the lexer reads a text into.
+//! The tokens of the lexer.
 
 use crate::ast::ExpansionId;
 use eddy_diag::Span;
 
-/// Says what a token is. Keywords appear only behind the preprocessor, to which they are names like any other.
+/// The kind of a token. Keywords appear only after the preprocessor, which treats them as ordinary names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub(crate) enum Kind {
     Eof,
-    /// End of a directive's line; the lexer gives it only in a directive.
+    /// End of a directive's line; the lexer returns it only inside a directive.
     Newline,
     /// Value: the symbol.
     Ident,
-    /// Value: the bits. `Int` is as section 4.1.3 reads it.
+    /// Value: the bits. `Int` is parsed as in section 4.1.3.
     Int,
     Uint,
     Float,
@@ -24,11 +24,11 @@ pub(crate) enum Kind {
     BadName,
     /// `"text"`.
     Text,
-    /// `/*` that is never closed; reaches to the end of the text.
+    /// `/*` that is never closed; extends to the end of the text.
     OpenComment,
     /// A parameter in a macro's replacement list. Value: its number.
     Param,
-    /// Reported already; stands for any operand.
+    /// Reported already; accepted as any operand.
     Wrong,
     Hash,
     HashHash,
@@ -79,7 +79,7 @@ pub(crate) enum Kind {
     CaretEqual,
     /// A keyword type. Value: the symbol, see [`super::words::basic_type`].
     Type,
-    /// A word kept for future use. Value: the symbol.
+    /// A word reserved for future use. Value: the symbol.
     Reserved,
     Const,
     In,
@@ -113,7 +113,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// Returns whether it is a keyword: one of the language's words, types and reserved words included.
+    /// Returns whether it is a keyword: one of the language's words, including types and reserved words.
     #[inline]
     pub fn is_keyword(self) -> bool {
         use Kind::*;
@@ -140,7 +140,7 @@ impl Kind {
             )
     }
 
-    /// Returns whether it begins a qualifier of a declaration.
+    /// Returns whether it starts a qualifier of a declaration.
     #[inline]
     pub fn is_qualifier(self) -> bool {
         use Kind::*;
@@ -150,7 +150,7 @@ impl Kind {
         )
     }
 
-    /// Returns whether it is an operator that has an operand on its right; `++` and `--` may stand behind theirs.
+    /// Returns whether it is an operator that has an operand on its right; `++` and `--` may follow theirs.
     #[inline]
     pub fn is_operator(self) -> bool {
         use Kind::*;
@@ -193,20 +193,20 @@ impl Kind {
     }
 }
 
-/// White space or a comment stands before the token.
+/// White space or a comment precedes the token.
 pub(crate) const SPACE: u8 = 1;
 /// First token of its line.
 pub(crate) const LINE_START: u8 = 2;
-/// A macro's name that is to be left alone from now on, because it came up while that macro was being expanded.
+/// A macro's name that is never expanded, because it occurred during the expansion of that macro.
 pub(crate) const PAINTED: u8 = 4;
 
-/// A token on its way through the preprocessor.
+/// A token inside the preprocessor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Token {
     pub kind: Kind,
     pub flags: u8,
     pub value: u32,
-    /// Says where its characters are.
+    /// The place of its characters.
     pub span: Span,
     /// The use whose replacement list it comes from.
     pub expansion: Option<ExpansionId>,

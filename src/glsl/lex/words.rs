@@ -1,4 +1,4 @@
-//! Keywords and reserved words (section 3.8), and the interner every compile starts from.
+//! Keywords and reserved words (section 3.8), and the interner that every compile starts from.
 //!
 //! Names that only desktop GLSL or later versions reserve (`buffer`, `sampler`, `texture2D`, `shared`, `precise`) are
 //! plain names here, as they are in GLSL ES 3.00.
@@ -15,7 +15,7 @@ const FIRST_KEYWORD: u32 = FIRST_TYPE + BasicType::ALL.len() as u32 + TYPE_ALIAS
 const FIRST_RESERVED: u32 = FIRST_KEYWORD + KEYWORDS.len() as u32;
 const END: u32 = FIRST_RESERVED + RESERVED.len() as u32;
 
-/// Second spellings of square matrices.
+/// Alternative spellings of square matrices.
 const TYPE_ALIASES: [(&str, BasicType); 3] =
     [("mat2x2", BasicType::Mat2x2), ("mat3x3", BasicType::Mat3x3), ("mat4x4", BasicType::Mat4x4)];
 
@@ -51,8 +51,8 @@ const KEYWORDS: [(&str, Kind); 29] = [
     ("false", Kind::False),
 ];
 
-/// Words that browsers refuse as names, by ANGLE's lexer (`glslang.l`, words reserved for GLSL ES 3.00). Some drivers
-/// take a few of them (Mesa: `image1DShadow`), but no program on the site can have them.
+/// Words that browsers reject as names, by ANGLE's lexer (`glslang.l`, words reserved for GLSL ES 3.00). Some drivers
+/// accept a few of them (Mesa: `image1DShadow`), but no program on Shadertoy can use them.
 #[rustfmt::skip]
 const RESERVED: &[&str] = &[
     "attribute", "varying", "coherent", "volatile", "restrict", "readonly", "writeonly", "resource", "atomic_uint",
@@ -69,27 +69,27 @@ const RESERVED: &[&str] = &[
     "image2DShadow", "image1DArrayShadow", "image2DArrayShadow", "sizeof", "cast", "namespace", "using",
 ];
 
-/// Returns whether the language knows the word, as a keyword, a type or by any other meaning.
+/// Returns whether the word belongs to the language, as a keyword, a type or otherwise.
 pub(crate) fn is_word(name: &str) -> bool {
     seeded().find(name).is_some()
 }
 
-/// Returns every keyword that is no type.
+/// Returns every keyword that is not a type.
 pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
     KEYWORDS.iter().map(|k| k.0)
 }
 
-/// The part that a word has in the language.
+/// The role of a word in the language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meaning {
     Builtin,
     Uniform,
     Type,
-    /// A keyword that is no type, or a reserved word.
+    /// A keyword that is not a type, or a reserved word.
     Keyword,
 }
 
-/// Returns what a word of the language is; `None` for an author's name.
+/// Returns the meaning of a word of the language; `None` for an author's name.
 pub(crate) fn meaning(name: &str) -> Option<Meaning> {
     let symbol = seeded().find(name)?.0;
     Some(match symbol {
@@ -100,7 +100,7 @@ pub(crate) fn meaning(name: &str) -> Option<Meaning> {
     })
 }
 
-/// Returns an interner that knows all words of the language.
+/// Returns an interner that contains all words of the language.
 pub(crate) fn interner() -> Interner {
     seeded().clone()
 }
@@ -120,10 +120,10 @@ fn seeded() -> &'static Interner {
     &SEEDED
 }
 
-/// `Ident`, or which keyword a name is.
+/// Returns `Ident`, or the keyword that a name is.
 #[inline]
 pub(crate) fn kind(symbol: u32) -> Kind {
-    // One comparison for the names of the author, which come after the seed.
+    // A single comparison for the author's names, which come after the seed.
     if !(FIRST_TYPE..END).contains(&symbol) {
         Kind::Ident
     } else if symbol < FIRST_KEYWORD {

@@ -1,17 +1,17 @@
-//! Pairs of brackets, found before parsing: they tell what `a[..] b` is without trying both, and let the parser step
-//! over a group that it did not understand.
+//! Pairs of brackets, found before parsing: they decide `a[..] b` without backtracking, and let the parser skip a group
+//! that it did not understand.
 
 use crate::{lex::Kind, preprocess::Tok};
 
-/// The partner of a bracket that has none.
+/// The partner of an unmatched bracket.
 pub(crate) const ALONE: u32 = u32::MAX;
 
-/// Writes into the value of each bracket from `begin` on the index of its partner, or [`ALONE`]. Text with mistakes is
-/// paired the way its author most likely meant it: a closing brace closes what is still open inside it, a semicolon or
-/// an opening brace ends parentheses (but those of `for` hold semicolons).
-pub(crate) fn pair(tokens: &mut [Tok], begin: usize) {
+/// Stores in the value of each bracket from `start` on the index of its partner, or [`ALONE`]. Incorrect text is paired
+/// the way its author most likely meant it: a closing brace closes everything still open inside it, a semicolon or an
+/// opening brace ends parentheses (except those of `for`, which contain semicolons).
+pub(crate) fn pair(tokens: &mut [Tok], start: usize) {
     let mut open = Open::default();
-    for i in begin..tokens.len() {
+    for i in start..tokens.len() {
         match tokens[i].kind {
             Kind::LParen | Kind::LBracket => open.push(tokens, i),
             Kind::LBrace => {
@@ -35,16 +35,17 @@ pub(crate) fn pair(tokens: &mut [Tok], begin: usize) {
     }
 }
 
-/// Brackets that wait for their partners.
+/// Brackets that have not been closed yet.
 #[derive(Default)]
 struct Open {
     list: Vec<u32>,
-    /// Parentheses, square brackets, braces: how many of each are in the list. What has none to close is then told
-    /// without a search, so that a line of a million brackets of the wrong kind takes no longer than any other.
+    /// The number of parentheses, square brackets and braces in the list. A closing bracket without any to close is
+    /// then found without a search, so that a line of a million brackets of the wrong kind takes no longer than any
+    /// other.
     counts: [usize; 3],
 }
 
-fn number(kind: Kind) -> usize {
+fn kind_index(kind: Kind) -> usize {
     match kind {
         Kind::LParen => 0,
         Kind::LBracket => 1,
@@ -55,7 +56,7 @@ fn number(kind: Kind) -> usize {
 impl Open {
     fn push(&mut self, tokens: &mut [Tok], i: usize) {
         tokens[i].value = ALONE;
-        self.counts[number(tokens[i].kind)] += 1;
+        self.counts[kind_index(tokens[i].kind)] += 1;
         self.list.push(i as u32);
     }
 
@@ -65,7 +66,7 @@ impl Open {
 
     fn pop(&mut self, tokens: &[Tok]) -> Option<usize> {
         let top = self.list.pop()? as usize;
-        self.counts[number(tokens[top].kind)] -= 1;
+        self.counts[kind_index(tokens[top].kind)] -= 1;
         Some(top)
     }
 
@@ -75,11 +76,11 @@ impl Open {
         }
     }
 
-    /// Looks from the inside out for what a closing bracket closes, but for a parenthesis or square bracket not beyond
-    /// a brace: an opening brace has dropped those before it.
+    /// Searches from the inside out for the bracket that a closing one closes. For a parenthesis or square bracket the
+    /// search does not go beyond a brace: an opening brace has dropped those before it.
     fn close(&mut self, tokens: &mut [Tok], i: usize, wanted: Kind) {
         tokens[i].value = ALONE;
-        if self.counts[number(wanted)] == 0 {
+        if self.counts[kind_index(wanted)] == 0 {
             return;
         }
         while let Some(partner) = self.pop(tokens) {

@@ -1,4 +1,4 @@
-//! Declarations: the file's items, variables, blocks, qualifiers (chapter 4).
+//! Declarations: items at file scope, variables, blocks, qualifiers (chapter 4).
 
 use super::{
     hint,
@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Parser<'_> {
-    /// Reads the whole text.
+    /// Parses the whole text.
     pub(super) fn file(&mut self) {
         loop {
             let first = self.at;
@@ -32,7 +32,7 @@ impl Parser<'_> {
                     continue;
                 }
                 _ if self.begins_declaration() => self.attempt(|p| p.declaration(true)),
-                _ => Err(self.outside()),
+                _ => Err(self.report_outside()),
             };
             let item = match item {
                 Ok(item) => {
@@ -57,8 +57,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Reports something at file scope that is no declaration.
-    fn outside(&mut self) -> Failed {
+    /// Reports text at file scope that is not a declaration.
+    fn report_outside(&mut self) -> Failed {
         let i = self.at;
         if std::mem::replace(&mut self.adrift, true) {
             return Failed;
@@ -110,7 +110,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a declaration to behind its `;` or body.
+    /// Parses a declaration, including its `;` or body.
     pub(super) fn declaration(&mut self, at_file: bool) -> Parse<DeclId> {
         let first = self.at;
         if self.eat(Kind::Precision) {
@@ -145,26 +145,26 @@ impl Parser<'_> {
         if self.is_function() {
             return self.function(first, qualifiers, ty, at_file);
         }
-        // The grammar lets the first declarator be empty: `struct S { .. }, a;`.
+        // The grammar allows an empty first declarator: `struct S { .. }, a;`.
         self.eat(Kind::Comma);
         let declarators = if self.kind() == Kind::Semicolon { List::EMPTY } else { self.declarators(ty)? };
         if self.semicolon().is_err() {
-            // The names are known all the same.
+            // The names are declared nevertheless.
             self.recover();
         }
         let loc = self.loc(first);
         Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators }, loc))
     }
 
-    /// Returns whether a name and parameters follow. A keyword as the name is told when it is read; a number as the
-    /// first parameter makes it a variable of C++.
+    /// Returns whether a name and parameters follow. A keyword as the name is reported when it is parsed; a number as
+    /// the first argument makes it a C++-style variable.
     fn is_function(&self) -> bool {
         (self.kind() == Kind::Ident || self.kind().is_keyword())
             && self.second() == Kind::LParen
             && !matches!(self.kind_at(self.at + 2), Kind::Int | Kind::Uint | Kind::Float | Kind::Minus)
     }
 
-    /// Declarations that have qualifiers and no type.
+    /// Parses declarations that have qualifiers but no type.
     fn without_type(&mut self, first: usize, qualifiers: List<Qualifier>) -> Parse<Option<DeclId>> {
         let kind = match (self.kind(), self.second()) {
             (Kind::Semicolon, _) => {
@@ -227,7 +227,7 @@ impl Parser<'_> {
                     continue;
                 }
                 Kind::Reserved if hint::is_qualifier(self.text(self.at)) => {
-                    // Left out, so that the rest of the declaration holds.
+                    // Left out, so that the rest of the declaration is valid.
                     self.reserved(self.at);
                     self.bump();
                     continue;
@@ -240,10 +240,9 @@ impl Parser<'_> {
         Ok(self.ast.list(&found))
     }
 
-    /// Reads a type behind its qualifiers. Those behind the type, where C++ lets them stand, are reported once and taken
-    /// for what they are.
+    /// Parses a type after its qualifiers. Qualifiers after the type, which C++ allows, are reported once and accepted.
     pub(super) fn qualified_type(&mut self, qualifiers: &mut List<Qualifier>) -> Parse<TypeSpecId> {
-        let begin = self.at;
+        let start = self.at;
         let ty = self.type_spec()?;
         if !self.kind().is_qualifier() {
             return Ok(ty);
@@ -252,15 +251,15 @@ impl Parser<'_> {
         let late = self.qualifiers()?;
         let mut all: Vec<Qualifier> = self.ast[*qualifiers].to_vec();
         all.extend_from_slice(&self.ast[late]);
-        // An order that is wrong besides is told of by the checker.
+        // Sorted, so that the checker does not report the order as well.
         all.sort_by_key(|qualifier| qualifier.kind.rank());
-        // A struct that is defined here is not written out again.
-        let is_short = end - begin < 4;
+        // The definition of a struct is not repeated in the fix.
+        let is_short = end - start < 4;
         let shown = self.text(first).to_owned();
         let name = if self.kind() == Kind::Ident { format!(" {}", self.text(self.at)) } else { String::new() };
-        let hint = match is_short && matches!(self.kind_at(begin), Kind::Type | Kind::Ident) {
+        let hint = match is_short && matches!(self.kind_at(start), Kind::Type | Kind::Ident) {
             true => {
-                format!("write `{} {}{name}`", self.written(first..self.at), self.written(begin..end + 1))
+                format!("write `{} {}{name}`", self.source_text(first..self.at), self.source_text(start..end + 1))
             }
             false => format!("write `{shown}` before the type"),
         };
@@ -269,8 +268,8 @@ impl Parser<'_> {
         Ok(ty)
     }
 
-    /// Returns tokens as the author wrote them, in one line.
-    fn written(&self, tokens: std::ops::Range<usize>) -> String {
+    /// Returns tokens as the author wrote them, on one line.
+    fn source_text(&self, tokens: std::ops::Range<usize>) -> String {
         let mut out = String::new();
         for i in tokens.clone() {
             if i > tokens.start && !self.adjacent(i - 1) {
@@ -281,7 +280,7 @@ impl Parser<'_> {
         out
     }
 
-    /// Reads `layout(location = 0, std140)`.
+    /// Parses `layout(location = 0, std140)`.
     fn layout(&mut self) -> Parse<List<LayoutItem>> {
         self.bump();
         let open = self.at;
@@ -301,7 +300,7 @@ impl Parser<'_> {
         Ok(self.ast.list(&items))
     }
 
-    /// Reads `a = .., b[2]` of variables of a type.
+    /// Parses `a = .., b[2]` of variables of a type.
     pub(super) fn declarators(&mut self, ty: TypeSpecId) -> Parse<List<Declarator>> {
         let mut found = std::mem::take(&mut self.declarators);
         found.clear();
@@ -316,7 +315,7 @@ impl Parser<'_> {
         };
         let list = self.ast.list(&found);
         self.declarators = found;
-        // What was declared before a mistake stays declared.
+        // Names that were declared before an error stay declared.
         if list.is_empty() { read.map(|()| list) } else { Ok(list) }
     }
 
@@ -332,25 +331,25 @@ impl Parser<'_> {
                     Kind::LBrace if self.dialect.has_lists() => self.list_initializer(ty, dims),
                     _ => self.full_assignment(),
                 };
-                Some(read.unwrap_or_else(|Failed| self.lost_value(first)))
+                Some(read.unwrap_or_else(|Failed| self.error_value(first)))
             }
             Kind::LParen => {
                 let name = self.text(first - 1).to_owned();
                 let hint = format!("write `{name} = ..`, with a constructor for several values");
                 self.error(first, "GLSL gives a variable its value with `=`", Some(hint));
-                Some(self.lost_value(first))
+                Some(self.error_value(first))
             }
             Kind::LBrace => {
                 self.error(first, "GLSL gives a variable its value with `=`", None);
-                Some(self.lost_value(first))
+                Some(self.error_value(first))
             }
             _ => None,
         };
         Ok(Declarator { name, dims, init })
     }
 
-    /// Reads `{a, {b, c}}` as the constructor that it stands for (GLSL 4.30, section 4.1.11): of an array where the type or
-    /// the name has dimensions, else of the type. A list in it is a value of the type without dimensions.
+    /// Parses `{a, {b, c}}` as the equivalent constructor (GLSL 4.30, section 4.1.11): of an array if the type or the
+    /// name has dimensions, otherwise of the type. A nested list is a value of the type without dimensions.
     fn list_initializer(&mut self, ty: TypeSpecId, dims: List<Dim>) -> Parse<ExprId> {
         let first = self.at;
         let spec = self.ast[ty];
@@ -385,13 +384,13 @@ impl Parser<'_> {
         Ok(self.ast.expr(node, loc))
     }
 
-    /// Passes a value that was not understood.
-    fn lost_value(&mut self, first: usize) -> ExprId {
+    /// Skips a value that could not be parsed.
+    fn error_value(&mut self, first: usize) -> ExprId {
         self.skip_to_comma();
         self.error_expr(first)
     }
 
-    /// Passes the rest of an item of a list.
+    /// Skips the rest of an item of a list.
     pub(super) fn skip_to_comma(&mut self) {
         let start = self.at;
         loop {

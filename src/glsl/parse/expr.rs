@@ -1,4 +1,4 @@
-//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no
+//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length use no
 //! stack.
 
 use super::parser::{MAX_LEVELS, Parse, Parser};
@@ -56,17 +56,17 @@ fn assign_op(kind: Kind) -> Option<Option<BinaryOp>> {
 }
 
 impl Parser<'_> {
-    /// Reads a full expression: its nodes are contiguous, and none is left where it fails.
+    /// Parses a full expression: its nodes are contiguous, and none is left if it fails.
     pub(super) fn full_expression(&mut self) -> Parse<ExprId> {
         self.full(Self::expression)
     }
 
-    /// Reads a full expression without the comma operator.
+    /// Parses a full expression without the comma operator.
     pub(super) fn full_assignment(&mut self) -> Parse<ExprId> {
         self.full(Self::assignment)
     }
 
-    /// Reads an expression within another. Parentheses and operators may nest deeper than a thread's stack reaches.
+    /// Parses an expression within another. Parentheses and operators may nest deeper than a thread's stack allows.
     fn level(&mut self, part: fn(&mut Self) -> Parse<ExprId>) -> Parse<ExprId> {
         self.levels += 1;
         if self.levels > MAX_LEVELS {
@@ -84,7 +84,7 @@ impl Parser<'_> {
         read
     }
 
-    /// Reads `expression`, with commas.
+    /// Parses `expression`, with commas.
     fn expression(&mut self) -> Parse<ExprId> {
         let first = self.at;
         let mut lhs = self.assignment()?;
@@ -121,7 +121,7 @@ impl Parser<'_> {
         Ok(lhs)
     }
 
-    /// Reports `a =+ b`, which is `a = +b`, which nobody writes on purpose.
+    /// Reports `a =+ b`, which is `a = +b` and never intended.
     pub(super) fn check_unary_slip(&mut self) {
         let i = self.at;
         if self.kind() == Kind::Plus && self.kind_at(i - 1) == Kind::Equal && self.adjacent(i - 1) && !self.adjacent(i)
@@ -139,7 +139,7 @@ impl Parser<'_> {
                 break;
             }
             self.bump();
-            // No more than one for each precedence.
+            // At most one level of recursion for each precedence.
             let rhs = self.binary(level + 1)?;
             let loc = self.loc(first);
             lhs = self.ast.expr(ExprKind::Binary { op, lhs, rhs }, loc);
@@ -198,7 +198,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a member, swizzle or `length()`; the point was read.
+    /// Parses a member, swizzle or `length()`; the point has been consumed.
     fn after_dot(&mut self, base: ExprId) -> Parse<ExprKind> {
         let name = self.ident("a member or components after `.`")?;
         if self.kind() != Kind::LParen {
@@ -246,7 +246,7 @@ impl Parser<'_> {
                 return Ok(inner);
             }
             Kind::Wrong => {
-                // What follows it belonged to it: `(..)` of a bad macro call has been read with it.
+                // What follows belonged to it: the `(..)` of an invalid macro call has been consumed with it.
                 ExprKind::Error
             }
             Kind::Reserved => {
@@ -272,7 +272,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(node, loc))
     }
 
-    /// Returns whether a name and brackets follow, and then `(`: `S[2](..)`.
+    /// Returns whether a name, brackets and then `(` follow: `S[2](..)`.
     fn is_array_constructor(&self, name: usize) -> bool {
         self.partner(name + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::LParen)
     }
@@ -286,7 +286,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(ExprKind::Call { name, args }, loc))
     }
 
-    /// Reads `vec3(..)`, `float[2](..)`, `S[](..)`.
+    /// Parses `vec3(..)`, `float[2](..)`, `S[](..)`.
     fn constructor(&mut self) -> Parse<ExprId> {
         let first = self.at;
         let kind = match self.kind() {
@@ -305,7 +305,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(ExprKind::Construct { ty, args }, loc))
     }
 
-    /// Reads `(a, b)`; `()` and `(void)` are empty.
+    /// Parses `(a, b)`; `()` and `(void)` are empty.
     fn arguments(&mut self) -> Parse<List<ExprId>> {
         let open = self.at;
         self.bump();

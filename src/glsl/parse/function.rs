@@ -7,7 +7,7 @@ use crate::{
 };
 
 impl Parser<'_> {
-    /// Reads a prototype or definition; qualifiers and result were read.
+    /// Parses a prototype or definition; qualifiers and result type have been consumed.
     pub(super) fn function(
         &mut self,
         first: usize,
@@ -42,7 +42,7 @@ impl Parser<'_> {
         Ok(self.ast.decl(DeclKind::Function(function), loc))
     }
 
-    /// Parameters up to behind `)`.
+    /// Parses parameters, including the `)`.
     fn parameters(&mut self, open: usize) -> Parse<List<Param>> {
         let is_void = self.kind() == Kind::Type && self.second() == Kind::RParen && self.text(self.at) == "void";
         if is_void {
@@ -91,7 +91,7 @@ impl Parser<'_> {
         Ok(Param { qualifiers, ty, name, dims, loc })
     }
 
-    /// Reads the body of a function, or a block in one.
+    /// Parses the body of a function, or a block in one.
     pub(super) fn block(&mut self) -> Parse<StmtId> {
         let first = self.at;
         self.enter()?;

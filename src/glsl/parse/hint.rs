@@ -2,7 +2,7 @@
 
 use crate::{ast::BasicType, preprocess::Unit};
 
-/// Returns the mend for a reserved word, where another than a new name.
+/// Returns the fix for a reserved word, if it is not just a new name.
 pub(super) fn reserved(word: &str, unit: Unit) -> Option<&'static str> {
     Some(match word {
         "static" => "remove it: use `const`",
@@ -27,7 +27,7 @@ pub(super) fn reserved(word: &str, unit: Unit) -> Option<&'static str> {
     })
 }
 
-/// Returns whether a reserved word stands before a type in other languages.
+/// Returns whether a reserved word precedes a type in other languages.
 pub(super) fn is_qualifier(word: &str) -> bool {
     #[rustfmt::skip]
     let words = [
@@ -37,12 +37,12 @@ pub(super) fn is_qualifier(word: &str) -> bool {
     words.contains(&word)
 }
 
-/// Returns whether a reserved word begins a declaration of something GLSL does not have.
+/// Returns whether a reserved word starts a declaration of something GLSL does not have.
 pub(super) fn begins_foreign_declaration(word: &str) -> bool {
     matches!(word, "class" | "enum" | "typedef" | "template" | "using" | "namespace" | "union" | "interface")
 }
 
-/// Returns the type that another language calls so.
+/// Returns the type that has this name in another language.
 pub(crate) fn foreign_type(word: &str) -> Option<BasicType> {
     use BasicType::*;
     Some(match word {
@@ -69,7 +69,7 @@ pub(crate) fn foreign_type(word: &str) -> Option<BasicType> {
     })
 }
 
-/// Words of other languages before a name that is declared without its type.
+/// Returns whether a word of another language starts a declaration without a type.
 pub(super) fn is_typeless(word: &str) -> bool {
     matches!(word, "let" | "var" | "auto" | "val" | "def" | "fn" | "func" | "function" | "constexpr" | "local")
 }

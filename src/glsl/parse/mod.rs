@@ -1,12 +1,12 @@
 //! The parser (chapter 9): tokens to [`Ast`], with recovery.
 //!
-//! Owns [`parse`], every message about form, and reserved words. Whether names exist, types fit or a statement is at
-//! its place is the checker's. No symbol table is needed: two names in a row are a declaration, a name before `[..](` a
-//! constructor, and everything else is decided by the first tokens.
+//! Owns [`parse`], every message about syntax, and reserved words. Whether names exist, types match or a statement is
+//! allowed at its place is left to the checker. No symbol table is needed: two names in a row are a declaration, a name
+//! before `[..](` is a constructor, and everything else is decided by the first tokens.
 //!
-//! Recovery: a mistake gives up the smallest group around it that can be told apart (an initialiser, a parameter, a
-//! condition, a statement, a declaration), leaves an `Error` node there and goes on. A message is not repeated for the
-//! same token, and nothing is said about operands that the preprocessor has reported.
+//! Recovery: on an error the parser abandons the smallest recognisable group around it (an initialiser, a parameter, a
+//! condition, a statement, a declaration), leaves an `Error` node there and continues. No second message is reported
+//! for the same token, and none for operands that the preprocessor has reported.
 
 pub(super) mod brackets;
 mod decl;
@@ -34,7 +34,7 @@ use super::{
 };
 use parser::Parser;
 
-/// Texts as the checker takes them, and what the reader goes on with where further texts follow.
+/// Parsed texts for the checker, and the state from which further texts are parsed.
 #[derive(Clone)]
 pub(crate) struct Parsed {
     pub ast: Ast,
@@ -45,16 +45,16 @@ pub(crate) struct Parsed {
     reader: Reader,
 }
 
-/// State that texts leave to those that follow them.
+/// State that texts pass on to the texts that follow them.
 #[derive(Default)]
 struct Reader {
-    /// As many as `origins.tokens`.
+    /// The same number as `origins.tokens`.
     tokens: Vec<Tok>,
     macros: MacroTable,
     /// The number of pieces that were read.
     pieces: usize,
     has_line_numbers: bool,
-    /// Says whether a struct has the name, by symbol.
+    /// True if a struct has the name, by symbol.
     structs: Vec<bool>,
 }
 
@@ -82,13 +82,13 @@ impl Parsed {
         }
     }
 
-    /// Returns whether these texts mean the same whatever follows them and whichever unit they are part of: they end
-    /// between two declarations, with all conditionals and comments closed, and hold no number of a line.
+    /// Returns whether the meaning of these texts is independent of what follows and of the unit: they end between two
+    /// declarations, with all conditionals and comments closed, and do not use line numbers.
     pub fn stands_alone(&self) -> bool {
         !self.report.has_errors() && !self.reader.has_line_numbers
     }
 
-    /// Returns, by symbol, whether some token is this name.
+    /// Returns for each symbol whether some token is this name.
     pub fn mentioned(&self) -> Vec<bool> {
         let mut mentioned = vec![false; self.names.len()];
         for token in self.reader.tokens.iter().filter(|token| token.kind == Kind::Ident) {
@@ -98,7 +98,7 @@ impl Parsed {
     }
 }
 
-/// Preprocesses and parses a pass behind its Common, which may be read `already`. Any text gives a tree.
+/// Preprocesses and parses a pass after its Common, which may have been parsed `already`. Every text results in a tree.
 pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
     let pieces = pieces::of(&texts, source.includes);
@@ -106,12 +106,12 @@ pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed
     read(&pieces, unit, already.map_or_else(Parsed::nothing, Parsed::clone))
 }
 
-/// Preprocesses and parses Common alone.
+/// Preprocesses and parses Common by itself.
 pub(super) fn parse_common(pieces: &[Piece<'_>]) -> Parsed {
     read(pieces, (Unit::CommonAlone, Dialect::default(), Cancel::default()), Parsed::nothing())
 }
 
-/// Preprocesses and parses the pieces behind what is `done`.
+/// Preprocesses and parses the pieces after those of `done`.
 fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect, Cancel<'_>), done: Parsed) -> Parsed {
     on_deep_stack(|| read_here(pieces, unit, done))
 }
@@ -119,17 +119,17 @@ fn read(pieces: &[Piece<'_>], unit: (Unit, Dialect, Cancel<'_>), done: Parsed) -
 fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Cancel<'_>), done: Parsed) -> Parsed {
     let Parsed { ast, origins, mut names, mut report, reader } = done;
     let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
-    let begin = tokens.len().saturating_sub(1);
+    let start = tokens.len().saturating_sub(1);
     let done =
         Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers, is_stopped: false };
     let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
         preprocess(pieces, (unit, dialect, cancel), done, &mut names, &mut report);
-    brackets::pair(&mut tokens, begin);
+    brackets::pair(&mut tokens, start);
     let end = tokens.len() - 1;
     structs.resize(names.len(), false);
     let mut parser = Parser {
         tokens,
-        at: begin,
+        at: start,
         ast,
         origins,
         names: &names,
@@ -150,11 +150,11 @@ fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Canc
         adrift: false,
         reported_too_deep: false,
     };
-    parser.ast.exprs.reserve((end - begin) / 2);
+    parser.ast.exprs.reserve((end - start) / 2);
     parser.file();
     if is_stopped {
-        // Nothing is said to be missing.
-        let nothing = parser.loc(begin);
+        // Nothing is reported as missing.
+        let nothing = parser.loc(start);
         let item = parser.ast.decl(DeclKind::Error, nothing);
         parser.ast.items.push(item);
     }

@@ -1,4 +1,4 @@
-//! The parser's state, and what every rule of the grammar needs: tokens, places, depth, names.
+//! The parser's state, and what every rule of the grammar needs: tokens, positions, depth, names.
 
 use super::{brackets, hint};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
     source::Dialect,
 };
 
-/// Something was not understood, and it was reported.
+/// A part could not be parsed, and the error was reported.
 pub(super) struct Failed;
 
 pub(super) type Parse<T> = Result<T, Failed>;
@@ -28,33 +28,33 @@ pub(super) struct Parser<'p> {
     pub unit: Unit,
     pub dialect: Dialect,
     pub cancel: Cancel<'p>,
-    /// Statements around the next token.
+    /// The number of statements around the next token.
     pub depth: u32,
-    /// Parentheses, operators and calls around it in its expression.
+    /// The number of parentheses, operators and calls around it in its expression.
     pub levels: u32,
-    /// Children of lists that are being read, of all that are open.
+    /// Children of all lists that are being parsed.
     pub expr_stack: Vec<ExprId>,
     pub stmt_stack: Vec<StmtId>,
-    /// Kept for its memory.
+    /// Kept to reuse its allocation.
     pub declarators: Vec<Declarator>,
     /// Token of the last error.
     pub last_error: Option<usize>,
     /// Reserved words that were reported.
     pub reported_reserved: Vec<u32>,
-    /// Says whether a struct has the name, by symbol.
+    /// True if a struct has the name, by symbol.
     pub structs: Vec<bool>,
-    /// The opening brace of the function that is being read, and its name.
+    /// The opening brace and the name of the function that is being parsed.
     pub body: Option<(usize, Ident)>,
-    /// A brace too many left the parser outside of functions; said once.
+    /// A surplus closing brace left the parser outside of functions; reported once.
     pub adrift: bool,
     pub reported_too_deep: bool,
 }
 
-/// Section 3.9 leaves the limit open; WebGL 2 has this one.
+/// Section 3.9 does not define the limit; this is WebGL 2's.
 const MAX_NAME: usize = 1024;
 
-/// The depth to which an expression may nest as it is written, parentheses counted. ANGLE's parser keeps at most 10,000
-/// symbols, of which each level takes one or more. How deep its tree may be is the checker's matter.
+/// The depth to which an expression may nest as written, including parentheses. ANGLE's parser keeps at most 10,000
+/// symbols, of which each level takes one or more. The checker limits the depth of its tree.
 pub(super) const MAX_LEVELS: u32 = 10_000;
 
 impl Parser<'_> {
@@ -68,7 +68,7 @@ impl Parser<'_> {
         self.tokens.get(i).map_or(Kind::Eof, |t| t.kind)
     }
 
-    /// Returns the kind of the token behind the next one.
+    /// Returns the kind of the token after the next one.
     #[inline]
     pub fn second(&self) -> Kind {
         self.kind_at(self.at + 1)
@@ -81,7 +81,7 @@ impl Parser<'_> {
 
     #[inline]
     pub fn bump(&mut self) {
-        // The end stays the next token for good.
+        // The parser never moves past the end token.
         if self.at + 1 < self.tokens.len() {
             self.at += 1;
         }
@@ -108,7 +108,7 @@ impl Parser<'_> {
         TokenId(i as u32)
     }
 
-    /// Returns the place from a token to the last one read.
+    /// Returns the range from a token to the last consumed one.
     #[inline]
     pub fn loc(&self, first: usize) -> Loc {
         Loc::new(Self::token(first), Self::token(self.at.saturating_sub(1).max(first)))
@@ -135,7 +135,7 @@ impl Parser<'_> {
         Failed
     }
 
-    /// Runs a part that may fail. Where it does, what it began is taken back, so that no half tree is left.
+    /// Runs a part that may fail. If it does, its expressions are discarded, so that no incomplete tree is left.
     pub fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
         let (depth, levels, exprs) = (self.depth, self.levels, self.ast.exprs.len());
         let (expr_stack, stmt_stack) = (self.expr_stack.len(), self.stmt_stack.len());
@@ -149,7 +149,7 @@ impl Parser<'_> {
         result
     }
 
-    /// Reads a closing bracket for the opening one at `open`.
+    /// Parses the closing bracket for the opening one at `open`.
     pub fn close(&mut self, open: usize, wanted: Kind) -> Parse<()> {
         if self.eat(wanted) {
             return Ok(());
@@ -160,7 +160,7 @@ impl Parser<'_> {
             _ => "`}`",
         };
         if self.partner(open).is_none() {
-            // The rest may be in order: go on as if it stood here where something else plainly begins.
+            // The rest may be correct: continue as if it were here if something else clearly starts.
             self.missing(closer, None, Some((open, "opened here")));
             if matches!(self.kind(), Kind::Semicolon | Kind::LBrace) {
                 return Ok(());
@@ -170,7 +170,7 @@ impl Parser<'_> {
         Err(self.unexpected(&format!("an operator or {closer}")))
     }
 
-    /// Reads the `;` behind a statement or declaration. Where a new line follows it is only missing, and all goes on.
+    /// Parses the `;` after a statement or declaration. Before a new line it is only missing, and parsing continues.
     pub fn semicolon(&mut self) -> Parse<()> {
         if self.eat(Kind::Semicolon) {
             return Ok(());
@@ -186,7 +186,7 @@ impl Parser<'_> {
         Err(self.unexpected("`;`"))
     }
 
-    /// Returns whether a token can begin a statement or declaration.
+    /// Returns whether a token can start a statement or declaration.
     pub fn begins_anew(&self, i: usize) -> bool {
         !matches!(
             self.kind_at(i),
@@ -210,7 +210,7 @@ impl Parser<'_> {
         )
     }
 
-    /// Reads a name that is being declared.
+    /// Parses a name that is being declared.
     pub fn declared(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         let ident = self.ident(what)?;
@@ -233,7 +233,7 @@ impl Parser<'_> {
         Ok(ident)
     }
 
-    /// Reads a name. A reserved word is reported once and taken for one.
+    /// Parses a name. A reserved word is reported once and accepted as a name.
     pub fn ident(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         match self.kind() {

@@ -1,15 +1,15 @@
-//! Saying what is wrong, each mistake once, and finding the place to go on from.
+//! Reporting each syntax error once, and finding the place from which to continue.
 
 use super::parser::{Failed, Parser};
 use crate::lex::Kind;
 use eddy_diag::{Diagnostic, Span};
 
 impl Parser<'_> {
-    /// Returns the token as the author wrote it, its beginning if it is long.
+    /// Returns the token as the author wrote it, truncated if it is long.
     pub(super) fn quoted(&self, i: usize) -> String {
-        const MOST: usize = 60;
+        const MAX_QUOTED: usize = 60;
         let text = self.text(i);
-        match text.char_indices().nth(MOST) {
+        match text.char_indices().nth(MAX_QUOTED) {
             Some((end, _)) => format!("`{}...`", &text[..end]),
             None => format!("`{text}`"),
         }
@@ -26,7 +26,7 @@ impl Parser<'_> {
         if self.kind_at(i) == Kind::Eof { "the end of the text".into() } else { self.quoted(i) }
     }
 
-    /// Returns whether a token and the one before it stand in different lines (or one of them comes from a macro in a
+    /// Returns whether a token and the previous one are on different lines (or one of them comes from a macro with a
     /// line of its own).
     pub(super) fn starts_line(&self, i: usize) -> bool {
         if i == 0 || self.kind_at(i) == Kind::Eof {
@@ -46,7 +46,7 @@ impl Parser<'_> {
         first.source == second.source && first.end == second.start
     }
 
-    /// Returns whether nothing is to be said about a token: it was reported, or the message before was about it.
+    /// Returns whether a token needs no further message: it was reported, or the previous message was about it.
     pub(super) fn is_told(&self, i: usize) -> bool {
         self.last_error == Some(i) || self.kind_at(i) == Kind::Wrong || (i > 0 && self.kind_at(i - 1) == Kind::Wrong)
     }
@@ -66,20 +66,20 @@ impl Parser<'_> {
         self.report.add_in_macro(definition, diagnostic);
     }
 
-    /// Reports an error at a token that ends the group being read.
+    /// Reports an error at a token that ends the group being parsed.
     #[cold]
     pub(super) fn fail(&mut self, i: usize, message: impl Into<String>, hint: Option<String>) -> Failed {
         self.error(i, message, hint);
         Failed
     }
 
-    /// Returns the place just behind a token, where something is missing.
+    /// Returns the place directly after a token, where something is missing.
     pub(super) fn behind(&self, i: usize) -> Span {
         let span = self.origins.token_span(Self::token(i));
         Span { start: span.end, ..span }
     }
 
-    /// Reports that something is missing behind the last token.
+    /// Reports that something is missing after the last token.
     pub(super) fn missing(&mut self, what: &str, hint: Option<String>, label: Option<(usize, &str)>) {
         let here = self.at;
         let before = here.saturating_sub(1);
@@ -92,8 +92,8 @@ impl Parser<'_> {
         self.report_at(here, diagnostic);
     }
 
-    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to
-    /// before what plainly begins the next one.
+    /// Skips the rest of a declaration or statement that could not be parsed: up to and including its `;` or block, or
+    /// up to the clear start of the next one.
     pub(super) fn recover(&mut self) {
         let start = self.at;
         loop {
@@ -122,7 +122,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Returns whether the next tokens can only be the beginning of a statement or declaration.
+    /// Returns whether the next tokens can only be the start of a statement or declaration.
     pub(super) fn plainly_begins(&self) -> bool {
         match self.kind() {
             Kind::Type | Kind::Ident => self.second() == Kind::Ident,

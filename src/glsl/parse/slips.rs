@@ -1,10 +1,10 @@
-//! Reports a token that does not fit, by what the author most likely meant.
+//! Reports an unexpected token, guessing what the author meant.
 
 use super::parser::{Failed, Parser};
 use crate::lex::Kind;
 
 impl Parser<'_> {
-    /// Reports that the next token does not fit; `expected` would.
+    /// Reports that the next token is unexpected; `expected` would fit.
     #[cold]
     pub(super) fn unexpected(&mut self, expected: &str) -> Failed {
         let i = self.at;
@@ -35,7 +35,7 @@ impl Parser<'_> {
         self.fail(i, message, hint)
     }
 
-    /// Reports that the next token cannot begin an operand.
+    /// Reports that the next token cannot start an operand.
     #[cold]
     pub(super) fn no_operand(&mut self) -> Failed {
         let i = self.at;
@@ -89,7 +89,7 @@ impl Parser<'_> {
             .then(|| format!("{} gives no value: write `condition ? a : b`", self.shown(i)))
     }
 
-    /// Reports a type where a value must stand.
+    /// Reports a type where a value is expected.
     #[cold]
     pub(super) fn type_as_operand(&mut self, first: usize) -> Failed {
         let name = self.text(first).to_owned();

@@ -9,7 +9,7 @@ use crate::{
 use eddy_diag::Diagnostic;
 
 impl Parser<'_> {
-    /// Reads `{ .. }`: its statements, each mistake left behind in its own.
+    /// Parses `{ .. }`: its statements, with each error confined to its statement.
     pub(super) fn statements(&mut self) -> Parse<List<StmtId>> {
         let open = self.at;
         self.bump();
@@ -21,12 +21,12 @@ impl Parser<'_> {
                     break;
                 }
                 Kind::Eof => {
-                    self.unclosed(open);
+                    self.report_unclosed(open);
                     break;
                 }
                 _ if self.begins_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
-                    // A brace is missing above: the function goes back to file scope.
-                    self.inside_function();
+                    // A brace is missing above: the function is parsed at file scope.
+                    self.report_nested_function();
                     break;
                 }
                 _ => {}
@@ -50,9 +50,9 @@ impl Parser<'_> {
         Ok(list)
     }
 
-    /// Reports that the text ends in a block.
-    fn unclosed(&mut self, open: usize) {
-        // Of several open braces the outermost is the one without partner; the innermost message counts.
+    /// Reports that the text ends inside a block.
+    fn report_unclosed(&mut self, open: usize) {
+        // Of several open braces the outermost is the one without a partner; the innermost message is reported.
         let (brace, label) = match self.body {
             Some((brace, name)) if self.partner(brace).is_none() => {
                 (brace, format!("`{}` starts here", self.names.get(name.symbol)))
@@ -65,7 +65,7 @@ impl Parser<'_> {
         self.report_at(here, diagnostic);
     }
 
-    /// Returns whether `type name(..) {` follows, which stands at file scope only.
+    /// Returns whether `type name(..) {` follows, which is only allowed at file scope.
     fn begins_function(&self) -> bool {
         let name = self.at + 1;
         matches!(self.kind(), Kind::Type | Kind::Ident)
@@ -74,7 +74,7 @@ impl Parser<'_> {
             && self.partner(name + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::LBrace)
     }
 
-    fn inside_function(&mut self) {
+    fn report_nested_function(&mut self) {
         let Some((brace, name)) = self.body else { return };
         let here = self.at + 1;
         let outer = self.names.get(name.symbol);
@@ -154,7 +154,7 @@ impl Parser<'_> {
                 let semicolon = first > 0 && self.kind_at(first - 1) == Kind::Semicolon;
                 let hint = semicolon
                     .then(|| "an `if` without braces has one statement, and `;` alone counts as one".to_owned());
-                // What was too deep has left its `else` behind.
+                // Where nesting was too deep, an `else` may be left over.
                 if !self.reported_too_deep {
                     self.error(first, "`else` without an `if` before it", hint);
                 }
@@ -162,7 +162,7 @@ impl Parser<'_> {
                 return self.statement_kind();
             }
             Kind::Wrong if self.second() != Kind::Semicolon && self.starts_line(first + 1) => {
-                // A bad macro call may stand for any statement, its semicolon included.
+                // An invalid macro call may replace any statement, including its semicolon.
                 self.bump();
                 StmtKind::Error
             }
@@ -182,7 +182,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Reads the semicolon of a statement that is complete without it.
+    /// Parses the semicolon of a statement that is complete without it.
     fn end_statement(&mut self) {
         if self.semicolon().is_err() {
             self.recover();
@@ -195,7 +195,7 @@ impl Parser<'_> {
         kind
     }
 
-    /// Returns whether a `;` stands behind `return`, or was forgotten there.
+    /// Returns whether a `;` follows `return`, or is missing there.
     fn returns_nothing(&self) -> bool {
         match self.kind() {
             Kind::Semicolon | Kind::RBrace => true,
@@ -255,7 +255,7 @@ impl Parser<'_> {
         Ok(StmtKind::If { cond, then, otherwise })
     }
 
-    /// Reads the statement that `elseif (..)` was to be.
+    /// Parses the statement that `elseif (..)` was meant to be.
     fn else_if(&mut self) -> Parse<StmtId> {
         self.enter()?;
         let first = self.at;
@@ -265,7 +265,7 @@ impl Parser<'_> {
         Ok(self.ast.stmt(kind, loc))
     }
 
-    /// Reads `( .. )` of a statement. Mistakes inside are left behind with the parentheses.
+    /// Parses `( .. )` of a statement. Errors inside are confined to the parentheses.
     fn in_parentheses(&mut self, part: fn(&mut Self) -> Parse<Condition>) -> Parse<Condition> {
         let open = self.at;
         let keyword = open - 1;
@@ -293,7 +293,7 @@ impl Parser<'_> {
             return Ok(condition);
         }
         let Some(end) = self.partner(open) else {
-            // To the block, if there is one in this statement.
+            // Skip to the block, if there is one in this statement.
             while !matches!(self.kind(), Kind::LBrace | Kind::Semicolon | Kind::RBrace | Kind::Eof) {
                 self.bump();
             }
@@ -307,7 +307,7 @@ impl Parser<'_> {
         Ok(Condition::Expr(self.error_expr(open)))
     }
 
-    /// Reads an expression, or a declaration with a value: `bool b = f()`.
+    /// Parses an expression, or a declaration with a value: `bool b = f()`.
     fn condition(&mut self) -> Parse<Condition> {
         if !self.begins_declaration() {
             return self.full_expression().map(Condition::Expr);
@@ -321,7 +321,7 @@ impl Parser<'_> {
         Ok(Condition::Decl(decl))
     }
 
-    /// Reads a declaration of variables up to before its `;` or `)`.
+    /// Parses a declaration of variables without its `;` or `)`.
     fn declaration_without_end(&mut self) -> Parse<crate::ast::DeclId> {
         let first = self.at;
         let mut qualifiers = self.qualifiers()?;
@@ -372,7 +372,7 @@ impl Parser<'_> {
         Ok(StmtKind::For { init, cond, step, body })
     }
 
-    /// Reads the first part of a `for`, up to before its `;`.
+    /// Parses the first part of a `for`, without its `;`.
     fn for_init(&mut self) -> Parse<StmtId> {
         let first = self.at;
         let kind = if self.kind() == Kind::Semicolon {
@@ -386,7 +386,7 @@ impl Parser<'_> {
         Ok(self.ast.stmt(kind, loc))
     }
 
-    /// Reads the `;` between the parts of a `for`; false where it is not there, which was reported.
+    /// Parses the `;` between the parts of a `for`; false if it is missing, which was reported.
     fn for_separator(&mut self) -> bool {
         if self.eat(Kind::Semicolon) {
             return true;
@@ -397,7 +397,7 @@ impl Parser<'_> {
         false
     }
 
-    /// Passes the rest of a part of a `for`.
+    /// Skips the rest of a part of a `for`.
     fn skip_in_for(&mut self, open: usize) {
         let end = self.partner(open).unwrap_or(0);
         while self.at < end && self.kind() != Kind::Semicolon {

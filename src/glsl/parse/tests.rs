@@ -1,4 +1,4 @@
-//! Trees, and what is said about texts that have none.
+//! Syntax trees, and the messages for invalid texts.
 #![cfg(test)]
 
 use super::*;
@@ -18,7 +18,7 @@ fn messages(text: &str) -> Vec<String> {
     parsed.report.diagnostics.iter().map(|d| d.message.clone()).collect()
 }
 
-/// The tree as nested parentheses; the text must be without mistakes.
+/// Returns the tree as nested parentheses; the text must be valid.
 #[track_caller]
 fn tree(text: &str) -> String {
     let parsed = parse_text(text);
@@ -27,16 +27,16 @@ fn tree(text: &str) -> String {
     parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect::<Vec<_>>().join(" ")
 }
 
-/// The tree of one expression.
+/// Returns the tree of one expression.
 #[track_caller]
 fn expr_tree(text: &str) -> String {
     let whole = tree(&format!("void f() {{ {text}; }}"));
     whole.strip_prefix("(fn void f () {").unwrap().strip_suffix("})").unwrap().to_owned()
 }
 
-/// Exactly these messages, each with a part.
+/// Checks that exactly these messages are reported, each containing the given part.
 #[track_caller]
-fn refuses(text: &str, parts: &[&str]) {
+fn assert_errors(text: &str, parts: &[&str]) {
     let found = messages(text);
     assert_eq!(found.len(), parts.len(), "{text}: {found:#?}");
     for (message, part) in found.iter().zip(parts) {
@@ -46,8 +46,8 @@ fn refuses(text: &str, parts: &[&str]) {
 
 /// The same for a statement in a function that is followed by another.
 #[track_caller]
-fn refuses_stmt(text: &str, parts: &[&str]) {
-    refuses(&format!("void f() {{\n    {text}\n    int after = 1;\n}}\nvoid g() {{}}"), parts);
+fn assert_stmt_errors(text: &str, parts: &[&str]) {
+    assert_errors(&format!("void f() {{\n    {text}\n    int after = 1;\n}}\nvoid g() {{}}"), parts);
 }
 
 fn expr(p: &Parsed, id: ExprId) -> String {
@@ -183,7 +183,7 @@ fn stmt(p: &Parsed, id: StmtId) -> String {
     }
 }
 
-/// Checks what the tree's documentation promises to everyone.
+/// Checks the invariants that the documentation of the tree promises.
 pub(super) fn check_guarantees(p: &Parsed) {
     let tokens = p.origins.tokens.len();
     let loc = |l: Loc| assert!(l.first <= l.last && (l.last.0 as usize) < tokens);
@@ -363,7 +363,7 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
-    // As deep as ANGLE's parser goes, which keeps 10,000 symbols.
+    // As deep as ANGLE's parser, which keeps 10,000 symbols.
     for (open, close) in [("(", ")"), ("- ", ""), ("abs(", ")"), ("float(", ")"), ("(1.0 + ", ")"), ("a[", "]")] {
         let text = format!("void f() {{ x = {}a{}; }}", open.repeat(9_990), close.repeat(9_990));
         assert_eq!(messages(&text), [""; 0], "{open}");
@@ -371,105 +371,105 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
 }
 
 #[test]
-fn one_mistake_is_one_message() {
-    refuses_stmt("float a = 1.0", &["missing `;` after `1.0`"]);
-    refuses_stmt("a = b", &["missing `;` after `b`"]);
-    refuses_stmt("f(a)", &["missing `;` after `)`"]);
-    refuses_stmt("return", &["missing `;` after `return`"]);
-    refuses_stmt("a = b c;", &["missing an operator or `;` between `b` and `c`"]);
-    refuses_stmt("float a = 2.0 b;", &["missing an operator or `;` between `2.0` and `b`"]);
-    refuses_stmt("a = ;", &["`=` needs a value on its right, found `;`"]);
-    refuses_stmt("a = b +;", &["`+` needs a value on its right"]);
-    refuses_stmt("float a =\n    float b = 1.0;", &["`=` needs a value on its right"]);
-    refuses_stmt("a = (b + c;", &["missing `)` after `c`"]);
-    refuses_stmt("a = f(b, c;", &["missing `)` after `c`"]);
-    refuses_stmt("a = b + c);", &["`)` closes nothing"]);
-    refuses_stmt("a = b[1;", &["missing `]` after `1`"]);
-    refuses_stmt("a = b[];", &["need an index"]);
-    refuses_stmt("a = f(b, );", &["a value is missing between `,` and `)`"]);
-    refuses_stmt("a = f(, b);", &["a value is missing between `(` and `,`"]);
-    refuses_stmt("a = ();", &["empty"]);
-    refuses_stmt("a = b ? c;", &["`:` and the other value"]);
-    refuses_stmt("a ** b;", &["`**`"]);
-    refuses_stmt("a->b;", &["`->`"]);
-    refuses_stmt("if (a === b) {}", &["`===`"]);
-    refuses_stmt("if (a <> b) {}", &["`<>`"]);
-    refuses_stmt("if (a and b) {}", &["expected an operator or `)`, found `and`"]);
-    refuses_stmt("if a > b { c; }", &["must be in parentheses"]);
-    refuses_stmt("if (a > b { c; }", &["missing `)` after `b`"]);
-    refuses_stmt("if () { c; }", &["a condition is missing"]);
-    refuses_stmt("if (a) then { c; }", &["`then`"]);
-    refuses_stmt("if (a) { } elseif (b) { } else { }", &["`elseif`"]);
-    refuses_stmt("if (a); b; else c;", &["`else` without an `if`"]);
-    refuses_stmt("for (int i = 0, i < 3, i++) { }", &["expected `;`, found `<`"]);
-    refuses_stmt("for (int i = 0; i < 3) { }", &["expected `;`, found `)`"]);
-    refuses_stmt("for (int i = 0; i <; i++) { j; }", &["`<` needs a value"]);
-    refuses_stmt("for (int i = 0; i < 3; i++ { j; }", &["missing `)` after `++`"]);
-    refuses_stmt("while (int i) { }", &["a condition that declares"]);
-    refuses_stmt("do { } while a;", &["must be in parentheses"]);
-    refuses_stmt("do { } until (a);", &["`while` and the condition"]);
-    refuses_stmt("switch (a) case 1: b;", &["expected `{`"]);
-    refuses_stmt("switch (a) { case 1; b; }", &["ends with `:`"]);
-    refuses_stmt("float a[2] = {1.0, 2.0};", &["lists in braces"]);
-    refuses_stmt("a = {1.0, 2.0};", &["lists in braces"]);
-    refuses_stmt("vec3 a(1.0, 2.0);", &["with `=`"]);
-    refuses_stmt("f(float a);", &["`float` is a type"]);
-    refuses_stmt("a = vec3;", &["`vec3` is a type"]);
-    refuses_stmt("retrun a;", &["`retrun` is not a keyword"]);
-    refuses_stmt("float2 a = b; a.x;", &["no type `float2`"]);
-    refuses_stmt("let a = 1.0;", &["`let` cannot declare"]);
-    refuses_stmt("var a = 1.0;", &["`var` cannot declare"]);
-    refuses_stmt("const a = 1.0;", &["without a type"]);
-    refuses_stmt("float input = 1.0; input += input;", &["`input` is a reserved word"]);
-    refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
-    refuses_stmt("static const float a = 1.0;", &["`static` is a reserved word"]);
-    refuses_stmt("goto a;", &["`goto` is a reserved word"]);
-    refuses_stmt("float image2DArrayShadow = 1.0;", &["`image2DArrayShadow` is a reserved word"]);
-    refuses_stmt("float if = 1.0;", &["which is a keyword"]);
-    refuses_stmt("float 2a = 1.0;", &["`2a` is not a number"]);
-    refuses_stmt("a.length(1);", &["takes no arguments"]);
-    refuses_stmt("a.push(1);", &["methods"]);
-    refuses_stmt("a.;", &["after `.`"]);
-    refuses_stmt("float gl_a, b__c, webgl_d;", &["`gl_`", "two underscores", "webgl_"]);
-    refuses_stmt("a = 1.0 / 08;", &["octal"]);
-    refuses_stmt("a = \u{201c}b\u{201d};", &["no meaning", "no meaning"]);
-    refuses_stmt("a = b \u{2212} c;", &["only looks like `-`"]);
-    refuses_stmt("float x; float g(float a) { return a; }", &["cannot be defined inside"]);
+fn one_error_has_one_message() {
+    assert_stmt_errors("float a = 1.0", &["missing `;` after `1.0`"]);
+    assert_stmt_errors("a = b", &["missing `;` after `b`"]);
+    assert_stmt_errors("f(a)", &["missing `;` after `)`"]);
+    assert_stmt_errors("return", &["missing `;` after `return`"]);
+    assert_stmt_errors("a = b c;", &["missing an operator or `;` between `b` and `c`"]);
+    assert_stmt_errors("float a = 2.0 b;", &["missing an operator or `;` between `2.0` and `b`"]);
+    assert_stmt_errors("a = ;", &["`=` needs a value on its right, found `;`"]);
+    assert_stmt_errors("a = b +;", &["`+` needs a value on its right"]);
+    assert_stmt_errors("float a =\n    float b = 1.0;", &["`=` needs a value on its right"]);
+    assert_stmt_errors("a = (b + c;", &["missing `)` after `c`"]);
+    assert_stmt_errors("a = f(b, c;", &["missing `)` after `c`"]);
+    assert_stmt_errors("a = b + c);", &["`)` closes nothing"]);
+    assert_stmt_errors("a = b[1;", &["missing `]` after `1`"]);
+    assert_stmt_errors("a = b[];", &["need an index"]);
+    assert_stmt_errors("a = f(b, );", &["a value is missing between `,` and `)`"]);
+    assert_stmt_errors("a = f(, b);", &["a value is missing between `(` and `,`"]);
+    assert_stmt_errors("a = ();", &["empty"]);
+    assert_stmt_errors("a = b ? c;", &["`:` and the other value"]);
+    assert_stmt_errors("a ** b;", &["`**`"]);
+    assert_stmt_errors("a->b;", &["`->`"]);
+    assert_stmt_errors("if (a === b) {}", &["`===`"]);
+    assert_stmt_errors("if (a <> b) {}", &["`<>`"]);
+    assert_stmt_errors("if (a and b) {}", &["expected an operator or `)`, found `and`"]);
+    assert_stmt_errors("if a > b { c; }", &["must be in parentheses"]);
+    assert_stmt_errors("if (a > b { c; }", &["missing `)` after `b`"]);
+    assert_stmt_errors("if () { c; }", &["a condition is missing"]);
+    assert_stmt_errors("if (a) then { c; }", &["`then`"]);
+    assert_stmt_errors("if (a) { } elseif (b) { } else { }", &["`elseif`"]);
+    assert_stmt_errors("if (a); b; else c;", &["`else` without an `if`"]);
+    assert_stmt_errors("for (int i = 0, i < 3, i++) { }", &["expected `;`, found `<`"]);
+    assert_stmt_errors("for (int i = 0; i < 3) { }", &["expected `;`, found `)`"]);
+    assert_stmt_errors("for (int i = 0; i <; i++) { j; }", &["`<` needs a value"]);
+    assert_stmt_errors("for (int i = 0; i < 3; i++ { j; }", &["missing `)` after `++`"]);
+    assert_stmt_errors("while (int i) { }", &["a condition that declares"]);
+    assert_stmt_errors("do { } while a;", &["must be in parentheses"]);
+    assert_stmt_errors("do { } until (a);", &["`while` and the condition"]);
+    assert_stmt_errors("switch (a) case 1: b;", &["expected `{`"]);
+    assert_stmt_errors("switch (a) { case 1; b; }", &["ends with `:`"]);
+    assert_stmt_errors("float a[2] = {1.0, 2.0};", &["lists in braces"]);
+    assert_stmt_errors("a = {1.0, 2.0};", &["lists in braces"]);
+    assert_stmt_errors("vec3 a(1.0, 2.0);", &["with `=`"]);
+    assert_stmt_errors("f(float a);", &["`float` is a type"]);
+    assert_stmt_errors("a = vec3;", &["`vec3` is a type"]);
+    assert_stmt_errors("retrun a;", &["`retrun` is not a keyword"]);
+    assert_stmt_errors("float2 a = b; a.x;", &["no type `float2`"]);
+    assert_stmt_errors("let a = 1.0;", &["`let` cannot declare"]);
+    assert_stmt_errors("var a = 1.0;", &["`var` cannot declare"]);
+    assert_stmt_errors("const a = 1.0;", &["without a type"]);
+    assert_stmt_errors("float input = 1.0; input += input;", &["`input` is a reserved word"]);
+    assert_stmt_errors("double a = 1.0;", &["`double` is a reserved word"]);
+    assert_stmt_errors("static const float a = 1.0;", &["`static` is a reserved word"]);
+    assert_stmt_errors("goto a;", &["`goto` is a reserved word"]);
+    assert_stmt_errors("float image2DArrayShadow = 1.0;", &["`image2DArrayShadow` is a reserved word"]);
+    assert_stmt_errors("float if = 1.0;", &["which is a keyword"]);
+    assert_stmt_errors("float 2a = 1.0;", &["`2a` is not a number"]);
+    assert_stmt_errors("a.length(1);", &["takes no arguments"]);
+    assert_stmt_errors("a.push(1);", &["methods"]);
+    assert_stmt_errors("a.;", &["after `.`"]);
+    assert_stmt_errors("float gl_a, b__c, webgl_d;", &["`gl_`", "two underscores", "webgl_"]);
+    assert_stmt_errors("a = 1.0 / 08;", &["octal"]);
+    assert_stmt_errors("a = \u{201c}b\u{201d};", &["no meaning", "no meaning"]);
+    assert_stmt_errors("a = b \u{2212} c;", &["only looks like `-`"]);
+    assert_stmt_errors("float x; float g(float a) { return a; }", &["cannot be defined inside"]);
 }
 
 #[test]
 fn mistakes_at_file_scope() {
-    refuses("float a = 1.0\nfloat b;", &["missing `;` after `1.0`"]);
-    refuses("a = 1.0;\nfloat b;", &["statements belong inside functions"]);
-    refuses("float f(float a { return a; }\nfloat b;", &["missing `)` after `a`"]);
-    // `a` may be a type: the checker knows.
-    refuses("float f(a) { return b; }\nfloat b;", &[]);
-    refuses("float f(float a = 1.0) { return a; }\nfloat b;", &["no default parameter values"]);
-    refuses("float f(float& a) { return a; }\nfloat b;", &["no pointers"]);
-    refuses("float f(float a) return a;\nfloat b;", &["expected `{` or `;`"]);
-    refuses("struct S { float a = 1.0; vec2 b; };\nS s;", &["cannot have an initial value"]);
-    refuses("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["have no functions"]);
-    refuses("struct S { float a; }\nfloat b;", &["missing `;` after `}`"]);
-    refuses("struct S : T { float a; };", &["cannot extend"]);
-    refuses("function f() { }\nfloat b;", &["`function` cannot declare"]);
-    refuses("enum A { B };\nfloat b;", &["`enum` is a reserved word"]);
-    refuses("void f() { a; } }\nvoid g() { }", &["`}` closes nothing"]);
-    refuses("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements belong inside functions"]);
-    refuses("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` starts inside `f`"]);
-    refuses("void g() { }\nvoid f() {\n if (a) {\n b;\n}\n", &["missing `}` at the end"]);
-    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` is outside"]);
-    refuses("%", &["expected a declaration"]);
-    refuses("float a; b", &["statements belong inside functions"]);
-    refuses(
+    assert_errors("float a = 1.0\nfloat b;", &["missing `;` after `1.0`"]);
+    assert_errors("a = 1.0;\nfloat b;", &["statements belong inside functions"]);
+    assert_errors("float f(float a { return a; }\nfloat b;", &["missing `)` after `a`"]);
+    // `a` may be a type: the checker decides.
+    assert_errors("float f(a) { return b; }\nfloat b;", &[]);
+    assert_errors("float f(float a = 1.0) { return a; }\nfloat b;", &["no default parameter values"]);
+    assert_errors("float f(float& a) { return a; }\nfloat b;", &["no pointers"]);
+    assert_errors("float f(float a) return a;\nfloat b;", &["expected `{` or `;`"]);
+    assert_errors("struct S { float a = 1.0; vec2 b; };\nS s;", &["cannot have an initial value"]);
+    assert_errors("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["have no functions"]);
+    assert_errors("struct S { float a; }\nfloat b;", &["missing `;` after `}`"]);
+    assert_errors("struct S : T { float a; };", &["cannot extend"]);
+    assert_errors("function f() { }\nfloat b;", &["`function` cannot declare"]);
+    assert_errors("enum A { B };\nfloat b;", &["`enum` is a reserved word"]);
+    assert_errors("void f() { a; } }\nvoid g() { }", &["`}` closes nothing"]);
+    assert_errors("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements belong inside functions"]);
+    assert_errors("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` starts inside `f`"]);
+    assert_errors("void g() { }\nvoid f() {\n if (a) {\n b;\n}\n", &["missing `}` at the end"]);
+    assert_errors("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` is outside"]);
+    assert_errors("%", &["expected a declaration"]);
+    assert_errors("float a; b", &["statements belong inside functions"]);
+    assert_errors(
         "#define F(x) x\nvoid f() { F(1, 2); float a = F(1, 2) + 1.0; }",
         &["takes 1 argument", "takes 1 argument"],
     );
-    refuses("#define BAD float a = ;\nvoid f() { BAD }\nvoid g() { BAD }", &["`=` needs a value"]);
+    assert_errors("#define BAD float a = ;\nvoid f() { BAD }\nvoid g() { BAD }", &["`=` needs a value"]);
 }
 
 #[test]
-fn several_mistakes_are_several_messages() {
-    refuses(
+fn several_errors_have_several_messages() {
+    assert_errors(
         "void f() {\n float a = ;\n b = c d;\n if (e f) { g; }\n for (int i = 0; i < 3; i++ { j }\n}\nfloat k = (1.0;\nvoid l() { m( ; }",
         &[
             "`=` needs a value",
@@ -486,14 +486,14 @@ fn several_mistakes_are_several_messages() {
 }
 
 #[test]
-fn what_was_declared_before_a_mistake_stays_declared() {
+fn declarators_before_an_error_stay_declared() {
     let parsed = parse_text("void f() { float a = 1.0 +, b = 2.0; }");
     let shown: Vec<String> = parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect();
     assert_eq!(shown, ["(fn void f () {(var float a=<error>,b=2.0)})"]);
 }
 
 #[test]
-fn qualifiers_behind_a_type_are_told_of_once_and_taken() {
+fn qualifiers_after_a_type_are_reported_once_and_accepted() {
     for (text, mend) in [
         ("vec3 const k = vec3(1.0);", "write `const vec3 k`"),
         ("float highp x;", "write `highp float x`"),
@@ -516,12 +516,12 @@ fn qualifiers_behind_a_type_are_told_of_once_and_taken() {
         assert_eq!(found.len(), parsed.report.diagnostics.len(), "{text}: {:?}", parsed.report.diagnostics);
         assert!(!found.is_empty() && found[0].hints == [mend], "{text}: {found:?}");
     }
-    // The declaration holds: a size that is `const` is one.
+    // The declaration is valid: a size that is `const` is accepted.
     assert_eq!(messages("int const n = 2;\nfloat a[n];\nS\nconst int m = 1;").len(), 2);
 }
 
 #[test]
-fn words_of_older_shaders_become_those_of_the_stage() {
+fn old_keywords_have_fixes_for_the_stage() {
     for (kind, text, hint) in [
         (PassKind::PlainVertex, "attribute vec3 p;", "GLSL ES 3.00 uses `in` instead"),
         (PassKind::PlainVertex, "varying vec2 uv;", "GLSL ES 3.00 uses `out` instead"),

@@ -10,7 +10,7 @@ use crate::{
 };
 
 impl Parser<'_> {
-    /// Reads a type with its dimensions, struct definitions included.
+    /// Parses a type with its dimensions, including struct definitions.
     pub(super) fn type_spec(&mut self) -> Parse<TypeSpecId> {
         let first = self.at;
         let value = self.value();
@@ -42,7 +42,7 @@ impl Parser<'_> {
         Ok(self.ast.type_spec(TypeSpec { kind, dims, loc }))
     }
 
-    /// Returns a name as a type. The checker knows which there are; here only what can be no struct's name is caught.
+    /// Returns a name as a type. The checker looks it up; only names that cannot be a struct's are rejected here.
     fn named_type(&mut self, first: usize, symbol: u32) -> TypeSpecKind {
         if self.structs[symbol as usize] {
             return TypeSpecKind::Named(Symbol(symbol));
@@ -76,7 +76,7 @@ impl Parser<'_> {
         Ok(TypeSpecKind::Struct(self.ast.struct_def(StructDef { name, fields, loc })))
     }
 
-    /// Reads `{ float a, b[2]; vec3 c; }`.
+    /// Parses `{ float a, b[2]; vec3 c; }`.
     pub(super) fn fields(&mut self) -> Parse<List<Field>> {
         let open = self.at;
         if !self.eat(Kind::LBrace) {
@@ -119,7 +119,7 @@ impl Parser<'_> {
                 let hint = "set the value where the struct is constructed: `Name(..)`";
                 self.error(self.at, "struct members cannot have an initial value", Some(hint.into()));
                 self.bump();
-                // Read for its own mistakes; the tree has no place for it.
+                // Parsed for its own errors; the tree has no place for it.
                 let mark = self.ast.exprs.len();
                 let read = self.full_assignment();
                 self.ast.exprs.truncate(mark);
@@ -136,7 +136,7 @@ impl Parser<'_> {
         Ok(Some(Field { qualifiers, ty, declarators, loc }))
     }
 
-    /// Reads `[2][]`, none or more.
+    /// Parses `[2][]`, any number of dimensions.
     pub(super) fn dims(&mut self, size: fn(&mut Self) -> Parse<ExprId>) -> Parse<List<Dim>> {
         if self.kind() != Kind::LBracket {
             return Ok(List::EMPTY);

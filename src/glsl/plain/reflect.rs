@@ -1,4 +1,4 @@
-//! Tells what a plain shader reads and writes.
+//! Reflection: the inputs, outputs and resources of a plain shader.
 
 use super::{ShaderVariable, TextureBinding, UniformMember, std140};
 use crate::{
@@ -15,7 +15,7 @@ pub(crate) fn variable(module: &hir::Module, names: &Interner, id: GlobalId, loc
     ShaderVariable { name, ty: module.type_text(names, global.ty), location, flat: global.flat }
 }
 
-/// Returns a sampler that is not read yet.
+/// Returns the description of a sampler, initially unused.
 pub(crate) fn texture(texture: &ir::Texture) -> TextureBinding {
     let kind = match texture.scalar {
         Scalar::Int => "i",
@@ -33,7 +33,7 @@ pub(crate) fn texture(texture: &ir::Texture) -> TextureBinding {
     }
 }
 
-/// Adds what a member of a buffer leads to, which lies at `offset`.
+/// Adds the flattened members of a buffer's member at `offset`.
 pub(crate) fn members(program: &ir::Module, member: &BlockMember, offset: u32, out: &mut Vec<UniformMember>) {
     add(program, member.name.clone(), member.ty, offset, out);
 }

@@ -1,4 +1,4 @@
-//! Gives the uniforms and samplers of a plain shader their places.
+//! Assigns bindings to the uniforms and samplers of a plain shader.
 
 use super::PlainOptions;
 use crate::{
@@ -14,13 +14,13 @@ pub(crate) struct Resources {
     /// In the order of [`Module::samplers`].
     pub textures: Vec<Texture>,
     pub blocks: Vec<UniformBlock>,
-    /// The block of each uniform, and its place among the members.
+    /// The block of each uniform, and its index among the members.
     pub members: FxHashMap<GlobalId, (u16, u16)>,
     /// The names of structures, by [`StructId::index`](crate::types::StructId::index).
     pub struct_names: Vec<StructNames>,
 }
 
-/// Gives each uniform and sampler its binding, whether it is reached or not.
+/// Assigns a binding to each uniform and sampler, whether it is used or not.
 pub(crate) fn resources(module: &Module, names: &Interner, options: PlainOptions) -> Resources {
     let group = options.group;
     let mut made = Resources { struct_names: struct_names(module, names), ..Resources::default() };

@@ -8,10 +8,10 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// Arrays, structures and the columns of matrices are aligned so.
+/// The alignment of arrays, structures and the columns of matrices.
 pub(crate) const SLOT: u32 = 16;
 
-/// Returns the layout of a type: bytes. Saturating, as sizes of arrays are the author's.
+/// Returns the layout of a type in bytes. Saturating, because the author chooses the sizes of arrays.
 pub(crate) fn layout(module: &Module, ty: TypeId) -> Layout {
     match module.types.get(ty) {
         Type::Scalar(_) => Layout { size: 4, align: 4 },
@@ -45,8 +45,8 @@ pub(crate) fn offsets(module: &Module, members: &[TypeId]) -> (Vec<u32>, u32) {
     (offsets, round_up(SLOT, end))
 }
 
-/// Returns whether a value lies in a buffer as it does in memory, so that it can be loaded at once; of an element of an
-/// array or a column of a matrix, whether it does in its slot.
+/// Returns whether a value has the same layout in a buffer as in memory, so that it can be loaded as a whole; for an
+/// element of an array or a column of a matrix, whether it has in its slot.
 pub(crate) fn is_plain(module: &Module, ty: TypeId) -> bool {
     match module.types.get(ty) {
         Type::Scalar(scalar) | Type::Vector { scalar, .. } => scalar != Scalar::Bool,

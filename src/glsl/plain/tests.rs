@@ -1,9 +1,9 @@
-//! Shaders of our own, compiled, validated, written as WGSL, and read again.
+//! Shaders of our own, compiled, validated, written as WGSL, and parsed again.
 
 use crate::{ClipSpace, Compiled, Link, PassKind, PassSource, Reflection, compile, compile_linked};
 
-/// Compiles a shader, and checks that naga accepts the module and what is written of it.
-fn made(source: &PassSource<'_>) -> (Compiled, String) {
+/// Compiles a shader, and checks that naga accepts the module and the WGSL written from it.
+fn compile_checked(source: &PassSource<'_>) -> (Compiled, String) {
     linked(source, &Link::default())
 }
 
@@ -26,7 +26,8 @@ fn wgsl(compiled: &Compiled) -> String {
     naga::back::wgsl::write_string(&compiled.module, &validated(&compiled.module), flags).unwrap()
 }
 
-/// Offsets of all that lies in uniform buffers, which must be the same after a round through a text without offsets.
+/// Returns the offsets of everything in uniform buffers, which must be the same after a round trip through a text
+/// without offsets.
 fn buffers(module: &naga::Module) -> Vec<String> {
     fn add(module: &naga::Module, ty: naga::Handle<naga::Type>, at: u32, out: &mut Vec<String>) {
         match &module.types[ty].inner {
@@ -49,16 +50,16 @@ fn buffers(module: &naga::Module) -> Vec<String> {
 }
 
 fn fragment(text: &str) -> (Compiled, String) {
-    made(&PassSource::fragment(text))
+    compile_checked(&PassSource::fragment(text))
 }
 
-/// The members of all buffers, as `name: type @ offset + size`.
+/// Returns the members of all buffers, as `name: type @ offset + size`.
 fn uniforms(reflection: &Reflection) -> Vec<String> {
     let all = reflection.shader.buffers.iter().flat_map(|buffer| &buffer.members);
     all.map(|u| format!("{}: {} @ {} + {}", u.name, u.ty, u.offset, u.size)).collect()
 }
 
-/// The messages of the errors of a text that must not compile, with what is underlined.
+/// Returns the messages of the errors of an invalid text, with the underlined parts.
 fn errors(kind: PassKind, text: &str) -> Vec<(String, String)> {
     let source = match kind {
         PassKind::PlainVertex => PassSource::vertex(text),
@@ -70,13 +71,13 @@ fn errors(kind: PassKind, text: &str) -> Vec<(String, String)> {
 }
 
 #[track_caller]
-fn refused(text: &str, message: &str, at: &str) {
+fn assert_refused(text: &str, message: &str, at: &str) {
     let all = errors(PassKind::PlainFragment, text);
     assert!(all.iter().any(|(found, place)| found.contains(message) && place == at), "{text}\n{all:#?}");
 }
 
 #[test]
-fn scalars_vectors_and_matrices_lie_as_std140_has_them() {
+fn scalars_vectors_and_matrices_have_std140_offsets() {
     let (compiled, text) = fragment(
         "#version 300 es
         precision highp float;
@@ -118,7 +119,7 @@ fn scalars_vectors_and_matrices_lie_as_std140_has_them() {
 }
 
 #[test]
-fn arrays_and_structures_lie_as_std140_has_them() {
+fn arrays_and_structures_have_std140_offsets() {
     let (compiled, text) = fragment(
         "struct Light { vec3 at; float power; bool on; vec2 spread[2]; };
         struct Tiny { float x; };
@@ -199,7 +200,7 @@ fn a_block_has_a_buffer_of_its_own() {
 }
 
 #[test]
-fn samplers_are_a_texture_and_a_sampler_each() {
+fn each_sampler_becomes_a_texture_and_a_sampler() {
     let (compiled, text) = fragment(
         "precision highp sampler3D;
         precision highp isampler2D;
@@ -269,7 +270,7 @@ fn inputs_and_outputs_have_locations() {
             v_normal = frame[2];
             gl_Position = camera * vec4(position, 1.0);
         }";
-    let (first, text) = made(&PassSource::vertex(vertex));
+    let (first, text) = compile_checked(&PassSource::vertex(vertex));
     let shown = |all: &[crate::ShaderVariable]| {
         all.iter().map(|v| format!("{} {} {}{}", v.location, v.ty, v.name, if v.flat { " flat" } else { "" })).collect()
     };
@@ -280,7 +281,7 @@ fn inputs_and_outputs_have_locations() {
     assert_eq!(shader.buffers[0].group, 1);
     assert!(text.contains("@vertex") && text.contains("@builtin(instance_index)"), "{text}");
 
-    // The inputs in another order are found by their names.
+    // Inputs in a different order are matched by name.
     let text = "in vec3 v_normal;
         flat in uint v_kind;
         layout(location = 1) out uvec2 ids;
@@ -304,12 +305,12 @@ fn inputs_and_outputs_have_locations() {
 }
 
 #[test]
-fn clip_space_is_as_the_option_says() {
+fn clip_space_follows_the_option() {
     let text = "in vec4 at; void main() { gl_Position = at; }";
     let with = |clip_space| {
         let mut source = PassSource::vertex(text);
         source.plain.clip_space = clip_space;
-        made(&source).1
+        compile_checked(&source).1
     };
     let (unchanged, depth, both) =
         (with(ClipSpace::UNCHANGED), with(ClipSpace::default()), with(ClipSpace::GL_TEXTURE));
@@ -319,7 +320,7 @@ fn clip_space_is_as_the_option_says() {
 }
 
 #[test]
-fn a_value_from_outside_is_a_constant() {
+fn given_value_is_a_constant() {
     let values = [crate::UniformValue { name: "level".into(), value: crate::UntypedValue::Number(0.25) }];
     let source = PassSource {
         values: &values,
@@ -327,7 +328,7 @@ fn a_value_from_outside_is_a_constant() {
             "uniform float time; uniform float level; out vec4 c; void main() { c = vec4(level * time); }",
         )
     };
-    let (compiled, text) = made(&source);
+    let (compiled, text) = compile_checked(&source);
     assert_eq!(uniforms(&compiled.reflection), ["time: float @ 0 + 4"]);
     assert!(text.contains("0.25"), "{text}");
 }
@@ -354,7 +355,7 @@ fn tables_and_work_arounds_need_no_buffer() {
             loop_closing_exits: true,
             ..Default::default()
         };
-        let (compiled, text) = made(&source);
+        let (compiled, text) = compile_checked(&source);
         assert!(compiled.tables.is_empty() && compiled.uniform_tables.is_empty());
         assert_eq!(text.matches("@binding").count(), 1, "{text}");
     }
@@ -369,36 +370,40 @@ fn every_uniform_may_be_hidden_from_the_driver() {
         void main() { S copy = s; color = vec4(copy.w[1], all[n].turn[1], all[1].on && flag && flags.y ? 1.0 : copy.turn[0].x); }",
     );
     source.driver.opaque_uniforms = true;
-    made(&source);
+    compile_checked(&source);
 }
 
 #[test]
-fn what_cannot_be_had_says_so() {
-    refused(
+fn unsupported_features_are_rejected() {
+    assert_refused(
         "uniform sampler2D all[2]; out vec4 c; void main() { c = texture(all[1], vec2(0)); }",
         "an array of samplers",
         "sampler2D",
     );
-    refused(
+    assert_refused(
         "precision highp isampler2D; uniform isampler2D s; out vec4 c; void main() { c = vec4(texture(s, vec2(0))); }",
         "WebGPU does not sample integers",
         "texture(s, vec2(0))",
     );
-    refused(
+    assert_refused(
         "layout(std140, row_major) uniform B { mat4 m; }; out vec4 c; void main() { c = m[0]; }",
         "row_major",
         "row_major",
     );
-    refused("uniform B { vec4 v; } b[2]; out vec4 c; void main() { c = b[1].v; }", "an array of uniform blocks", "[2]");
-    refused("out vec4 c; void main() { c = vec4(gl_PointCoord, 0, 1); }", "gl_PointCoord", "gl_PointCoord");
-    refused("out vec4 c[2]; void main() { c[0] = vec4(1); }", "the output `c` cannot be a `vec4[2]`", "c");
-    refused("out vec4 c; void main() { c = vec4(time); }", "`time` is not declared", "time");
-    refused("void main() { gl_FragColor = vec4(1); }", "`gl_FragColor` is not declared", "gl_FragColor");
-    refused("in vec4 at; out vec4 c; void mainImage(out vec4 o, vec2 p) { o = at; }", "main", "");
+    assert_refused(
+        "uniform B { vec4 v; } b[2]; out vec4 c; void main() { c = b[1].v; }",
+        "an array of uniform blocks",
+        "[2]",
+    );
+    assert_refused("out vec4 c; void main() { c = vec4(gl_PointCoord, 0, 1); }", "gl_PointCoord", "gl_PointCoord");
+    assert_refused("out vec4 c[2]; void main() { c[0] = vec4(1); }", "the output `c` cannot be a `vec4[2]`", "c");
+    assert_refused("out vec4 c; void main() { c = vec4(time); }", "`time` is not declared", "time");
+    assert_refused("void main() { gl_FragColor = vec4(1); }", "`gl_FragColor` is not declared", "gl_FragColor");
+    assert_refused("in vec4 at; out vec4 c; void mainImage(out vec4 o, vec2 p) { o = at; }", "main", "");
 }
 
 #[test]
-fn old_glsl_gets_its_mend() {
+fn old_glsl_has_a_fix() {
     let hints = |kind, text: &str| {
         let source = if kind == PassKind::PlainVertex { PassSource::vertex(text) } else { PassSource::fragment(text) };
         let all = compile(&source).expect_err(text);

@@ -1,12 +1,13 @@
-//! Common, read once for all passes of a project: a precompiled preamble, as C compilers call it.
+//! Common, parsed once for all passes of a project: a precompiled preamble, as C compilers call it.
 //!
-//! The site puts Common in front of each pass's text, so that a declaration, a comment or an `#if` may begin in the one
-//! and end in the other, and what Common means may depend on the pass. A [`Preamble`] exists only where that is not so,
-//! and then the same comes out with it as without; elsewhere each pass reads Common anew. Two parts are kept:
-//! - The tree, the tokens and the macros, where Common has no error, ends between two declarations and holds no number
-//!   of a line.
-//! - The checked declarations, where Common also names nothing that differs from pass to pass. The site itself refuses
-//!   such a name outside of macros, because it compiles Common alone.
+//! Shadertoy puts Common in front of each pass's text, so that a declaration, a comment or an `#if` may start in one
+//! and end in the other, and the meaning of Common may depend on the pass. A [`Preamble`] exists only where it does
+//! not, and then the results with and without it are the same; otherwise each pass parses Common again. Two parts are
+//! kept:
+//! - The tree, the tokens and the macros, if Common has no error, ends between two declarations and contains no line
+//!   numbers.
+//! - The checked declarations, if Common also does not name anything that differs between passes. Shadertoy itself
+//!   rejects such a name outside of macros, because it compiles Common by itself.
 
 #[cfg(test)]
 mod tests;
@@ -20,18 +21,18 @@ use super::{
 };
 use eddy_diag::Diagnostic;
 
-/// Common and what it includes, as all passes behind it find it.
+/// Common and the texts that it includes, processed for all passes that follow it.
 pub struct Preamble {
     parsed: Parsed,
-    /// `None`: it means something else in each pass.
+    /// `None` if its meaning depends on the pass.
     checked: Option<Checkpoint>,
-    /// By symbol: whether the name stands in the text.
+    /// True if the name occurs in the text, by symbol.
     mentioned: Vec<bool>,
     values: Vec<UniformValue>,
 }
 
 impl Preamble {
-    /// Reads Common for passes that give these `values`. `None`: it has to be read with each pass.
+    /// Parses Common for passes with these `values`. `None` if it must be parsed with each pass.
     pub fn new(common: Text<'_>, includes: &[Include<'_>], values: &[UniformValue]) -> Option<Self> {
         let parsed = parse::parse_common(&pieces::of(&[common], includes));
         if !parsed.stands_alone() {
@@ -43,9 +44,9 @@ impl Preamble {
         Some(Self { checked, mentioned, values: values.to_vec(), parsed })
     }
 
-    /// Returns the diagnostics of [`super::check_common`], without reading Common again.
+    /// Returns the diagnostics of [`super::check_common`], without parsing Common again.
     pub fn check_common(&self, custom_uniforms: &[CustomUniform<'_>]) -> Vec<Diagnostic> {
-        // Whatever it could be refused for differs from pass to pass.
+        // Any further errors would differ between passes.
         if self.checked.is_some() {
             return Vec::new();
         }

@@ -1,4 +1,4 @@
-//! Passes behind a Common that was read before, against the same passes that read it themselves.
+//! Passes with a precompiled Common, compared with the same passes that parse it themselves.
 
 use super::*;
 use crate::{
@@ -12,7 +12,7 @@ const CODE: SourceId = SourceId(1);
 const INCLUDED: SourceId = SourceId(2);
 const IMAGE: &str = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x), p, 1.0); }";
 
-/// The part of Common that is read before.
+/// The part of Common that is precompiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
     Nothing,
@@ -20,7 +20,7 @@ enum Kept {
     Checked,
 }
 
-/// A Common and a pass behind it.
+/// A Common and a pass that follows it.
 struct Case<'a> {
     kind: PassKind,
     common: &'a str,
@@ -48,7 +48,7 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Compiles both ways, compares all that comes out, and returns what was kept and the messages.
+    /// Compiles both ways, compares all results, and returns what was kept and the messages.
     #[track_caller]
     fn run(&self) -> (Kept, Vec<String>) {
         let source = self.source();
@@ -75,7 +75,7 @@ impl<'a> Case<'a> {
         (kept, diagnostics.into_iter().map(|d| d.message).collect())
     }
 
-    /// Compares the editor's answers for each place.
+    /// Compares the editor's answers for each position.
     #[track_caller]
     fn compare_analyses(&self, preamble: Option<&Preamble>) {
         let (own, behind) = (Analysis::new(&self.source()), Analysis::behind(&self.source(), preamble));
@@ -89,19 +89,19 @@ impl<'a> Case<'a> {
     }
 
     #[track_caller]
-    fn is(&self, kept: Kept, messages: &[&str]) {
+    fn assert_kept(&self, kept: Kept, messages: &[&str]) {
         let (was_kept, said) = self.run();
         assert_eq!((was_kept, said.iter().map(String::as_str).collect::<Vec<_>>()), (kept, messages.to_vec()));
     }
 }
 
 #[track_caller]
-fn is(common: &str, code: &str, kept: Kept, messages: &[&str]) {
-    Case::new(common, code).is(kept, messages);
+fn assert_kept(common: &str, code: &str, kept: Kept, messages: &[&str]) {
+    Case::new(common, code).assert_kept(kept, messages);
 }
 
 #[test]
-fn declarations_are_read_once() {
+fn declarations_are_parsed_once() {
     let common = "
 #define PI 3.14
 struct Ray { vec3 at; float t[2]; };
@@ -114,8 +114,8 @@ float g(Ray r) { return r.t[0] + iDate.x; }
 ";
     let code = "float h(Ray r) { return g(r) * PI; }
 void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p), h(Ray(vec3(0), float[2](p.x, p.y))), iTime, global); }";
-    is(common, code, Kept::Checked, &[]);
-    is(
+    assert_kept(common, code, Kept::Checked, &[]);
+    assert_kept(
         "",
         "float f(float x) { return x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }",
         Kept::Checked,
@@ -124,61 +124,66 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p), h(Ray(vec3(0), float[2](p
 }
 
 #[test]
-fn macros_of_common_hold_in_the_pass() {
+fn macros_of_common_apply_in_the_pass() {
     let common = "#define A(x) ((x) + B)\n#define B 2.0\nfloat f(float x) { return A(x); }";
-    is(common, IMAGE, Kept::Checked, &[]);
-    is(common, "void mainImage(out vec4 c, in vec2 p) { c = vec4(A(p.x), B, f(A(B)), 1.0); }", Kept::Checked, &[]);
-    // Only where it is used does a macro name something of the pass.
+    assert_kept(common, IMAGE, Kept::Checked, &[]);
+    assert_kept(
+        common,
+        "void mainImage(out vec4 c, in vec2 p) { c = vec4(A(p.x), B, f(A(B)), 1.0); }",
+        Kept::Checked,
+        &[],
+    );
+    // A macro that names something of the pass does so only where it is used.
     let common = "#define T iTime\n#define READ(p) texture(iChannel0, p)\nfloat f(float x) { return x; }";
-    is(common, "void mainImage(out vec4 c, in vec2 p) { c = READ(p) * T; }", Kept::Checked, &[]);
+    assert_kept(common, "void mainImage(out vec4 c, in vec2 p) { c = READ(p) * T; }", Kept::Checked, &[]);
 }
 
 #[test]
-fn a_macro_of_common_is_defined_otherwise_in_the_pass() {
+fn pass_may_redefine_a_macro_of_common() {
     let common = "#define A 1.0\nfloat f(float x) { return x + A; }";
     let twice = format!("#define A 2.0\n{IMAGE}");
-    is(common, &twice, Kept::Checked, &["the macro `A` is already defined differently"]);
+    assert_kept(common, &twice, Kept::Checked, &["the macro `A` is already defined differently"]);
     let again = format!("#undef A\n#define A 2.0\nfloat g() {{ return A; }}\n{IMAGE}");
-    is(common, &again, Kept::Checked, &[]);
+    assert_kept(common, &again, Kept::Checked, &[]);
     let same = format!("#define A 1.0\n{IMAGE}");
-    is(common, &same, Kept::Checked, &[]);
+    assert_kept(common, &same, Kept::Checked, &[]);
 }
 
 #[test]
 fn an_entry_point_may_be_a_macro_of_common() {
     let common = "#define mainImage(c, p) c = vec4(f(p.x))\nfloat f(float x) { return x; }";
-    is(common, "// Nothing else.", Kept::Checked, &[]);
+    assert_kept(common, "// Nothing else.", Kept::Checked, &[]);
 }
 
 #[test]
-fn what_spans_the_border_is_read_with_each_pass() {
-    is(
+fn text_that_spans_the_border_is_parsed_with_each_pass() {
+    assert_kept(
         "float f(float x) ",
         "{ return x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }",
         Kept::Nothing,
         &[],
     );
-    is("float f(float x) { return x; }\nfloat a = 1.0", &format!("; {IMAGE}"), Kept::Nothing, &[]);
-    is(
+    assert_kept("float f(float x) { return x; }\nfloat a = 1.0", &format!("; {IMAGE}"), Kept::Nothing, &[]);
+    assert_kept(
         "float f(float x) { return x; }\n#if 1\nfloat a;",
         &format!("#else\nfloat b;\n#endif\n{IMAGE}"),
         Kept::Nothing,
         &[],
     );
-    is(
+    assert_kept(
         "float f(float x) { return x; }\n#if 0\nfloat a;",
         &format!("#else\nfloat b;\n#endif\n{IMAGE}"),
         Kept::Nothing,
         &[],
     );
-    is("#define F(x) float f(float x) { return x; }\nF", &format!("(x)\n{IMAGE}"), Kept::Nothing, &[]);
+    assert_kept("#define F(x) float f(float x) { return x; }\nF", &format!("(x)\n{IMAGE}"), Kept::Nothing, &[]);
     let (kept, said) = Case::new("float f(float x) { return x; }\n/* here", &format!("and here */\n{IMAGE}")).run();
     assert_eq!(kept, Kept::Nothing);
     assert!(said.iter().any(|m| m.contains("this comment is not closed")), "{said:?}");
 }
 
 #[test]
-fn an_error_in_common_is_said_with_each_pass_as_before() {
+fn error_in_common_is_reported_with_each_pass() {
     let (kept, said) = Case::new("float f(float x) { return x }", IMAGE).run();
     assert_eq!(kept, Kept::Nothing);
     assert_eq!(said.len(), 1, "{said:?}");
@@ -188,30 +193,30 @@ fn an_error_in_common_is_said_with_each_pass_as_before() {
 }
 
 #[test]
-fn a_warning_in_common_is_said_with_each_pass_as_before() {
+fn warning_in_common_is_reported_with_each_pass() {
     let common = "#define a__b 1.0\nfloat f(float x) { return x * a__b; }";
-    is(common, IMAGE, Kept::Checked, &["`a__b`: names with two underscores in a row are reserved"]);
+    assert_kept(common, IMAGE, Kept::Checked, &["`a__b`: names with two underscores in a row are reserved"]);
 }
 
 #[test]
-fn numbers_of_lines_depend_on_the_pass() {
-    is("float f(float x) { return x + float(__LINE__); }", IMAGE, Kept::Nothing, &[]);
-    is("#if __LINE__ < 17\nfloat iTime;\n#endif\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
-    is("#line 10\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
+fn line_numbers_depend_on_the_pass() {
+    assert_kept("float f(float x) { return x + float(__LINE__); }", IMAGE, Kept::Nothing, &[]);
+    assert_kept("#if __LINE__ < 17\nfloat iTime;\n#endif\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
+    assert_kept("#line 10\nfloat f(float x) { return x; }", IMAGE, Kept::Nothing, &[]);
     let code = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x), __LINE__, __FILE__, 1); }";
-    is("float f(float x) { return x; }\n\n\n", code, Kept::Checked, &[]);
+    assert_kept("float f(float x) { return x; }\n\n\n", code, Kept::Checked, &[]);
 }
 
 #[test]
-fn names_that_differ_from_pass_to_pass_are_checked_with_each() {
+fn names_that_differ_between_passes_are_checked_with_each() {
     for common in [
         "float f(float x) { return x * iTime; }",
         "float f(float x) { return texture(iChannel0, vec2(x)).x; }",
         "float f(float x) { st_assert(x > 0.0, 1); return x; }",
     ] {
-        is(common, IMAGE, Kept::Tree, &[]);
+        assert_kept(common, IMAGE, Kept::Tree, &[]);
     }
-    is(
+    assert_kept(
         "float iCh0 = 1.0;\nfloat f(float x) { return x * iCh0; }",
         IMAGE,
         Kept::Tree,
@@ -220,28 +225,28 @@ fn names_that_differ_from_pass_to_pass_are_checked_with_each() {
     let cube = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }";
     let mut case = Case::new("float f(float x) { return texture(iChannel0, vec3(x)).x; }", cube);
     case.channels[0] = ChannelKind::SamplerCube;
-    case.is(Kept::Tree, &[]);
+    case.assert_kept(Kept::Tree, &[]);
     let mut case = Case::new(
         "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }",
         "vec2 mainSound(int s, float t) { return vec2(t); }",
     );
     case.kind = PassKind::Sound;
-    case.is(Kept::Tree, &[]);
+    case.assert_kept(Kept::Tree, &[]);
     case.kind = PassKind::Buffer;
-    case.is(Kept::Tree, &[]);
+    case.assert_kept(Kept::Tree, &[]);
 }
 
 #[test]
-fn names_of_the_language_may_come_up_in_the_pass_alone() {
+fn pass_may_use_built_in_names_that_common_does_not() {
     let code = "float mix;
 void mainImage(out vec4 c, in vec2 p) { c = gl_FragCoord * f(p.x) + float(gl_MaxDrawBuffers) + gl_DepthRange.near; }";
-    is("float f(float x) { return x; }", code, Kept::Checked, &[]);
+    assert_kept("float f(float x) { return x; }", code, Kept::Checked, &[]);
     let code = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x) + sin.x); }";
-    is("struct S { float x; };\nS sin;\nfloat f(float x) { return x; }", code, Kept::Checked, &[]);
+    assert_kept("struct S { float x; };\nS sin;\nfloat f(float x) { return x; }", code, Kept::Checked, &[]);
 }
 
 #[test]
-fn every_kind_of_pass_goes_on_from_the_same() {
+fn every_kind_of_pass_continues_from_the_same_preamble() {
     let common = "float f(float x) { return x * 2.0 + gl_FragCoord.x; }";
     for (kind, code) in [
         (
@@ -254,28 +259,28 @@ fn every_kind_of_pass_goes_on_from_the_same() {
     ] {
         let mut case = Case::new(common, code);
         case.kind = kind;
-        case.is(Kept::Checked, &[]);
+        case.assert_kept(Kept::Checked, &[]);
     }
-    // The stages of a mesh have other variables, and check Common by themselves.
+    // The stages of a mesh have other variables, and check Common themselves.
     let mut case = Case::new(common, "out vec4 colour;\nvoid main() { colour = vec4(f(1.0)); }");
     case.kind = PassKind::Fragment;
-    case.is(Kept::Tree, &[]);
+    case.assert_kept(Kept::Tree, &[]);
 }
 
 #[test]
-fn uniforms_of_the_author_are_checked_with_each_pass_that_has_them() {
+fn custom_uniforms_are_checked_with_each_pass_that_has_them() {
     let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
     let mut case = Case::new("float f(float x) { return x * speed; }", IMAGE);
     case.custom_uniforms = &custom_uniforms;
-    case.is(Kept::Tree, &[]);
+    case.assert_kept(Kept::Tree, &[]);
     let code = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x) * speed); }";
     let mut case = Case::new("float f(float x) { return x; }", code);
     case.custom_uniforms = &custom_uniforms;
-    case.is(Kept::Checked, &[]);
+    case.assert_kept(Kept::Checked, &[]);
     let values = [UniformValue { name: "gain".into(), value: UntypedValue::Number(3.0) }];
     let mut case = Case::new("uniform float gain;\nfloat f(float x) { return x * gain; }", IMAGE);
     case.values = &values;
-    case.is(Kept::Checked, &[]);
+    case.assert_kept(Kept::Checked, &[]);
     let other = [UniformValue { name: "gain".into(), value: UntypedValue::Number(4.0) }];
     let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it stands alone");
     assert!(preamble.checked(&case.source()).is_none(), "it was read for another value");
@@ -289,12 +294,12 @@ fn common_includes_a_text() {
     let whole = text("#define N 2.0\nfloat noise(float x) { return fract(x * N); }");
     let mut case = Case::new(common, IMAGE);
     case.includes = &whole;
-    case.is(Kept::Checked, &[]);
+    case.assert_kept(Kept::Checked, &[]);
     let broken = text("#define N 2.0\nfloat noise(float x) { return fract(x * N);");
     case.includes = &broken;
     let (kept, said) = case.run();
     assert_eq!((kept, said.is_empty()), (Kept::Nothing, false));
-    // A file that is not there is an error only where its line is compiled.
+    // A missing file is an error only where its line is compiled.
     let said = Diagnostic::error(line, "there is no file noise.glsl");
     let missing = [Include { line, text: Err(&said) }];
     let mut case = Case::new(common, IMAGE);
@@ -306,17 +311,17 @@ fn common_includes_a_text() {
     let missing = [Include { line: at, text: Err(&said) }];
     let mut case = Case::new(guarded, IMAGE);
     case.includes = &missing;
-    case.is(Kept::Checked, &[]);
+    case.assert_kept(Kept::Checked, &[]);
     let code = format!("#include \"noise.glsl\"\n{IMAGE}");
     let line = Span::new(CODE, 0..code.find('\n').unwrap());
     let in_pass = [Include { line, text: Ok(Text { id: INCLUDED, text: "float g() { return 1.0; }" }) }];
     let mut case = Case::new("float f(float x) { return x; }", &code);
     case.includes = &in_pass;
-    case.is(Kept::Checked, &[]);
+    case.assert_kept(Kept::Checked, &[]);
 }
 
 #[test]
-fn mistakes_across_the_border_are_told_as_before() {
+fn errors_across_the_border_are_unchanged() {
     let common = "float f(float x) { return x; }\nfloat twice;";
     for code in [
         "float f(float x) { return 2.0 * x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x)); }",

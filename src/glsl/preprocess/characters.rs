@@ -1,10 +1,10 @@
-//! Reports what is not GLSL in a text, and decides what to go on with: foreign characters, strings, bad numbers, `#` in
+//! Reports text that is not GLSL, and decides how to continue: foreign characters, strings, malformed numbers, `#` in
 //! the middle of a line.
 
 use super::state::Preprocessor;
 use crate::lex::{Kind, Token, bad_number};
 
-/// Says what stands for GLSL in typeset text, foreign keyboards and web pages, and what was meant.
+/// Lookalikes of GLSL characters in typeset text, foreign keyboards and web pages, with the intended text.
 const LOOKALIKES: &[(&str, &str, Kind)] = &[
     ("\u{2212}\u{2013}\u{2014}\u{2010}\u{2011}\u{ff0d}", "-", Kind::Minus),
     ("\u{d7}\u{2217}\u{22c5}\u{b7}\u{ff0a}", "*", Kind::Star),
@@ -31,11 +31,11 @@ const LOOKALIKES: &[(&str, &str, Kind)] = &[
 ];
 
 impl Preprocessor<'_, '_> {
-    /// Reports a token that is no GLSL. Gives what the parser goes on with; `None` leaves it out.
+    /// Reports a token that is not GLSL. Returns what the parser continues with; `None` leaves it out.
     #[cold]
     pub(super) fn mend(&mut self, token: &Token) -> Option<(Kind, u32)> {
         if self.report.is_full() {
-            // A file that is no text at all: nobody reads further messages.
+            // Probably not a text file at all: further messages would not be read.
             return match token.kind {
                 Kind::BadName => Some((Kind::Ident, token.value)),
                 Kind::BadNumber | Kind::Text => Some((Kind::Wrong, 0)),
@@ -81,7 +81,7 @@ impl Preprocessor<'_, '_> {
 
     fn character(&mut self, token: &Token) -> Option<(Kind, u32)> {
         let character = char::from_u32(token.value).unwrap_or('\u{fffd}');
-        // Shadertoy puts a line's end after each text.
+        // Shadertoy appends a line end to each text.
         if character == '\\' && self.ends_text(token.span) {
             return None;
         }

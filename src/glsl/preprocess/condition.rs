@@ -1,5 +1,5 @@
 //! Expressions of `#if` and `#elif` (section 3.4): integers, `defined`, and the operators of C without assignment and
-//! choice.
+//! the conditional operator.
 
 use super::state::Preprocessor;
 use crate::{
@@ -8,11 +8,11 @@ use crate::{
     stack::{STACK_LEFT, STACK_MORE},
 };
 
-/// Parentheses and signs within each other.
+/// The limit of nested parentheses and signs.
 const MAX_DEPTH: u32 = 10_000;
 
 impl Preprocessor<'_, '_> {
-    /// Returns whether the condition holds. A condition that is wrong was reported and does not.
+    /// Returns whether the condition is true. An invalid condition is reported and false.
     pub(super) fn condition(&mut self, directive: &Token, line: &[Token]) -> bool {
         let Some(tokens) = self.without_defined(line) else { return false };
         let mut expanded = Vec::new();
@@ -21,7 +21,7 @@ impl Preprocessor<'_, '_> {
             return false;
         }
         let mut evaluation =
-            Evaluation { all: self, tokens: &expanded, at: 0, passed_by: 0, depth: 0, end: *directive };
+            Evaluation { all: self, tokens: &expanded, at: 0, unevaluated: 0, depth: 0, end: *directive };
         let Some(value) = evaluation.binary(0) else { return false };
         if let Some(extra) = evaluation.peek() {
             evaluation.unexpected(&extra);
@@ -30,12 +30,12 @@ impl Preprocessor<'_, '_> {
         value != 0
     }
 
-    /// Returns the one or two numbers of a `#line`; `None`: reported.
+    /// Returns the one or two numbers of a `#line`; `None` if they are invalid, which was reported.
     pub(super) fn line_numbers(&mut self, directive: &Token, line: &[Token]) -> Option<(i64, Option<i64>)> {
         let mut expanded = Vec::new();
         self.expand_line(line, &mut expanded);
         let mut evaluation =
-            Evaluation { all: self, tokens: &expanded, at: 0, passed_by: 0, depth: 0, end: *directive };
+            Evaluation { all: self, tokens: &expanded, at: 0, unevaluated: 0, depth: 0, end: *directive };
         let number = evaluation.binary(0)?;
         let file = if evaluation.peek().is_some() { Some(evaluation.binary(0)?) } else { None };
         if let Some(extra) = evaluation.peek() {
@@ -75,10 +75,10 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     all: &'p mut Preprocessor<'a, 'r>,
     tokens: &'e [Token],
     at: usize,
-    /// Inside the right side of an `&&` or `||` that the left side has decided: nothing there is an error.
-    passed_by: u32,
+    /// Inside the unevaluated right side of an `&&` or `||`: nothing there is an error.
+    unevaluated: u32,
     depth: u32,
-    /// Says where an expression that ends too early is reported.
+    /// The token at which an expression that ends too early is reported.
     end: Token,
 }
 
@@ -128,9 +128,9 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             self.at += 1;
             let decided = op.kind == Kind::AndAnd && left == 0 || op.kind == Kind::OrOr && left != 0;
-            self.passed_by += u32::from(decided);
+            self.unevaluated += u32::from(decided);
             let right = self.binary(level);
-            self.passed_by -= u32::from(decided);
+            self.unevaluated -= u32::from(decided);
             left = self.apply(&op, left, right?)?;
         }
         Some(left)
@@ -150,7 +150,7 @@ impl Evaluation<'_, '_, '_, '_> {
             Kind::LessEqual => i64::from(a <= b),
             Kind::GreaterEqual => i64::from(a >= b),
             Kind::LessLess | Kind::GreaterGreater if !(0..32).contains(&b) => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.all.error(op, format!("a shift by {b} has no meaning"), None);
                     return None;
                 }
@@ -162,7 +162,7 @@ impl Evaluation<'_, '_, '_, '_> {
             Kind::Minus => a.wrapping_sub(b),
             Kind::Star => a.wrapping_mul(b),
             _ if b == 0 => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.all.error(op, "this divides by zero", None);
                     return None;
                 }
@@ -212,7 +212,7 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             Kind::Int | Kind::Uint => i64::from(token.value),
             Kind::Ident => {
-                if self.passed_by == 0 {
+                if self.unevaluated == 0 {
                     self.name(&token);
                     return None;
                 }
@@ -237,7 +237,7 @@ impl Evaluation<'_, '_, '_, '_> {
         Some(value)
     }
 
-    /// Reports a name that is no macro.
+    /// Reports a name that is not a macro.
     fn name(&mut self, token: &Token) {
         let text = self.all.names.get(Symbol(token.value)).to_owned();
         if let Some(id) = self.all.defined(token.value) {

@@ -1,5 +1,5 @@
-//! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it
-//! may be defined again.
+//! `#define` and `#undef` (section 3.4): valid macro names, parameters, replacement lists, and when a macro may be
+//! redefined.
 
 use super::{
     macros::{Macro, MacroOrigin},
@@ -13,7 +13,7 @@ use eddy_diag::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 impl Preprocessor<'_, '_> {
-    /// Enters a macro under its name.
+    /// Defines a macro under its name.
     pub(super) fn add_macro(
         &mut self,
         def: MacroDef,
@@ -31,7 +31,7 @@ impl Preprocessor<'_, '_> {
         MacroId::new(self.table.macros.len() - 1)
     }
 
-    /// Returns the macro's name in a `#define` or `#undef`, if it may be one.
+    /// Returns the macro's name in a `#define` or `#undef`, if it is a valid one.
     fn macro_name(&mut self, directive: &Token, line: &[Token]) -> Option<Token> {
         let verb = self.text(directive.span).to_owned();
         let Some(&name) = line.first() else {
@@ -97,8 +97,8 @@ impl Preprocessor<'_, '_> {
         let function_like = line.get(1).is_some_and(|t| t.kind == Kind::LParen && !t.has(SPACE));
         let first_param = self.table.params.len() as u32;
         if function_like {
-            let Some(behind) = self.parameters(&name, line) else { return };
-            at = behind;
+            let Some(next) = self.parameters(&name, line) else { return };
+            at = next;
         }
         let params = (first_param, self.table.params.len() as u32);
         let list = &line[at..];
@@ -141,7 +141,7 @@ impl Preprocessor<'_, '_> {
         self.add_macro(def, params, body, MacroOrigin::ByAuthor);
     }
 
-    /// Reads `(a, b)` behind a macro's name; gives the position behind it.
+    /// Parses `(a, b)` after a macro's name; returns the position after it.
     fn parameters(&mut self, name: &Token, line: &[Token]) -> Option<usize> {
         let first = self.table.params.len();
         let mut seen = FxHashSet::default();
@@ -168,7 +168,7 @@ impl Preprocessor<'_, '_> {
                     self.table.params.push(param.value);
                 }
                 Some(token) if token.kind == Kind::RParen && self.table.params.len() > first => {
-                    // ANGLE lets it pass, and shaders have it.
+                    // ANGLE accepts it, and existing shaders contain it.
                     self.warning(token, "there is a comma too many in these parameters", None);
                     return Some(at + 1);
                 }
@@ -199,8 +199,8 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Checks a second definition, which is allowed where it is the same as the first; otherwise that is an error, and
-    /// the new one holds.
+    /// Checks a second definition, which is allowed if it is the same as the first; otherwise it is an error, and the
+    /// new one is used.
     fn redefine(&mut self, name: &Token, old: MacroId, function_like: bool, params: (u32, u32), body: (u32, u32)) {
         let def = self.origins[old];
         let before = &self.table.macros[old.index()];
@@ -238,15 +238,15 @@ impl Preprocessor<'_, '_> {
     }
 }
 
-/// The numbers of a macro's parameters.
+/// Look-up of a macro's parameters.
 enum Numbers {
-    /// Few enough to be looked through.
+    /// Few enough for a linear search.
     Few,
     Many(FxHashMap<u32, u32>),
 }
 
 impl Numbers {
-    /// More parameters than any macro that a person wrote.
+    /// More parameters than any hand-written macro has.
     const MANY: usize = 16;
 
     fn new(names: &[u32]) -> Self {
@@ -264,7 +264,7 @@ impl Numbers {
     }
 }
 
-/// Returns whether what follows a macro's name does so without a space and most likely belongs to something else.
+/// Returns whether a token directly after a macro's name, without a space, most likely belongs to something else.
 fn is_suspicious(kind: Kind) -> bool {
     !matches!(kind, Kind::LParen | Kind::LBrace | Kind::LBracket | Kind::Semicolon)
 }

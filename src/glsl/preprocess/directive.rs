@@ -1,4 +1,4 @@
-//! Directives, told by their names, and the work of all but `#define`: conditionals, `#error`, `#line`, `#version`,
+//! Dispatch of directives, and the implementation of all but `#define`: conditionals, `#error`, `#line`, `#version`,
 //! `#extension`, `#pragma`.
 
 use super::state::{Conditional, Preprocessor};
@@ -25,13 +25,13 @@ pub(crate) const DIRECTIVES: [&str; 13] = [
 ];
 
 impl Preprocessor<'_, '_> {
-    /// Carries out the directive that begins with `hash`, to the end of its line.
+    /// Processes the directive that starts with `hash`, to the end of its line.
     pub(super) fn directive(&mut self, hash: Token) {
         self.cancel.check();
         self.lexer.begin_directive();
         let name = self.raw();
         match name.kind {
-            // `#` alone does nothing.
+            // `#` by itself does nothing.
             Kind::Newline | Kind::Eof => return,
             Kind::Ident => {}
             _ => {
@@ -74,7 +74,8 @@ impl Preprocessor<'_, '_> {
             "line" => self.line_directive(name, line),
             "version" if self.is_plain => self.version(name, line),
             "extension" if self.is_plain => self.extension(name, line),
-            // Hosts give a version of their own: the text's says what it was written in, and the rules here take all of these.
+            // Hosts set a version of their own: the text's is the one it was written in, and the rules here accept all
+            // of these.
             "version" | "extension" if self.dialect.ignores_late_directives() => {}
             "extension" if self.dialect.has_late_extensions() => self.extension(name, line),
             "version" => self.error(
@@ -96,7 +97,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Takes the version of a text that stands alone (section 3.3).
+    /// Processes the version of a standalone text (section 3.3).
     fn version(&mut self, name: &Token, line: &[Token]) {
         let words: Vec<&str> = line.iter().map(|token| self.text(token.span)).collect();
         let message = match words[..] {
@@ -105,7 +106,7 @@ impl Preprocessor<'_, '_> {
             ["100"] | [] => "this is GLSL ES 1.00; only GLSL ES 3.00 is supported".to_owned(),
             _ => format!("`#version {}` is not supported", words.join(" ")),
         };
-        let mend = match words[..] {
+        let fix = match words[..] {
             ["300", "es"] => "move it to the first line",
             ["100"] | [] => {
                 "write `#version 300 es`, `in` for attribute, `in` or `out` for varying, `texture` for texture2D, and \
@@ -113,10 +114,10 @@ impl Preprocessor<'_, '_> {
             }
             _ => "write `#version 300 es`, or delete the line: the language is always GLSL ES 3.00",
         };
-        self.error(name, message, Some(mend.into()));
+        self.error(name, message, Some(fix.into()));
     }
 
-    /// Takes an extension, of which there is none: what only wants to have one goes on without (section 3.4).
+    /// Processes an extension. None is supported; a text that only enables one is compiled without it (section 3.4).
     fn extension(&mut self, name: &Token, line: &[Token]) {
         let words: Vec<&str> = line.iter().map(|token| self.text(token.span)).collect();
         let (extension, behaviour) = match words[..] {
@@ -132,7 +133,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Reads the rest of the directive's line.
+    /// Reads the remaining tokens of the directive's line.
     pub(super) fn line_tokens(&mut self) -> Vec<Token> {
         let mut line = self.spare.pop().unwrap_or_default();
         loop {
@@ -153,7 +154,7 @@ impl Preprocessor<'_, '_> {
         self.spare.push(tokens);
     }
 
-    /// Ends a directive: anything else in its line is an error, as in ANGLE.
+    /// Ends a directive: further tokens on its line are an error, as in ANGLE.
     pub(super) fn nothing_more(&mut self, rest: &[Token], directive: &str) {
         if let Some(extra) = rest.first() {
             let text = self.text(extra.span).to_owned();
@@ -161,7 +162,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Evaluates `#ifdef` and `#ifndef`; `None` where no name follows.
+    /// Evaluates `#ifdef` and `#ifndef`; `None` if no name follows.
     fn is_defined(&mut self, directive: &Token, line: &[Token]) -> Option<bool> {
         let text = self.text(directive.span).to_owned();
         let Some(name) = line.first().filter(|t| t.kind == Kind::Ident) else {
@@ -182,7 +183,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Leaves out lines up to the group of the innermost conditional that is to be compiled, or its end.
+    /// Skips lines up to the group of the innermost conditional that is to be compiled, or its end.
     fn skip(&mut self) {
         let mut depth = 0;
         let mut from = self.lexer.here();
@@ -190,7 +191,7 @@ impl Preprocessor<'_, '_> {
             let found = self.lexer.skip_to_directive();
             let here = self.lexer.here();
             if !found {
-                self.leave_out(from.to(here));
+                self.record_skipped(from.to(here));
                 if self.next_piece() {
                     from = self.lexer.here();
                     continue;
@@ -204,8 +205,8 @@ impl Preprocessor<'_, '_> {
                 "if" | "ifdef" | "ifndef" => depth += 1,
                 "endif" if depth > 0 => depth -= 1,
                 "elif" | "else" | "endif" if depth == 0 => {
-                    // The `#` was read.
-                    self.leave_out(Span { end: here.end.saturating_sub(1).max(from.start), ..from });
+                    // The `#` has been consumed.
+                    self.record_skipped(Span { end: here.end.saturating_sub(1).max(from.start), ..from });
                     let line = self.line_tokens();
                     let compiled = self.next_group(&name, &line);
                     self.recycle(line);
@@ -220,14 +221,14 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Notes text that is not compiled.
-    fn leave_out(&mut self, span: Span) {
+    /// Records text that is not compiled.
+    fn record_skipped(&mut self, span: Span) {
         if span.start < span.end {
             self.origins.inactive.push(span);
         }
     }
 
-    /// Carries out `#elif`, `#else` and `#endif` of the innermost conditional. Returns whether the lines behind are
+    /// Processes `#elif`, `#else` and `#endif` of the innermost conditional. Returns whether the following lines are
     /// compiled.
     fn next_group(&mut self, name: &Token, line: &[Token]) -> bool {
         let text = self.text(name.span).to_owned();
@@ -255,14 +256,14 @@ impl Preprocessor<'_, '_> {
             self.conditionals[last].seen_else = Some(*name);
             !taken
         } else {
-            // The condition behind a group that was compiled is not even looked at.
+            // After a compiled group, further conditions are not evaluated.
             !taken && self.condition(name, line)
         };
         self.conditionals[last].taken |= on;
         on
     }
 
-    /// Checks a pragma: one means something, and not in a fragment shader.
+    /// Checks a pragma: only one has a meaning, and not in a fragment shader.
     fn pragma(&mut self, line: &[Token]) {
         if let [stdgl, word, ..] = line
             && self.text(stdgl.span) == "STDGL"

@@ -1,6 +1,6 @@
-//! Entry points that are macros: the site compiles `main` with the pass, so `#define mainImage cctvImage` and even
-//! `#define mainImage(o, u) o = vec4(..)` make a program. What its wrapper would call stands here as a function of the
-//! entry point's own name behind the text, so that nobody after the preprocessor need know.
+//! Entry points that are macros: Shadertoy compiles `main` with the pass, so `#define mainImage cctvImage` and even
+//! `#define mainImage(o, u) o = vec4(..)` make a program. The function that its wrapper would call is appended to the
+//! text under the entry point's own name, so that later stages need no special case.
 
 use super::state::Preprocessor;
 use crate::{
@@ -9,8 +9,8 @@ use crate::{
 };
 use eddy_diag::Span;
 
-/// The function a kind's entry point would be, up to its body, and the body: the name in it is expanded. A colour
-/// begins black and opaque, as in the site's wrapper.
+/// The declaration of the function that replaces a kind's entry point, and its body, in which the name is expanded. A
+/// colour is initially black and opaque, as in Shadertoy's wrapper.
 struct Wrapper {
     name: &'static str,
     head: &'static str,
@@ -36,13 +36,13 @@ fn wrapper(kind: PassKind) -> Option<Wrapper> {
             head: "vec2 mainSound(in int entry_sample, in float entry_time) {",
             body: "return mainSound(entry_sample, entry_time); }",
         },
-        // A stage is a whole program: nothing calls its `main`.
+        // A stage is a whole program: its `main` is not called by a wrapper.
         PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => return None,
     })
 }
 
 impl Preprocessor<'_, '_> {
-    /// Appends the wrapper if the entry point's name is a macro now and no function of the name was written.
+    /// Appends the wrapper if the entry point's name is a macro and no function of the name was defined.
     pub(super) fn wrap_entry(&mut self, kind: PassKind) {
         let Some(wrapper) = wrapper(kind) else { return };
         let Some(symbol) = self.names.find(wrapper.name) else { return };
@@ -62,7 +62,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Returns the tokens of a text of ours, all placed at the macro's name.
+    /// Returns the tokens of a built-in text, all placed at the macro's name.
     fn read_at(&mut self, text: &'static str, at: Span) -> Vec<Token> {
         let mut lexer = Lexer::new(at.source, text);
         let mut tokens = Vec::new();

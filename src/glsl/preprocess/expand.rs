@@ -1,5 +1,5 @@
-//! Macro expansion: reading through replacement lists, collecting and pre-expanding arguments (section 3.4; the
-//! algorithm is C++'s, which the specification names, in the form that ANGLE and cpplib have it).
+//! Macro expansion: reading replacement lists, collecting and pre-expanding arguments (section 3.4; the algorithm is
+//! C++'s, to which the specification refers, in the form that ANGLE and cpplib implement).
 
 use super::{
     macros::MacroOrigin,
@@ -13,8 +13,8 @@ use crate::{
 use eddy_diag::{Diagnostic, Span};
 
 impl Preprocessor<'_, '_> {
-    /// Returns the next token, not expanded: from the innermost context, else from the running text. `Eof` at the end
-    /// of an argument or directive line that is being expanded.
+    /// Returns the next token, not expanded: from the innermost context, otherwise from the running text. `Eof` at the
+    /// end of an argument or directive line that is being expanded.
     #[inline]
     pub(super) fn read(&mut self) -> Token {
         loop {
@@ -31,7 +31,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Puts back what [`Self::read`] just gave.
+    /// Puts back the last result of [`Self::read`].
     fn unread(&mut self, token: Token) {
         match self.contexts.last_mut() {
             Some(context) if token.kind != Kind::Eof => context.next -= 1,
@@ -77,7 +77,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Opens the replacement of a use of a macro, or gives the token that is to stand.
+    /// Opens the replacement of a use of a macro, or returns the token that remains.
     fn expand(&mut self, token: Token, id: MacroId) -> Option<Token> {
         let def = self.origins[id];
         match self.table.macros[id.index()].origin {
@@ -105,24 +105,24 @@ impl Preprocessor<'_, '_> {
         }
         self.record_use(&token, id);
         let mut args = Arguments { tokens: self.spare.pop().unwrap_or_default(), bounds: Vec::new() };
-        let stands = match self.collect(&token, id, &mut args) {
+        let result = match self.collect(&token, id, &mut args) {
             Ok(close) => {
                 let expansion = self.new_expansion(&token, close, id);
                 self.open(id, &token, expansion, Some(&args));
                 None
             }
-            // An operand for the parser, so that it finds no second mistake.
+            // The parser accepts it as an operand, so that it reports no second error.
             Err(Reported) => Some(Token { kind: Kind::Wrong, ..token }),
         };
         args.tokens.clear();
         self.spare.push(args.tokens);
-        stands
+        result
     }
 
     fn record_use(&mut self, token: &Token, id: MacroId) {
         let first = match token.expansion {
             None => true,
-            // Once for a replacement list, however often it is read.
+            // Once per replacement list, however often it is read.
             Some(e) => self.table.macros[self.origins[e].macro_id.index()].first_use == Some(e),
         };
         if first {
@@ -139,10 +139,10 @@ impl Preprocessor<'_, '_> {
         id
     }
 
-    /// Makes the replacement list the next thing to be read.
+    /// Makes the replacement list the next text to be read.
     fn open(&mut self, id: MacroId, name: &Token, expansion: ExpansionId, args: Option<&Arguments>) {
         let (from, to) = self.table.macros[id.index()].body;
-        // Expanding arguments uses the pool, so it comes first.
+        // The expansion of arguments uses the pool, so it comes first.
         let mut expanded = self.spare.pop().unwrap_or_default();
         let mut ranges: Vec<Expanded> = Vec::new();
         if let Some(args) = args {
@@ -172,7 +172,7 @@ impl Preprocessor<'_, '_> {
                         _ => args.get(arg),
                     };
                     self.pool.extend_from_slice(tokens);
-                    // A bomb grows here: stop before the memory does.
+                    // An exponential expansion grows here: stop before memory runs out.
                     if self.pool.len() > MAX_MACRO_TOKENS as usize {
                         break;
                     }
@@ -192,7 +192,7 @@ impl Preprocessor<'_, '_> {
         tokens.iter().any(|t| t.kind == Kind::Ident && self.defined(t.value).is_some())
     }
 
-    /// Appends an argument, completely expanded as if it stood alone, to `out`.
+    /// Appends an argument, completely expanded on its own, to `out`.
     fn expand_argument(&mut self, argument: &[Token], out: &mut Vec<Token>) {
         self.call_depth += 1;
         if self.call_depth > MAX_CALL_DEPTH {
@@ -203,13 +203,13 @@ impl Preprocessor<'_, '_> {
         self.call_depth -= 1;
     }
 
-    /// Appends the expansion of a closed run of tokens to `out`: an argument, or the line of a directive.
+    /// Appends the expansion of a closed sequence of tokens to `out`: an argument, or the line of a directive.
     pub(super) fn expand_line(&mut self, tokens: &[Token], out: &mut Vec<Token>) {
         let depth = self.contexts.len();
         let start = self.pool.len() as u32;
         self.pool.extend_from_slice(tokens);
         self.contexts.push(Context { start, next: start, end: self.pool.len() as u32, source: None });
-        // What is read here is complete in itself, whatever call is being collected around it.
+        // It is complete in itself, whatever call is being collected around it.
         let collecting = std::mem::take(&mut self.collecting);
         while !self.stopped {
             let token = self.next_expanded();
@@ -224,7 +224,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Reads a call's arguments up to its closing parenthesis, whose place it gives.
+    /// Collects a call's arguments up to its closing parenthesis, whose place it returns.
     fn collect(&mut self, name: &Token, id: MacroId, args: &mut Arguments) -> Result<Span, Reported> {
         self.collecting += 1;
         self.table.macros[id.index()].calls += 1;
@@ -245,7 +245,7 @@ impl Preprocessor<'_, '_> {
                 }
                 Kind::Ident => {
                     let mut token = token;
-                    // A busy macro's name stays as it is even where it is free later.
+                    // The name of a busy macro is never expanded, even after the macro is free again.
                     if self.defined(token.value).is_some_and(|id| self.table.macros[id.index()].busy) {
                         token.flags |= PAINTED;
                     }
@@ -315,17 +315,17 @@ const END: Token = Token {
     expansion: None,
 };
 
-/// A call that cannot be expanded, which was said.
+/// A call that cannot be expanded, which was reported.
 struct Reported;
 
-/// Says what became of an argument.
+/// The state of an argument's expansion.
 #[derive(Clone, Copy)]
 enum Expanded {
-    /// No token of the replacement list named it so far.
+    /// Not used by any token of the replacement list so far.
     Unused,
-    /// It has no macro.
+    /// It contains no macro.
     AsWritten,
-    /// A range of what all arguments expanded to.
+    /// A range of the expansions of all arguments.
     To(usize, usize),
 }
 

@@ -1,29 +1,29 @@
-//! Directives that GLSL ES does not have: `#include` lines that name no file, and what other tools know.
+//! Directives that GLSL ES does not have: `#include` lines without a file name, and those of other tools.
 //!
-//! A text that asks for something by one of them is not whole. What is said of the rest would be a consequence, so the
-//! reading ends there.
+//! A text with one of them is incomplete. Any further errors would be consequences, so reading stops there.
 
 use super::{directive::DIRECTIVES, state::Preprocessor};
 use crate::{lex::Token, near::nearest_identifier};
 
-/// Directives of Eddy's, which lie in the texts that it reads and are gone where the compiler sees them in their form.
+/// Eddy's own directives. They are in the texts that Eddy reads; those of the correct form are removed before the
+/// compiler.
 pub(super) const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];
 
 const CHANNEL_FORM: &str = "write #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"";
 
 impl Preprocessor<'_, '_> {
-    /// Says what is wrong with an `#include` line that is not of the form that names a file.
+    /// Reports an `#include` line that does not name a file in the correct form.
     pub(super) fn include(&mut self, name: &Token, line: &[Token]) {
         let rest = self.rest_of(line);
         let (message, hint) = include_mistake(&rest);
         self.stop(name, message, Some(hint));
     }
 
-    /// Carries out or refuses a directive that is none of GLSL's.
+    /// Processes or rejects a directive that GLSL does not have.
     pub(super) fn unknown_directive(&mut self, name: &Token, other: &str, line: &[Token]) {
         let rest = self.rest_of(line);
         let stop = match other {
-            // It asks for `mainImage` alone to be the entry point, which it is.
+            // It requests that only `mainImage` be the entry point, which is always the case.
             "StrictCompatibility" => return,
             "iKeyboard" => Some((
                 "Eddy has no `#iKeyboard`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
@@ -68,8 +68,8 @@ impl Preprocessor<'_, '_> {
         self.error_with(name, message, hint, meant.as_deref());
     }
 
-    /// Refuses a pragma that includes, and warns of one that a tool should have replaced by a text. Any other means nothing here,
-    /// as the specification has it (section 3.5).
+    /// Rejects a pragma that includes, and warns of one that a tool should have replaced by a text. All others are
+    /// ignored, as specified (section 3.5).
     pub(super) fn foreign_pragma(&mut self, line: &[Token]) {
         let Some(first) = line.first() else { return };
         let rest = self.rest_of(line);
@@ -93,7 +93,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Returns a directive's words as they are written.
+    /// Returns the words of a directive as written.
     fn rest_of(&self, line: &[Token]) -> String {
         match (line.first(), line.last()) {
             (Some(first), Some(last)) => self.text(first.span.to(last.span)).to_owned(),
@@ -104,13 +104,13 @@ impl Preprocessor<'_, '_> {
 
 /// Returns the text between the quotes or angle brackets of a line.
 fn quoted(rest: &str) -> Option<&str> {
-    let begin = rest.find(['"', '\'', '<'])?;
-    let close = if rest[begin..].starts_with('<') { '>' } else { rest[begin..].chars().next()? };
-    let inner = &rest[begin + 1..];
+    let start = rest.find(['"', '\'', '<'])?;
+    let close = if rest[start..].starts_with('<') { '>' } else { rest[start..].chars().next()? };
+    let inner = &rest[start + 1..];
     Some(inner.split_once(close).map_or(inner, |(inner, _)| inner).trim())
 }
 
-/// Returns what is wrong with an `#include` line, and the mend.
+/// Returns the error of an `#include` line, and the fix.
 fn include_mistake(rest: &str) -> (String, String) {
     let form = || "write #include \"noise.glsl\"".to_owned();
     let write = |path: &str| format!("write #include \"{path}\"");
@@ -147,7 +147,7 @@ fn include_mistake(rest: &str) -> (String, String) {
             let path = rest.split_whitespace().next().unwrap_or_default();
             let path = path.trim_end_matches([';', ',', '"', '\'', '>']);
             match rest.split_once(['"', '<']) {
-                // `#include "a.glsl"` with something else before it.
+                // `#include "a.glsl"` with other text before it.
                 Some(_) => ("an #include takes one file in double quotes".into(), form()),
                 None => ("write the #include file in double quotes".into(), write(path)),
             }
@@ -155,7 +155,7 @@ fn include_mistake(rest: &str) -> (String, String) {
     }
 }
 
-/// Returns whether a name in angle brackets is one of three.js's, whose chunks are called without an ending.
+/// Returns whether a name in angle brackets is one of three.js's chunks, whose names have no file extension.
 fn is_chunk(name: &str) -> bool {
     let known = ["common", "packing", "clipping_planes_pars", "cube_uv_reflection_fragment", "bsdfs", "defaultnormal"];
     let ends = ["_fragment", "_vertex", "_pars", "_begin", "_maps", "_end", "_physical"];
@@ -168,7 +168,7 @@ mod tests {
     use super::include_mistake;
 
     #[test]
-    fn each_form_has_its_mend() {
+    fn each_form_has_a_fix() {
         for (rest, message, hint) in [
             ("", "has no file name", "write #include \"noise.glsl\""),
             ("\"\"", "has no file name", "write #include \"noise.glsl\""),
@@ -185,8 +185,8 @@ mod tests {
             ("lib/noise.glsl;", "in double quotes", "write #include \"lib/noise.glsl\""),
             ("FILE \"a\"", "one file in double quotes", "write #include \"noise.glsl\""),
         ] {
-            let (said, mend) = include_mistake(rest);
-            assert!(said.contains(message) && mend.contains(hint), "{rest}: {said}; {mend}");
+            let (said, fix) = include_mistake(rest);
+            assert!(said.contains(message) && fix.contains(hint), "{rest}: {said}; {fix}");
         }
     }
 }

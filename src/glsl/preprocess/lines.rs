@@ -1,17 +1,17 @@
-//! Says what `__LINE__` and `__FILE__` are. Messages do not follow them: they keep to the tabs.
+//! The values of `__LINE__` and `__FILE__`. Messages do not use them: they refer to the tabs.
 //!
-//! A pass is one text to the site's compiler, its header first, then Common, and `__LINE__` counts through it. Programs
-//! tell by it whether Common is being compiled alone (`#if __LINE__ < 17`), or take numbers from it, so the header's
-//! length is part of what they mean.
+//! To Shadertoy's compiler a pass is one text, its header first, then Common, and `__LINE__` counts through it.
+//! Programs test by it whether Common is compiled by itself (`#if __LINE__ < 17`), or take numbers from it, so the
+//! header's length is part of their meaning.
 
 use super::state::Preprocessor;
 use crate::{lex::Token, pieces::Piece};
 use eddy_diag::Span;
 
 impl Preprocessor<'_, '_> {
-    /// Returns what `__LINE__` is at a place.
+    /// Returns the value of `__LINE__` at a place.
     pub(super) fn line_number(&mut self, place: Span) -> i32 {
-        // The newest piece there it lies in: an included text may have been read before.
+        // The latest piece that contains it: an included text may have been read before.
         let holds = |piece: &Piece<'_>| {
             piece.text.id == place.source && (piece.range.start..=piece.range.end).contains(&(place.start as usize))
         };
@@ -27,12 +27,12 @@ impl Preprocessor<'_, '_> {
         before.wrapping_add(here).wrapping_add(1).wrapping_add(self.line.shift)
     }
 
-    /// Notes the ends of lines of the next piece that was not asked for yet.
+    /// Records the line ends of the next piece that was not counted yet.
     fn count_piece(&mut self) {
         let piece = self.line.ends.len();
         let Piece { text, range, begins_text, .. } = &self.pieces[piece];
         let before = match self.line.ends.last() {
-            // The site puts a line's end behind Common.
+            // Shadertoy appends a line end to Common.
             Some((before, ends)) => before + ends.len() as i32 + i32::from(*begins_text),
             None => 0,
         };
@@ -41,7 +41,7 @@ impl Preprocessor<'_, '_> {
         self.line.ends.push((before, ends));
     }
 
-    /// Carries out `#line number` or `#line number file`: the line behind the directive has the number (section 3.4).
+    /// Processes `#line number` or `#line number file`: the line after the directive has the number (section 3.4).
     pub(super) fn line_directive(&mut self, name: &Token, line: &[Token]) {
         let Some((number, file)) = self.line_numbers(name, line) else { return };
         let here = self.line_number(name.span);

@@ -1,18 +1,18 @@
-//! The macros that are defined: what a text leaves to those that follow it.
+//! The defined macros: the state that a text passes on to those that follow it.
 
 use crate::{ast::ExpansionId, lex::Token, source::Dialect};
 
-/// Every macro so far. Names and places of definition are in `Origins::macros`, by the same number.
+/// Every macro so far. Names and places of definition are in `Origins::macros`, at the same index.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MacroTable {
     /// By symbol: the number of its macro plus one.
     pub(super) defined: Vec<u32>,
     pub(super) macros: Vec<Macro>,
-    /// Replacement lists of all.
+    /// Replacement lists of all macros.
     pub(super) bodies: Vec<Token>,
-    /// Parameters of all.
+    /// Parameters of all macros.
     pub(super) params: Vec<u32>,
-    /// Tokens that macros have produced.
+    /// The number of tokens that macros have produced.
     pub(super) work: u32,
 }
 
@@ -22,29 +22,29 @@ pub(super) struct Macro {
     pub body: (u32, u32),
     /// Symbols of the parameters, a range of [`MacroTable::params`].
     pub params: (u32, u32),
-    /// Its text is being read; the name is not to be expanded now.
+    /// Its replacement list is being read; the name is not expanded now.
     pub busy: bool,
-    /// Calls whose arguments are being read.
+    /// The number of calls whose arguments are being collected.
     pub calls: u32,
     pub origin: MacroOrigin,
     /// Its first use, through which uses inside its body are recorded once.
     pub first_use: Option<ExpansionId>,
 }
 
-/// The party that a macro comes from.
+/// The origin of a macro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MacroOrigin {
     ByAuthor,
-    /// `HW_PERFORMANCE`, defined by the site's header like any macro.
+    /// `HW_PERFORMANCE`, defined by Shadertoy's header like any macro.
     BySite(u32),
-    /// Part of the language: nobody may define or undefine it.
+    /// Part of the language: it cannot be defined or undefined.
     ByLanguage(u32),
     LineNumber,
     FileNumber,
 }
 
 impl MacroOrigin {
-    /// Returns the macros that are there before the first line.
+    /// Returns the macros that are defined before the first line.
     pub fn all(dialect: Dialect) -> Vec<(&'static str, MacroOrigin)> {
         use MacroOrigin::{ByLanguage, BySite, FileNumber, LineNumber};
         let mut all = vec![("__LINE__", LineNumber), ("__FILE__", FileNumber)];

@@ -1,7 +1,7 @@
-//! Lines that were brought along or slipped: a Markdown fence round the text, a directive that something stands before.
+//! Misplaced lines: a Markdown fence around the text, a directive that does not start its line.
 //!
-//! Each is one mistake, and told once. What the parser would say of the rest of such a line, and of the names that it
-//! would have declared, would be a consequence.
+//! Each is one error, reported once. The parser's errors about the rest of such a line, and about the names that it
+//! would have declared, would be consequences.
 
 use super::{directive::DIRECTIVES, foreign::OWN, state::Preprocessor};
 use crate::{
@@ -10,11 +10,11 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, Edit, Fix, Span};
 
-/// Directives without which the rest of a text is another one.
+/// Directives without which the rest of a text has another meaning.
 const ESSENTIAL: [&str; 7] = ["include", "if", "ifdef", "ifndef", "elif", "else", "endif"];
 
 impl Preprocessor<'_, '_> {
-    /// Tells of a fence, or of a directive within its line. False for anything else, of which nothing is read then.
+    /// Reports a fence, or a directive within its line. Returns false for anything else, of which nothing is consumed.
     #[cold]
     pub(super) fn is_misplaced(&mut self, token: &Token) -> bool {
         match token.kind {
@@ -23,8 +23,8 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// Tells of a directive that a word stands before, as `x#define N 3`. `first`: the first token of a line. False where
-    /// there is none, and nothing is read then.
+    /// Reports a directive that is preceded by a word, as `x#define N 3`. `first` is the first token of a line. Returns
+    /// false if there is none, and consumes nothing then.
     #[inline]
     pub(super) fn hides_directive(&mut self, first: &Token) -> bool {
         let text = self.pieces[self.current].text.text.as_bytes();
@@ -47,7 +47,7 @@ impl Preprocessor<'_, '_> {
                 .hint(format!("delete `{word}`"))
                 .fix(Fix::new(format!("Delete `{word}`"), vec![edit])),
         );
-        self.leave_line(&name);
+        self.skip_line(&name);
         true
     }
 
@@ -59,19 +59,19 @@ impl Preprocessor<'_, '_> {
                 .hint("move it into a line of its own")
                 .fix(Fix::new(format!("Move `#{name}` into its own line"), vec![edit])),
         );
-        self.leave_line(&name);
+        self.skip_line(&name);
         true
     }
 
-    /// Returns the name of the directive whose `#` is at a byte of the text that is being read.
+    /// Returns the name of the directive whose `#` is at this byte of the current text.
     fn directive_at(&self, hash: usize) -> Option<String> {
         let rest = self.pieces[self.current].text.text.get(hash..)?.strip_prefix('#')?.trim_start_matches([' ', '\t']);
         let name = &rest[..rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len())];
         DIRECTIVES.into_iter().chain(OWN).any(|known| known == name).then(|| name.to_owned())
     }
 
-    /// Reads the rest of a line, of which nothing is done.
-    fn leave_line(&mut self, name: &str) {
+    /// Consumes the rest of a line without processing it.
+    fn skip_line(&mut self, name: &str) {
         self.lexer.begin_directive();
         let line = self.line_tokens();
         let names = line.iter().filter(|t| t.kind == Kind::Ident).map(|t| Symbol(t.value));
@@ -79,7 +79,7 @@ impl Preprocessor<'_, '_> {
         self.stopped |= ESSENTIAL.contains(&name);
     }
 
-    /// Tells of the ``` that Markdown puts round a text: once, with a mend that takes all of them away.
+    /// Reports the ``` that Markdown puts around a text: once, with a fix that removes all of them.
     fn fence(&mut self, token: &Token) -> bool {
         let text = self.pieces[self.current].text.text;
         let start = token.span.start as usize;
@@ -89,15 +89,15 @@ impl Preprocessor<'_, '_> {
             return false;
         }
         let line = rest.lines().next().unwrap_or_default();
-        let behind = line[ticks..].trim();
-        let is_alone = !behind.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
+        let rest = line[ticks..].trim();
+        let is_alone = !rest.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
         let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
         let marks = span;
         if is_alone {
             self.lexer.begin_directive();
             self.lexer.rest_of_line();
             self.line_tokens();
-            // With its end.
+            // Including its line end.
             let begin = text[..start].rfind('\n').map_or(0, |at| at + 1);
             let end = rest.find('\n').map_or(text.len(), |at| start + at + 1);
             span = Span::new(span.source, begin..end);

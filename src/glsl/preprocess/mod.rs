@@ -1,12 +1,12 @@
-//! The preprocessor (section 3.4): directives and macros, from the texts of a pass to the tokens the parser reads.
+//! The preprocessor (section 3.4): directives and macros, from the texts of a pass to the tokens for the parser.
 //!
-//! Owns [`preprocess`], [`Origins`] as it fills them, and every message about directives, macros and characters. It
-//! sees the texts one after another as the site does (Common, then the pass's code, and in them what they include):
-//! macros and open conditionals carry over.
+//! Owns [`preprocess`], filling [`Origins`], and every message about directives, macros and characters. It reads the
+//! texts in sequence as Shadertoy does (Common, then the pass's code, and in them the included texts): macros and open
+//! conditionals carry over.
 //!
-//! Follows ANGLE, which compiles for every browser, in what the specification leaves open: an unknown name in an `#if`
-//! is an error unless `&&` or `||` passes it by; there is no pasting with `##`; a macro's name met while the macro is
-//! being expanded is left alone for good.
+//! Follows ANGLE, which compiles for every browser, where the specification is silent: an unknown name in an `#if` is
+//! an error unless `&&` or `||` skips it; there is no pasting with `##`; a macro's name that occurs while the macro is
+//! being expanded is never expanded.
 
 mod characters;
 mod condition;
@@ -33,10 +33,10 @@ pub(super) use unit::Unit;
 use super::{ast::Interner, cancel::Cancel, pieces::Piece, report::Report, source::Dialect};
 use state::Preprocessor;
 
-/// Runs the texts through, those behind what is `done`.
+/// Preprocesses the texts after those of `done`.
 ///
 /// # Panics
-/// If that is all of them.
+/// If there are none left.
 pub(super) fn preprocess(
     pieces: &[Piece<'_>],
     (unit, dialect, cancel): (Unit, Dialect, Cancel<'_>),

@@ -1,4 +1,4 @@
-//! The preprocessor's state: texts, macros, tokens on their way to the parser.
+//! The preprocessor's state: texts, macros, tokens for the parser.
 
 use super::{
     macros::{MacroOrigin, MacroTable},
@@ -15,13 +15,13 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceId, Span};
 
-/// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
-/// known shader needs; a bomb reaches it in a fraction of a second.
+/// The limit of tokens that macros may produce; tokens that are read repeatedly count each time. Ten times what the
+/// largest known shader needs; an exponential expansion reaches it in a fraction of a second.
 pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
-/// The depth to which macro calls may stand in each other's arguments: somewhat more than ANGLE's 1,000.
+/// The limit of macro calls nested in each other's arguments: somewhat more than ANGLE's 1,000.
 pub(super) const MAX_CALL_DEPTH: u32 = 1024;
 
-/// An `#if` that is open.
+/// An open `#if`.
 pub(super) struct Conditional {
     pub at: Token,
     /// One of its groups was compiled.
@@ -29,7 +29,7 @@ pub(super) struct Conditional {
     pub seen_else: Option<Token>,
 }
 
-/// Tokens to be read before the running text goes on.
+/// Tokens to be read before the running text continues.
 pub(super) struct Context {
     pub start: u32,
     pub next: u32,
@@ -48,7 +48,7 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub report: &'r mut Report,
     pub origins: Origins,
     pub tokens: Vec<Tok>,
-    /// Tokens of texts that were read before.
+    /// The number of tokens of texts that were read before.
     pub earlier: usize,
     pub table: MacroTable,
     pub contexts: Vec<Context>,
@@ -56,27 +56,27 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub pool: Vec<Token>,
     pub peeked: Option<Token>,
     pub conditionals: Vec<Conditional>,
-    /// Macros that wait until a call's arguments are complete before their names are free again.
+    /// Macros whose names stay busy until a call's arguments are complete.
     pub waiting: Vec<MacroId>,
     pub collecting: u32,
     pub call_depth: u32,
-    /// A limit was passed: nothing more is read.
+    /// A limit was exceeded: reading has ended.
     pub stopped: bool,
     pub is_cut: bool,
     pub spare: Vec<Vec<Token>>,
-    /// Names with foreign letters that were reported.
+    /// Names with non-ASCII letters that were reported.
     pub foreign: Vec<u32>,
-    /// The diagnostic that tells of a Markdown fence.
+    /// The diagnostic that reports a Markdown fence.
     pub fence: Option<usize>,
     pub line: LineCount,
-    /// Nothing stands in front of the text, so that it may begin with its version and extensions.
+    /// No other text precedes it, so that it may start with its version and extensions.
     pub is_plain: bool,
     pub dialect: Dialect,
     pub cancel: Cancel<'r>,
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
-    /// Stands before the first of the pieces that are not done.
+    /// Starts before the first piece that is not done.
     ///
     /// # Panics
     /// If there is none.
@@ -117,7 +117,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             dialect,
             cancel,
         };
-        // A token for four bytes is what shaders have, comments included.
+        // Shaders have about one token per four bytes, comments included.
         new.tokens.reserve(bytes / 4 + 16);
         new.origins.tokens.reserve(bytes / 4 + 16);
         if is_new {
@@ -151,7 +151,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             }
         }
         if self.stopped {
-            // Half a text would only give messages about its other half.
+            // Half a text would only cause messages about the missing half.
             self.tokens.truncate(self.earlier);
             self.origins.tokens.truncate(self.earlier);
         }
@@ -160,7 +160,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.origins.tokens.push(Origin { spelled: last, expansion: None });
     }
 
-    /// Hands a token to the parser.
+    /// Passes a token to the parser.
     #[inline]
     pub fn emit(&mut self, token: Token) {
         let (kind, value) = match token.kind {
@@ -183,13 +183,13 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.origins.tokens.push(Origin { spelled: token.span, expansion: token.expansion });
     }
 
-    /// Returns the next token of the current text, with nothing done to it.
+    /// Returns the next token of the current text, unprocessed.
     #[inline]
     pub fn raw(&mut self) -> Token {
         self.lexer.next(self.names)
     }
 
-    /// Returns the next token of the running text, directives carried out on the way.
+    /// Returns the next token of the running text; directives before it are processed.
     #[inline]
     pub fn running(&mut self) -> Token {
         if let Some(token) = self.peeked.take() {
@@ -215,7 +215,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         }
     }
 
-    /// Goes on with the next piece, if there is one.
+    /// Continues with the next piece, if there is one.
     pub fn next_piece(&mut self) -> bool {
         let Some(next) = self.pieces.get(self.current + 1) else { return false };
         self.current += 1;
@@ -244,17 +244,17 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
-    /// Nothing of its text comes after it.
+    /// Returns whether a span is at the end of its text.
     pub fn ends_text(&self, span: Span) -> bool {
         self.pieces.iter().any(|p| p.text.id == span.source && p.text.text.len() == span.range().end)
     }
 
-    /// Returns where the author wrote what became this token.
+    /// Returns the place where the author wrote the text of this token.
     pub fn place(&self, token: &Token) -> Span {
         token.expansion.map_or(token.span, |id| self.origins[id].used_at)
     }
 
-    /// Reports an error with the text that should stand there instead.
+    /// Reports an error with the replacement text of the fix.
     pub fn error_with(&mut self, token: &Token, message: String, hint: Option<String>, text: Option<&str>) {
         let before = self.report.diagnostics.len();
         self.error(token, message, hint);
@@ -287,7 +287,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.diagnose(Severity::Warning, token, message.into(), hint);
     }
 
-    /// Reports an error that ends the reading: what follows would make no sense.
+    /// Reports an error that ends reading: the rest would be meaningless.
     pub fn stop(&mut self, token: &Token, message: String, hint: Option<String>) {
         if !self.stopped {
             self.error(token, message, hint);

@@ -1,38 +1,38 @@
-//! Says what the site puts in front of a text, for the numbers of lines.
+//! The text that Shadertoy puts in front of a source, for line numbers.
 
 use crate::source::PassKind;
 
-/// Says what is compiled, for what the site puts in front of it.
+/// The unit that is compiled, which determines Shadertoy's header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unit {
     Pass(PassKind),
-    /// Common, as the site checks it.
+    /// Common, as Shadertoy checks it.
     CommonAlone,
 }
 
 impl Unit {
-    /// Lines of the site's header: version and precisions, uniforms, channels, the wrapper.
+    /// Returns the number of lines of Shadertoy's header: version and precisions, uniforms, channels, the wrapper.
     fn header_lines(self) -> i32 {
         match self {
             Unit::Pass(PassKind::Image) => 53,
             Unit::Pass(PassKind::Buffer) => 27,
             Unit::Pass(PassKind::Cubemap) => 30,
             Unit::Pass(PassKind::Sound) => 20,
-            // The site has no such stages.
+            // Shadertoy has no such stages.
             Unit::Pass(PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment) => 0,
             Unit::CommonAlone => 11,
         }
     }
 }
 
-/// Says where lines end, in the pieces that were asked for.
+/// The line ends of the pieces that were counted.
 pub(super) struct LineCount {
-    /// The number of ends of lines that precede each piece, and the offsets of its own in its text.
+    /// The number of line ends before each piece, and the offsets of its own in its text.
     pub ends: Vec<(i32, Vec<u32>)>,
-    /// Says what is to be added: the header's lines, or what `#line` made of them.
+    /// The lines to add: the header's, as changed by `#line`.
     pub shift: i32,
     pub file: i32,
-    /// Some number depends on what the site puts in front of the text.
+    /// True if some number depends on Shadertoy's header.
     pub was_asked: bool,
 }
 

@@ -1,4 +1,4 @@
-//! A pass as the editor's questions find it: what the compiler understood, and its texts as written.
+//! A pass prepared for the editor's queries: the compiler's results, and its texts as written.
 
 use super::{symbols::Symbols, text::Source};
 use crate::{
@@ -12,16 +12,15 @@ use crate::{
 };
 use eddy_diag::{Diagnostic, SourceId, Span};
 
-/// A place in the texts of a pass: later texts come after earlier ones.
+/// A position in the texts of a pass: later texts come after earlier ones.
 pub(super) type Position = (usize, u32);
 
-/// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is
-/// neither has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.
+/// An analysed pass, complete or not. Answers queries about Common and about the pass's own text alike; a source that
+/// is neither has no answers. Cheap enough to rebuild for each text: about a millisecond for a thousand lines.
 pub struct Analysis {
     pub(super) kind: PassKind,
     pub(super) channels: [ChannelKind; 4],
-    /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is
-    /// before it.
+    /// Common, if there is one, the included texts, then the pass's text: later texts may use names of earlier ones.
     pub(super) sources: Vec<Source>,
     /// The index of the first included text.
     pub(super) included_from: usize,
@@ -33,7 +32,7 @@ pub struct Analysis {
     pub(super) symbols: Symbols,
     /// Types of [`Uniform::ALL`].
     pub(super) uniform_types: Vec<TypeId>,
-    /// Name and type of the author's own uniforms.
+    /// Names and types of the custom uniforms.
     pub(super) custom_uniforms: Vec<(String, TypeId)>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -49,7 +48,7 @@ impl Analysis {
         Self::behind(source, None)
     }
 
-    /// Does the same with Common read already: the `preamble` is of the pass's own.
+    /// As [`Analysis::new`] with a precompiled Common: the `preamble` is that of the pass.
     pub fn behind(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
         let FrontEnd { mut module, origins, mut names, diagnostics, .. } =
             FrontEnd::run(source, &Link::default(), preamble);
@@ -83,17 +82,17 @@ impl Analysis {
         analysis
     }
 
-    /// Returns what is wrong with the pass: what [`crate::diagnose`] says of it.
+    /// Returns the diagnostics of the pass, as [`crate::diagnose`] does.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// Returns every text this was made of: Common, what is included anywhere, then the pass's own.
+    /// Returns every text of the analysis: Common, the included texts, then the pass's own.
     pub fn texts(&self) -> impl Iterator<Item = SourceId> {
         self.sources.iter().map(|source| source.id)
     }
 
-    /// Returns the text this was made of.
+    /// Returns a text of the analysis.
     pub fn text(&self, source: SourceId) -> Option<&str> {
         Some(&self.sources[self.source_index(source)?].text)
     }
@@ -106,18 +105,18 @@ impl Analysis {
         self.source_index(span.source).and_then(|i| self.sources[i].text.get(span.range())).unwrap_or("")
     }
 
-    /// Returns the word at a place: index of its text, and of the token.
+    /// Returns the word at a position: the index of its text, and of the token.
     pub(super) fn word_at(&self, source: SourceId, offset: usize) -> Option<(usize, usize)> {
         let source = self.source_index(source)?;
         Some((source, self.sources[source].word_at(offset)?))
     }
 
-    /// Returns where a token's characters are: in a macro's replacement list for what came out of one.
+    /// Returns the place of a token's characters: in a macro's replacement list if a macro inserted it.
     pub(super) fn spelled(&self, token: TokenId) -> Span {
         self.origins.tokens[token.0 as usize].spelled
     }
 
-    /// Returns whether a name stands in the text where it is said to.
+    /// Returns whether the text at a name's place is that name.
     pub(super) fn is_written(&self, name: Option<Ident>) -> bool {
         name.is_some_and(|name| self.word(name.token) == self.names.get(name.symbol))
     }

@@ -1,4 +1,4 @@
-//! Colours by meaning: what each word, comment and directive of a text is.
+//! Semantic highlighting: the class of each word, comment and directive of a text.
 
 use super::{
     analysis::Analysis,
@@ -12,17 +12,17 @@ use crate::{
 use eddy_diag::SourceId;
 use std::ops::Range;
 
-/// Says what a run of a text is.
+/// The class of a range of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     Keyword,
     /// A keyword type, or a struct's name.
     Type,
-    /// A function of the language.
+    /// A built-in function.
     Builtin,
-    /// The author's function.
+    /// A user function.
     Function,
-    /// Says what the site gives, and `gl_` variables.
+    /// A predefined uniform of Shadertoy, or a `gl_` variable.
     Uniform,
     Macro,
     Parameter,
@@ -32,16 +32,16 @@ pub enum Class {
     Field,
     Number,
     Comment,
-    /// `#` and the word behind it.
+    /// `#` and the word after it.
     Preprocessor,
     /// Left out by an `#if`.
     Inactive,
     Operator,
-    /// A name that means nothing, or whose meaning was not looked for.
+    /// A name without a meaning, or one that was not resolved.
     Unknown,
 }
 
-/// A run of bytes of one class. What no run covers is blank, an operator or a bracket.
+/// A range of bytes of one class. Text between ranges is white space, an operator or a bracket.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassSpan {
     pub range: Range<usize>,
@@ -49,7 +49,7 @@ pub struct ClassSpan {
 }
 
 impl Analysis {
-    /// Returns the classes of a text, in order, none overlapping another.
+    /// Returns the classes of a text, in order, without overlaps.
     pub fn classes(&self, source: SourceId) -> Vec<ClassSpan> {
         let Some(index) = self.source_index(source) else { return Vec::new() };
         let text = &self.sources[index];
@@ -72,7 +72,7 @@ impl Analysis {
         found.extend(text.inactive.iter().map(span(Class::Inactive)));
         found.extend(text.comments.iter().map(span(Class::Comment)));
         found.sort_by_key(|s| s.range.start);
-        // Comments in text that is left out are a part of it.
+        // Comments in skipped text belong to it.
         let mut end = 0;
         found.retain(|s| {
             let is_outside = s.range.start >= end;
@@ -100,7 +100,7 @@ impl Analysis {
         if i > 0 && text.kind(i - 1) == Kind::Dot {
             return Some(Class::Field);
         }
-        // What the checker did not get to: by what is cheap to tell.
+        // Not reached by the checker: use what can be determined cheaply.
         if Builtin::from_symbol(token.symbol()).is_some() && text.kind(i + 1) == Kind::LParen {
             return Some(Class::Builtin);
         }

@@ -1,4 +1,4 @@
-//! Finds what could stand at the caret.
+//! Completion: the names and words that are valid at the caret.
 
 use super::{
     analysis::{Analysis, Position},
@@ -19,7 +19,7 @@ use crate::{
 use eddy_diag::SourceId;
 use std::{collections::HashSet, ops::Range};
 
-/// Says what is proposed, for a sign beside it.
+/// The kind of a completion, for an icon next to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompletionKind {
     Local,
@@ -31,39 +31,40 @@ pub enum CompletionKind {
     Field,
     Macro,
     Builtin,
-    /// A uniform, channel or variable that the site or the language gives.
+    /// A uniform, channel or variable that is predefined by Shadertoy or the language.
     Uniform,
     Type,
     Keyword,
 }
 
-/// One proposal.
+/// One completion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// Says what is shown, and put in the place of what was typed.
+    /// The text that is shown, and that replaces the typed part.
     pub label: String,
     pub kind: CompletionKind,
     /// Its type, or signature; may be empty.
     pub detail: String,
     /// Explanation; may be empty.
     pub doc: String,
-    /// Smaller stands higher among equally good fits.
+    /// Smaller ranks higher among equally good matches.
     order: u32,
 }
 
-/// Proposals at a caret.
+/// The completions at a caret.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Completions {
-    /// Bytes of the text that a proposal takes the place of: the word's part before the caret.
+    /// Bytes of the text that a completion replaces: the word's part before the caret.
     pub replace: Range<usize>,
-    /// All, whatever was typed of them.
+    /// All completions, not filtered by what was typed.
     pub items: Vec<Completion>,
-    /// The caret stands behind a `.`.
+    /// The caret is after a `.`.
     pub is_member: bool,
 }
 
 impl Completions {
-    /// Returns the indices of the items that fit `typed`, best first; where none does, of what it may be a slip of.
+    /// Returns the indices of the items that match `typed`, best first; if none does, of those that `typed` may be a
+    /// misspelling of.
     pub fn matching(&self, typed: &str) -> Vec<usize> {
         let fits = self.items.iter().enumerate();
         let mut found: Vec<(u32, u32, &str, usize)> = fits
@@ -81,8 +82,8 @@ impl Completions {
 }
 
 impl Analysis {
-    /// Returns what could stand at `offset` of a text. Nothing in comments, in text that is not compiled, in numbers,
-    /// and where a new name is being given.
+    /// Returns the completions at `offset` of a text. None in comments, in skipped text, in numbers, and where a new
+    /// name is being declared.
     pub fn completions(&self, source: SourceId, offset: usize) -> Completions {
         let none = Completions { replace: offset..offset, ..Completions::default() };
         let Some(source) = self.source_index(source) else { return none };
@@ -90,7 +91,7 @@ impl Analysis {
         if !text.text.is_char_boundary(offset) || text.is_comment(offset) || text.is_inactive(offset) {
             return none;
         }
-        // Behind the caret's word: `next` is the first token that is not before it.
+        // After the caret's word: `next` is the first token that is not before it.
         let mut next = text.first_from(offset);
         let mut start = offset;
         if let Some(last) = next.checked_sub(1)
@@ -104,7 +105,7 @@ impl Analysis {
             ) {
                 return none;
             } else if text.tokens[last].end as usize > offset {
-                // Between the signs of an operator.
+                // Inside an operator.
                 return none;
             }
         }
@@ -119,7 +120,7 @@ impl Analysis {
             let items = self.members_before(source, dot, at);
             return Completions { replace, items, is_member: true };
         }
-        if before.is_some_and(|i| self.gives_name(text, i, at)) {
+        if before.is_some_and(|i| self.declares_name(text, i, at)) {
             return none;
         }
         let begins = before.is_none_or(|i| matches!(text.kind(i), Token::Semicolon | Token::RBrace | Token::LBrace));
@@ -138,8 +139,8 @@ impl Analysis {
         Completions { replace, items, is_member: false }
     }
 
-    /// Returns whether the word behind a token is a name being declared: `float x`, `Ray r`.
-    fn gives_name(&self, text: &Source, before: usize, at: Position) -> bool {
+    /// Returns whether the word after a token is a name being declared: `float x`, `Ray r`.
+    fn declares_name(&self, text: &Source, before: usize, at: Position) -> bool {
         match text.kind(before) {
             Token::Type | Token::Struct => true,
             Token::Ident => {
@@ -151,7 +152,7 @@ impl Analysis {
         }
     }
 
-    /// Whatever has a name at a place.
+    /// Returns all names that are visible at a position.
     pub(super) fn everything_at(&self, at: Position) -> Vec<Completion> {
         let mut items = Vec::with_capacity(256);
         let mut seen: HashSet<Symbol> = HashSet::new();
@@ -194,11 +195,11 @@ impl Analysis {
             }
         }
         self.add_functions(at, &mut seen, &mut items);
-        self.add_given(&seen, &mut items);
+        self.add_predefined(&seen, &mut items);
         items
     }
 
-    /// User functions; overloads share an item.
+    /// Adds user functions; overloads share an item.
     fn add_functions(&self, at: Position, seen: &mut HashSet<Symbol>, items: &mut Vec<Completion>) {
         let mut overloads: Vec<(Symbol, FuncId)> =
             self.functions_before(at).map(|id| (self.module[id].name.symbol, id)).collect();
@@ -215,8 +216,8 @@ impl Analysis {
         }
     }
 
-    /// Adds what the site and the language give, unless something the author declared hides it.
-    fn add_given(&self, seen: &HashSet<Symbol>, items: &mut Vec<Completion>) {
+    /// Adds the predefined names that are not hidden by a declaration of the author.
+    fn add_predefined(&self, seen: &HashSet<Symbol>, items: &mut Vec<Completion>) {
         let hidden = |name: &str| self.names.find(name).is_some_and(|symbol| seen.contains(&symbol));
         let mut add = |name: &str, kind, detail: String, doc: &str, order| {
             if !hidden(name) {
@@ -271,7 +272,7 @@ impl Analysis {
         Completion { label: name.to_owned(), kind, detail, doc, order }
     }
 
-    /// Returns the function a pass of this kind must define, as a name to begin with.
+    /// Returns the function that a pass of this kind must define, as a completion.
     fn entry_point(&self) -> Completion {
         let entry = env::entry(self.kind);
         Completion {
@@ -283,7 +284,7 @@ impl Analysis {
         }
     }
 
-    /// Fields of a struct, components of a vector, `length()` of an array.
+    /// Returns the fields of a struct, the components of a vector, or `length()` of an array.
     fn members_before(&self, source: usize, dot: usize, at: Position) -> Vec<Completion> {
         let text = &self.sources[source];
         let item = |label: &str, detail: String, doc: String, order: usize| Completion {
@@ -319,7 +320,7 @@ impl Analysis {
         }
     }
 
-    /// Words that fit behind token `before` of a directive.
+    /// Returns words that may follow token `before` of a directive.
     fn in_directive(&self, text: &Source, before: usize, at: Position) -> Vec<Completion> {
         let word = |label: &str, doc: &str| Completion {
             label: label.to_owned(),
@@ -354,7 +355,7 @@ fn more_overloads(detail: &mut String, more: usize) {
     }
 }
 
-/// Returns the components worth proposing of a vector; others can be typed.
+/// Returns the components of a vector that are worth proposing; others can be typed.
 fn swizzles(scalar: Scalar, size: u8, item: impl Fn(&str, String, String, usize) -> Completion) -> Vec<Completion> {
     let names: &[&str] = match size {
         2 => &["x", "y", "xy", "yx", "xyxy", "r", "g", "s", "t"],

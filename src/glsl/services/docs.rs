@@ -1,9 +1,8 @@
-//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its
-//! unit.
+//! Documentation of predefined names: the result, where it is undefined, and the unit.
 //!
 //! Owns the texts and nothing else; signatures come from the checker's tables, so they cannot disagree with it.
 
-/// Returns a uniform, channel, `gl_` variable or constant, entry point, or macro of the header.
+/// Returns the text of a uniform, channel, `gl_` variable or constant, entry point, or macro of the header.
 pub(super) fn variable(name: &str) -> Option<&'static str> {
     find(VARIABLES, name)
 }
@@ -16,7 +15,7 @@ pub(super) fn directive(name: &str) -> Option<&'static str> {
     find(DIRECTIVES, name)
 }
 
-/// Name, type and text of each member of `iCh0` to `iCh3`.
+/// Returns the name, type and text of each member of `iCh0` to `iCh3`.
 pub(super) fn channel_members() -> &'static [(&'static str, &'static str, &'static str)] {
     CHANNEL_MEMBERS
 }
@@ -32,7 +31,7 @@ fn find(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
 /// Name and text.
 #[rustfmt::skip]
 const VARIABLES: &[(&str, &str)] = &[
-    // The site's uniforms.
+    // Shadertoy's uniforms.
     ("iResolution", "Resolution of this pass in pixels; z is the pixel aspect ratio, always 1. A cubemap pass has \
                      1024 x 1024."),
     ("iTime", "Seconds since the start or the last reset. Does not advance while paused."),
@@ -129,7 +128,7 @@ const CHANNEL_MEMBERS: &[(&str, &str, &str)] = &[
     ("loaded", "int", "1 if the input of the channel is loaded, else 0."),
 ];
 
-/// Keywords that a newcomer may look up.
+/// Keywords that newcomers may look up.
 #[rustfmt::skip]
 const KEYWORDS: &[(&str, &str)] = &[
     ("const", "A constant; it needs an initial value. As a parameter: the function cannot change it."),
@@ -180,7 +179,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn every_variable_has_a_text_and_every_text_a_variable() {
+    fn documented_variables_are_the_predefined_ones() {
         let given: BTreeSet<&str> = check::env::names()
             .chain(Uniform::ALL.iter().filter(|u| **u != Uniform::ChannelLoaded).map(|u| u.name()))
             .chain(["HW_PERFORMANCE", "GL_ES", "__VERSION__", "__LINE__", "__FILE__"])
@@ -194,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn the_directives_are_those_the_preprocessor_knows() {
+    fn documented_directives_are_those_of_the_preprocessor() {
         for name in directives() {
             assert!(crate::preprocess::DIRECTIVES.contains(&name), "{name}");
         }

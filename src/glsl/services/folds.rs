@@ -1,4 +1,4 @@
-//! Says which parts of a text an editor can fold.
+//! Code folding: the parts of a text that an editor can fold.
 
 use super::{
     analysis::Analysis,
@@ -8,7 +8,7 @@ use crate::lex::Kind;
 use eddy_diag::SourceId;
 use std::ops::Range;
 
-/// A part of a text that can be folded: bytes from the end of its first line to the end of its last.
+/// A foldable part of a text: bytes from the end of its first line to the end of its last.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fold {
     pub range: Range<usize>,
@@ -19,14 +19,14 @@ pub struct Fold {
 pub enum FoldKind {
     /// Between two braces.
     Block,
-    /// A comment of several lines, or line comments that follow each other.
+    /// A comment of several lines, or consecutive line comments.
     Comment,
     /// From an `#if` to the line before its `#else` or `#endif`.
     Conditional,
 }
 
 impl Analysis {
-    /// Returns every part that spans several lines, by where it begins.
+    /// Returns every part that spans several lines, by its start.
     pub fn folds(&self, source: SourceId) -> Vec<Fold> {
         let Some(index) = self.source_index(source) else { return Vec::new() };
         let text = &self.sources[index];
@@ -49,7 +49,7 @@ fn blocks(text: &Source) -> Vec<Fold> {
     open.filter_map(block).collect()
 }
 
-/// Comments that stand alone in their lines and follow each other are one.
+/// Consecutive comments on lines of their own are merged.
 fn comments(text: &Source) -> Vec<Fold> {
     let mut folds: Vec<Fold> = Vec::new();
     for comment in &text.comments {

@@ -1,4 +1,4 @@
-//! Says what an editor can show between the words of a text: values of constants, types of macros, names of parameters.
+//! Inlay hints: values of constants, types of macros, names of parameters.
 
 use super::{
     analysis::Analysis,
@@ -14,19 +14,19 @@ use crate::{
 use eddy_diag::{SourceId, Span};
 use std::ops::Range;
 
-/// A word beside the text.
+/// An inlay hint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
-    /// The byte that it stands before.
+    /// The byte before which it is shown.
     pub at: usize,
     pub label: String,
-    /// It is the name of a parameter, before an argument. Else it says a type or a value, behind what it is of.
+    /// It is the name of a parameter, before an argument. Otherwise it is a type or a value, shown after the item.
     pub is_parameter: bool,
 }
 
 impl Analysis {
-    /// Returns the hints of a range of a text, by their places: the value of each constant that is computed, the type of
-    /// each macro that is an expression, and at calls of the author's functions the parameter that a literal is for.
+    /// Returns the hints of a range of a text, by their places: the value of each computed constant, the type of each
+    /// macro that is an expression, and parameter names of literals in calls of user functions.
     pub fn hints(&self, source: SourceId, range: Range<usize>) -> Vec<Hint> {
         let Some(index) = self.source_index(source) else { return Vec::new() };
         let text = &self.sources[index];
@@ -59,7 +59,7 @@ impl Analysis {
         hints
     }
 
-    /// ` = value` behind the initialiser of a constant that is no literal.
+    /// Returns ` = value` after the initialiser of a constant that is not a literal.
     fn value_hint(&self, text: &Source, place: Span, target: Target) -> Option<Hint> {
         let name = text.token_of(place)?;
         let equal = name + 1;
@@ -69,7 +69,7 @@ impl Analysis {
         let level = text.around(name);
         let ends = |i: &usize| text.around(*i) == level && matches!(text.kind(*i), Kind::Comma | Kind::Semicolon);
         let end = (equal + 1..text.tokens.len()).find(ends)?;
-        // A literal, with its sign, says its value itself.
+        // A literal, with its sign, needs no hint.
         let is_literal = |i: usize| matches!(text.kind(i), Kind::Int | Kind::Uint | Kind::Float | Kind::Minus);
         let computes = (equal + 1..end).any(|i| {
             !is_literal(i)
@@ -86,7 +86,7 @@ impl Analysis {
         Some(Hint { at: text.tokens[end - 1].end as usize, label: format!("= {value}"), is_parameter: false })
     }
 
-    /// `: type` behind the name of a macro that is an expression. A literal says its type itself.
+    /// Returns `: type` after the name of a macro that is an expression. A literal needs no hint.
     fn macro_hint(&self, text: &Source, index: usize, place: Span, id: MacroId) -> Option<Hint> {
         let name = text.token_of(place)?;
         let body = name + 1
@@ -101,12 +101,12 @@ impl Analysis {
         Some(Hint { at: place.end as usize, label: format!(": {}", self.type_name(ty)), is_parameter: false })
     }
 
-    /// Returns the token behind a macro's replacement list: directives of two lines may follow each other.
+    /// Returns the token after a macro's replacement list: directives of two lines may follow each other.
     fn macro_end(&self, text: &Source, id: MacroId, end: usize) -> usize {
         self.origins[id].defined_at.map_or(end, |span| text.first_from(span.end as usize))
     }
 
-    /// `name:` before literals that are arguments of the author's functions.
+    /// Adds `name:` before literals that are arguments of user functions.
     fn parameter_hints(&self, text: &Source, is_here: &dyn Fn(&Span) -> bool, hints: &mut Vec<Hint>) {
         for expr in &self.module.exprs {
             let ExprKind::Call { func, args } = expr.kind else { continue };

@@ -1,4 +1,4 @@
-//! Says what a name is: its declaration, its text, where it comes from.
+//! Hover: a name's declaration, its documentation, and where it is declared.
 
 use super::{
     analysis::Analysis,
@@ -15,26 +15,26 @@ use crate::{
 };
 use eddy_diag::{SourceId, Span};
 
-/// Names that a misspelled one is compared with at most: more take longer than a tooltip may.
+/// The limit of names that a misspelled one is compared with: more take too long for a tooltip.
 const MAX_CANDIDATES: usize = 20_000;
 
-/// Holds what is shown for a name. Plain text, no markup.
+/// The hover text of a name. Plain text, no markup.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
-    /// The name it is about.
+    /// The name that it describes.
     pub span: Span,
-    /// Says what kind of thing it is: `local variable`, `built-in function`.
+    /// The kind of the name: `local variable`, `built-in function`.
     pub kind: &'static str,
     /// Its declaration as GLSL: one line for each overload, or a struct's lines. Empty for keywords.
     pub signature: Vec<String>,
-    /// Ours for what the language and the site give, else the author's comment above the declaration; may be empty.
+    /// Eddy's documentation of a predefined name, otherwise the author's comment above the declaration; may be empty.
     pub doc: String,
-    /// Its name where it is declared; `None` for what the language and the site give.
+    /// Its name in the declaration; `None` for predefined names.
     pub declared: Option<Span>,
 }
 
 impl Analysis {
-    /// Returns what stands at `offset`; `None` for what needs no explanation.
+    /// Returns the hover at `offset`; `None` for tokens that need no explanation.
     pub fn hover(&self, source: SourceId, offset: usize) -> Option<Hover> {
         let (source, token) = self.word_at(source, offset)?;
         let text = &self.sources[source];
@@ -127,7 +127,7 @@ impl Analysis {
         }
     }
 
-    /// Returns the overload that a call of a built-in takes, with its types.
+    /// Returns the overload that a call of a built-in resolves to, with its types.
     fn exact_builtin(&self, target: Target, span: Span) -> Option<String> {
         let Target::Decl(DeclRef::Builtin(builtin)) = target else { return None };
         let call = self.module.exprs.iter().find_map(|expr| match expr.kind {
@@ -147,7 +147,7 @@ impl Analysis {
         Some(super::show::call_text(&format!("{} {}", self.type_name(call.0), builtin.name), &params).0)
     }
 
-    /// Returns the author's comment that ends in the line above a declaration, or stands behind it in its line.
+    /// Returns the author's comment that ends in the line above a declaration, or follows it on its line.
     pub(super) fn comment_above(&self, name: Span) -> String {
         let Some(source) = self.source_index(name.source) else { return String::new() };
         let source = &self.sources[source];
@@ -166,7 +166,7 @@ impl Analysis {
     }
 }
 
-/// Returns the comments whose last line is the one before `line_start`, and those that touch them from above.
+/// Returns the comments that end in the line before `line_start`, and those that directly precede them.
 fn comments_before(source: &Source, line_start: usize) -> String {
     let text = &source.text;
     let mut lines = Vec::new();
@@ -188,7 +188,7 @@ fn comments_before(source: &Source, line_start: usize) -> String {
     lines.join("\n")
 }
 
-/// Returns a comment without its signs; rulers of dashes and the like are left out.
+/// Returns a comment without its delimiters; lines of dashes and the like are left out.
 fn unwrap(comment: &str) -> String {
     let inner = comment.strip_prefix("/*").map(|c| c.strip_suffix("*/").unwrap_or(c)).unwrap_or(comment);
     let strip = |line: &str| {

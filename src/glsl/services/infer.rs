@@ -1,7 +1,7 @@
-//! Types of expressions as written, finished or not: what stands before the caret.
+//! Type inference for complete or incomplete expressions before the caret.
 //!
-//! Reads tokens, not the tree: the statement at the caret is mostly the one that the parser gave up. It knows less than
-//! the checker and reports nothing; what it cannot tell is `None`.
+//! Reads tokens, not the tree: the statement at the caret is usually the one that the parser could not parse. It knows
+//! less than the checker and reports no errors; an unknown type is `None`.
 
 use super::{
     analysis::{Analysis, Position},
@@ -16,13 +16,13 @@ use crate::{
 };
 use std::ops::Range;
 
-/// The number of macros that may stand in each other, and the depth to which groups may nest.
+/// The limit of nested macros and of nested groups.
 const MAX_DEPTH: u32 = 40;
 
 pub(super) struct Infer<'a> {
     a: &'a Analysis,
     text: &'a Source,
-    /// Says where names are looked up.
+    /// The position at which names are looked up.
     at: Position,
     depth: u32,
 }
@@ -32,11 +32,11 @@ impl<'a> Infer<'a> {
         Self { a, text: &a.sources[source], at, depth: 0 }
     }
 
-    fn deeper(&self, source: usize) -> Option<Self> {
+    fn nested(&self, source: usize) -> Option<Self> {
         (self.depth < MAX_DEPTH).then(|| Self { text: &self.a.sources[source], depth: self.depth + 1, ..*self })
     }
 
-    /// Type of the operand that ends before token `end`: `a.b[i]`, `f(x).y`, `(a + b)`.
+    /// Returns the type of the operand that ends before token `end`: `a.b[i]`, `f(x).y`, `(a + b)`.
     pub fn before(&self, end: usize) -> Option<TypeId> {
         let start = self.start_of_operand(end)?;
         let (ty, stop) = self.operand(start, end)?;
@@ -69,7 +69,7 @@ impl<'a> Infer<'a> {
         }
     }
 
-    /// Type of a whole expression.
+    /// Returns the type of a whole expression.
     pub fn expression(&self, range: Range<usize>) -> Option<TypeId> {
         let text = self.text;
         let mut result: Option<TypeId> = None;
@@ -92,8 +92,8 @@ impl<'a> Infer<'a> {
                 break;
             }
             match text.kind(i) {
-                // Both values have one type.
-                Kind::Question => return self.deeper(self.at_source())?.expression(i + 1..self.colon(i, range.end)?),
+                // Both values have the same type.
+                Kind::Question => return self.nested(self.at_source())?.expression(i + 1..self.colon(i, range.end)?),
                 Kind::Equal | Kind::PlusEqual | Kind::MinusEqual | Kind::StarEqual | Kind::SlashEqual => return result,
                 kind => op = Some(kind),
             }
@@ -111,7 +111,7 @@ impl<'a> Infer<'a> {
         (question..end).find(|&i| self.text.kind(i) == Kind::Colon && self.text.around(i) == level)
     }
 
-    /// Type of the operand that begins at a token, and the token behind it.
+    /// Returns the type of the operand that starts at a token, and the token after it.
     fn operand(&self, start: usize, end: usize) -> Option<(TypeId, usize)> {
         let text = self.text;
         let token = *text.tokens.get(start)?;
@@ -124,7 +124,7 @@ impl<'a> Infer<'a> {
             Kind::True | Kind::False => (TypeId::BOOL, next),
             Kind::LParen => {
                 let close = text.partner(start)?;
-                (self.deeper(self.at_source())?.expression(next..close)?, close + 1)
+                (self.nested(self.at_source())?.expression(next..close)?, close + 1)
             }
             Kind::Type if called => (TypeId::basic(words::basic_type(token.value)), text.partner(next)? + 1),
             Kind::Ident if called => {
@@ -172,7 +172,7 @@ impl<'a> Infer<'a> {
         }
     }
 
-    /// Type of a macro's replacement list.
+    /// Returns the type of a macro's replacement list.
     fn replacement(&self, id: MacroId) -> Option<TypeId> {
         let def = self.a.origins[id];
         let (name, whole) = (def.name_at?, def.defined_at?);
@@ -187,7 +187,7 @@ impl<'a> Infer<'a> {
         if !is_list {
             return None;
         }
-        self.deeper(source)?.expression(start..end)
+        self.nested(source)?.expression(start..end)
     }
 
     fn call(&self, name: usize, open: usize, close: usize) -> Option<TypeId> {
@@ -205,14 +205,14 @@ impl<'a> Infer<'a> {
         }
     }
 
-    /// Types of arguments; the error type for what is not known.
+    /// Returns the types of arguments; the error type if unknown.
     pub fn arguments(&self, open: usize, close: usize) -> Vec<TypeId> {
-        let Some(deeper) = self.deeper(self.at_source()) else { return Vec::new() };
+        let Some(deeper) = self.nested(self.at_source()) else { return Vec::new() };
         let ranges = arguments(self.text, open, close);
         ranges.into_iter().map(|range| deeper.expression(range).unwrap_or(TypeId::ERROR)).collect()
     }
 
-    /// Returns the overload that takes arguments best: the right number, and most of the right types.
+    /// Returns the overload that matches the arguments best: the right number, and most of the right types.
     pub fn best(&self, all: &[FuncId], args: &[TypeId]) -> Option<FuncId> {
         all.iter().copied().rev().max_by_key(|&id| {
             let params = self.a.module.params(id);
@@ -227,7 +227,7 @@ impl<'a> Infer<'a> {
         if let Some(ty) = all.iter().find_map(|o| o.result_for(args, types)) {
             return Some(ty);
         }
-        // An argument is not known: most results have the size of the largest one that is.
+        // With an unknown argument: most results have the size of the largest known one.
         let overload = all.iter().find(|o| o.params.len() >= args.len())?;
         let size =
             args.iter().filter(|ty| types.scalar(**ty).is_some()).filter_map(|ty| types.components(*ty)).max()?;
@@ -240,7 +240,7 @@ impl<'a> Infer<'a> {
     }
 }
 
-/// Returns the arguments between two parentheses, as ranges of tokens; none where there is nothing.
+/// Returns the arguments between two parentheses, as ranges of tokens; empty if there are none.
 pub(super) fn arguments(text: &Source, open: usize, close: usize) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = open + 1;
@@ -256,7 +256,7 @@ pub(super) fn arguments(text: &Source, open: usize, close: usize) -> Vec<Range<u
     found
 }
 
-/// Type of a binary operator's result.
+/// Returns the type of a binary operator's result.
 fn combine(a: &Analysis, op: Kind, left: TypeId, right: TypeId) -> Option<TypeId> {
     let types = &a.module.types;
     match op {
@@ -284,7 +284,7 @@ fn combine(a: &Analysis, op: Kind, left: TypeId, right: TypeId) -> Option<TypeId
 }
 
 impl Analysis {
-    /// Type of what a variable or field holds.
+    /// Returns the type of a variable or field.
     pub(super) fn type_of(&self, target: Target) -> Option<TypeId> {
         let Target::Decl(target) = target else {
             return matches!(target, Target::OldTime).then_some(TypeId::FLOAT);
@@ -298,13 +298,13 @@ impl Analysis {
             DeclRef::Channel(i) => self.channel_type(i),
             DeclRef::BuiltinVar(var) => var.ty(),
             DeclRef::BuiltinConst(_) => TypeId::INT,
-            // A place to hang members on; it has no type in the module.
+            // Only its members have types; it has none in the module.
             DeclRef::ChannelStruct(_) => TypeId::ERROR,
             DeclRef::Func(_) | DeclRef::Struct(_) | DeclRef::Builtin(_) => return None,
         })
     }
 
-    /// Type of `iChannelN`.
+    /// Returns the type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
         use crate::ChannelKind as C;
         TypeId::basic(match self.channels[usize::from(channel) & 3] {
@@ -332,7 +332,7 @@ impl Analysis {
         }
     }
 
-    /// Type of `.name` of a value.
+    /// Returns the type of `.name` of a value.
     fn member_type(&self, ty: TypeId, name: &str) -> Option<TypeId> {
         match self.module.types.get(ty) {
             Type::Struct(id) => {

@@ -1,10 +1,9 @@
-//! Says what an editor asks about a text: what a name means, where it is declared and used, what could stand at the
-//! caret, which colour a word deserves.
+//! Editor services: the meaning of a name, its declaration and uses, completions at the caret, the colour of a word.
 //!
-//! Owns [`Analysis`], made of a pass by the compiler's own preprocessor, parser and checker, and the documentation of
-//! what the language and the site give (`docs`). Nothing here needs a text that compiles: what the checker understood
-//! answers first, and for the statement that it did not, the words as written (`text`) with the scopes around them
-//! (`scope`) and the types that can be told from them (`infer`). Positions are bytes of a text, as in
+//! Owns [`Analysis`], which the compiler's own preprocessor, parser and checker build from a pass, and the
+//! documentation of predefined names (`docs`). No service requires a text that compiles: the checker's results are used
+//! first, and for a statement that it did not reach, the words as written (`text`) with the scopes around them
+//! (`scope`) and the types that can be inferred from them (`infer`). Positions are bytes of a text, as in
 //! [`eddy_diag::Span`].
 
 mod analysis;

@@ -1,4 +1,4 @@
-//! Says what a name at a place means, where it is declared and where it is used.
+//! Name resolution: the meaning of a name at a position, its declaration and its uses.
 
 use super::{
     analysis::{Analysis, Position},
@@ -9,9 +9,8 @@ use crate::{hir::DeclRef, lex::Kind};
 use eddy_diag::{SourceId, Span};
 
 impl Analysis {
-    /// Returns where the name at `offset` is declared: its name there, which may stand in Common. `None` for what the
-    /// language and the site give. A function is declared at its
-    /// definition; at the definition this gives its first prototype.
+    /// Returns the declaration of the name at `offset`: the name there, which may be in Common. `None` for predefined
+    /// names. A function's declaration is its definition; from the definition it is the first prototype.
     pub fn definition(&self, source: SourceId, offset: usize) -> Option<Span> {
         let (source, token) = self.word_at(source, offset)?;
         let target = self.target_of(source, token)?;
@@ -24,16 +23,16 @@ impl Analysis {
         }
     }
 
-    /// Returns every place where what the name at `offset` stands for is named, its declaration among them, Common's
-    /// first. Names that only look alike (another scope, another overload) are not among them.
+    /// Returns every place that refers to the same item as the name at `offset`, including its declaration, Common's
+    /// first. Equal names of other items (another scope, another overload) are not included.
     pub fn uses(&self, source: SourceId, offset: usize) -> Vec<Span> {
         let Some((source, token)) = self.word_at(source, offset) else { return Vec::new() };
         let Some(target) = self.target_of(source, token) else { return Vec::new() };
         self.uses_of(target, self.sources[source].tokens[token].value)
     }
 
-    /// Returns the name of the author's own uniform that the name at `offset` stands for. The `#iUniform` lines that
-    /// declare it are not GLSL: nothing is named there.
+    /// Returns the custom uniform that the name at `offset` refers to. The `#iUniform` lines that declare it are not
+    /// GLSL and contain no names.
     pub fn custom_uniform_at(&self, source: SourceId, offset: usize) -> Option<&str> {
         let (source, token) = self.word_at(source, offset)?;
         match self.target_of(source, token)? {
@@ -42,25 +41,25 @@ impl Analysis {
         }
     }
 
-    /// Returns every place in the GLSL where one of the author's own uniforms is named.
+    /// Returns every place in the GLSL that refers to a custom uniform.
     pub fn uses_of_custom_uniform(&self, name: &str) -> Vec<Span> {
         let index = self.custom_uniforms.iter().position(|known| known.0 == name);
         let (Some(index), Some(symbol)) = (index, self.names.find(name)) else { return Vec::new() };
         self.uses_of(Target::Decl(DeclRef::CustomUniform(index as u16)), symbol.0)
     }
 
-    /// Returns whether the texts declare a name outside of functions, as a macro among others.
+    /// Returns whether the texts declare a name outside of functions, including as a macro.
     pub fn declares(&self, name: &str) -> bool {
         let Some(symbol) = self.names.find(name) else { return false };
         let found = self.look_up(symbol, (self.sources.len(), 0), true);
         found.is_some_and(|target| self.declaration(target).is_some())
     }
 
-    /// Returns every place where a target is named, whose name is a symbol of this number.
+    /// Returns every place that refers to a target, whose name is the symbol of this number.
     fn uses_of(&self, target: Target, symbol: u32) -> Vec<Span> {
         let known = self.symbols.all().iter().filter(|o| o.target == target);
         let mut found: Vec<(usize, u32, u32)> = known.map(|o| (o.source as usize, o.start, o.end)).collect();
-        // Of what the checker did not get to, each place where the word stands.
+        // For a target that the checker did not reach, each place with the word.
         for (source, text) in self.sources.iter().enumerate() {
             for (i, other) in text.tokens.iter().enumerate() {
                 if other.value == symbol
@@ -79,7 +78,7 @@ impl Analysis {
         found.into_iter().map(span).collect()
     }
 
-    /// Returns what a word stands for: what the checker says or, where it did not get to, what the name means there.
+    /// Returns the target of a word: the checker's, or where it did not get to, the meaning of the name there.
     pub(super) fn target_of(&self, source: usize, token: usize) -> Option<Target> {
         let text = &self.sources[source];
         let word = text.tokens[token];

@@ -1,4 +1,4 @@
-//! Collects every place where something is named.
+//! Collects every reference to a name.
 
 use super::{
     analysis::Analysis,
@@ -11,14 +11,14 @@ use crate::{
 use eddy_diag::Span;
 
 impl Analysis {
-    /// Collects what every name stands for, as far as the checker got.
+    /// Collects the target of every name, as far as the checker got.
     pub(super) fn occurrences(&self) -> Symbols {
         let mut new = Symbols::default();
         let module = &self.module;
         for used in &module.uses {
             let target = match used.target {
                 DeclRef::Uniform(_) if self.word(used.token) == "iGlobalTime" => Target::OldTime,
-                // What stands for an entry point that is a macro has names that nobody wrote.
+                // The wrapper of an entry point that is a macro has names that are not in the text.
                 DeclRef::Local(id) if !self.is_written(module[id].name) => continue,
                 target => Target::Decl(target),
             };
@@ -41,7 +41,7 @@ impl Analysis {
         }
         for (i, def) in module.structs.iter().enumerate() {
             let id = StructId::new(i);
-            // The struct of `gl_DepthRange` stands nowhere.
+            // The struct of `gl_DepthRange` is not in any text.
             if def.name.is_some_and(|name| self.names.get(name.symbol).starts_with("gl_")) {
                 continue;
             }
@@ -71,7 +71,7 @@ impl Analysis {
         }
     }
 
-    /// Returns where a target is declared, its name alone; `None` for what the language and the site give.
+    /// Returns the name in a target's declaration; `None` for predefined names.
     pub(super) fn declaration(&self, target: Target) -> Option<Span> {
         let token = match target {
             Target::Macro(id) => return self.origins[id].name_at,

@@ -1,4 +1,4 @@
-//! Lists what a text declares outside of functions, in its order.
+//! Lists the declarations of a text outside of functions, in text order.
 
 use super::{analysis::Analysis, symbols::Target};
 use crate::{
@@ -13,11 +13,11 @@ use std::ops::Range;
 pub struct Outlined {
     pub name: String,
     pub kind: OutlineKind,
-    /// Its declaration in one line.
+    /// Its declaration on one line.
     pub detail: String,
-    /// The name alone.
+    /// The name only.
     pub place: Range<usize>,
-    /// All of it; `place` lies within.
+    /// The whole declaration, which contains `place`.
     pub whole: Range<usize>,
     /// Members of a struct.
     pub members: Vec<Outlined>,
@@ -35,14 +35,14 @@ pub enum OutlineKind {
 }
 
 impl Analysis {
-    /// Returns the functions, structs, variables and macros of a text, by where they stand. Of a function that has a
-    /// definition, the prototypes are left out.
+    /// Returns the functions, structs, variables and macros of a text, in text order. The prototypes of a function with
+    /// a definition are left out.
     pub fn outline(&self, source: SourceId) -> Vec<Outlined> {
         let mut found = Vec::new();
         let mut add = |target: Target, kind: OutlineKind, whole: Option<Span>, members: Vec<Outlined>| {
             let Some(place) = self.declaration(target).filter(|span| span.source == source) else { return };
             let range = place.range();
-            // What a macro brought in is shown where its name stands.
+            // A declaration from a macro is shown at its name.
             let around = |span: &Span| span.source == source && span.start <= place.start && place.end <= span.end;
             let whole = whole.filter(around).map_or(range.clone(), Span::range);
             let lines = self.declared_as(target);

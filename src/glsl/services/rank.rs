@@ -1,7 +1,7 @@
 //! Ranks of names by the letters typed so far.
 
-/// Smaller is better; `None`: it does not fit. Letters must come in order and the first one must begin a word of the
-/// name, so that `sms` finds `smoothstep` and `step` does too.
+/// Returns how badly a name matches; smaller is better, `None` is no match. Letters must occur in order and the first
+/// one must start a word of the name, so that `sms` finds `smoothstep` and `step` does too.
 pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
     if name.starts_with(typed) {
         return Some(0);
@@ -17,17 +17,17 @@ pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
     let inner = name.char_indices().skip(1).find(|&(i, _)| begins(&name[i..]));
     let first = typed.chars().next()?;
     if let Some((at, _)) = inner {
-        return Some(if is_hump(name, at) { 2 } else { 4 });
+        return Some(if starts_word(name, at) { 2 } else { 4 });
     }
-    // In order, with letters left out, from the first letter on.
+    // In order, with gaps, starting at the first letter.
     let mut rest = name.chars();
     let starts = rest.next().is_some_and(|n| same(first, n));
     let follows = starts && typed.chars().skip(1).all(|t| rest.any(|n| same(t, n)));
     follows.then_some(3)
 }
 
-/// Returns whether a part of a name begins: a capital behind a small letter, or what follows `_` or a digit.
-fn is_hump(name: &str, at: usize) -> bool {
+/// Returns whether a word of a name starts here: a capital after a small letter, or a letter after `_` or a digit.
+fn starts_word(name: &str, at: usize) -> bool {
     let before = name[..at].chars().next_back().unwrap_or(' ');
     let here = name[at..].chars().next().unwrap_or(' ');
     before == '_' || before.is_ascii_digit() || (before.is_lowercase() && here.is_uppercase())
@@ -38,7 +38,7 @@ mod tests {
     use super::misfit;
 
     #[test]
-    fn better_fits_come_first() {
+    fn better_matches_come_first() {
         let fits: Vec<u32> = [
             ("smooth", "smoothstep"),
             ("Smo", "smoothstep"),

@@ -1,30 +1,29 @@
-//! Finds a name in all programs that share texts, and gives it another one.
+//! Renames an item in all programs that share texts.
 
 use super::analysis::Analysis;
 use crate::check::taken;
 use eddy_diag::{Edit, Fix, SourceId, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A place of a name: text, first byte, the byte behind the last.
+/// A place of a name: text, first byte, end byte.
 pub type Place = (SourceId, u32, u32);
 
 /// The places of a name, by text and byte.
 pub type Places = BTreeSet<Place>;
 
-/// Every program of a project: its passes and stages, which share Common and included files.
+/// All programs of a project: its passes and stages, which share Common and included files.
 #[derive(Clone, Copy, Debug)]
 pub struct Programs<'a> {
     pub analyses: &'a [&'a Analysis],
-    /// The names that `#iUniform` lines declare, with their places: GLSL knows nothing of these lines. One name is one
-    /// uniform in all texts.
+    /// The names in `#iUniform` lines, with their places; these lines are not part of the GLSL. One name is one uniform
+    /// in all texts.
     pub uniforms: &'a [(String, Span)],
-    /// The texts as the author has them.
+    /// The texts as written by the author.
     pub texts: &'a SourceMap,
 }
 
 impl Programs<'_> {
-    /// Returns every place where what is named at a byte of a text is named, in all programs; none for what no text
-    /// declares.
+    /// Returns every place that refers to the item at a byte of a text, in all programs; none if no text declares it.
     pub fn places(&self, source: SourceId, at: usize) -> Places {
         if let Some(name) = self.uniform_at(source, at) {
             let lines = self.uniforms.iter().filter(|(other, _)| other == name).map(|(_, span)| *span);
@@ -43,14 +42,14 @@ impl Programs<'_> {
                 for Span { source, start, end } in program.uses(source, at) {
                     found.insert((source, start, end));
                 }
-                // A text that several passes have in them: what each says of its declaration.
+                // A text that several passes include: search the declaration with each of them.
                 queue.push((declared.source, declared.start as usize));
             }
         }
         found
     }
 
-    /// Returns the `#iUniform` lines, by the name in them, that declare what is named at a byte of a text.
+    /// Returns the names in the `#iUniform` lines that declare the item at a byte of a text.
     pub fn uniform_lines(&self, source: SourceId, at: usize) -> Vec<Span> {
         let name = self.uniform_at(source, at);
         self.uniforms.iter().filter(|(other, _)| Some(other.as_str()) == name).map(|(_, span)| *span).collect()
@@ -62,7 +61,7 @@ impl Programs<'_> {
         here.or_else(|| self.analyses.iter().find_map(|program| program.custom_uniform_at(source, at)))
     }
 
-    /// Returns the name at a byte of a text that can have another one, with its place, or why it cannot.
+    /// Returns the name at a byte of a text that can be renamed, with its place, or why it cannot.
     pub fn renamable(&self, source: SourceId, at: usize) -> Result<(String, Span), String> {
         let (name, span, places) = self.named_at(source, at)?;
         match places.is_empty() {
@@ -71,9 +70,9 @@ impl Programs<'_> {
         }
     }
 
-    /// Returns the edits that give what is named at a byte of a text another name. `analyse` reads the texts with edits
-    /// made and hands what it read to its second argument. Fails where the name is not the author's, and where the new name
-    /// would change what something means.
+    /// Returns the edits that rename the item at a byte of a text. `analyse` reads the texts with the edits applied and
+    /// passes the programs to its second argument. Fails if the name is not the author's, and if the new name would
+    /// change the meaning of a program.
     pub fn rename(
         &self,
         (source, at): (SourceId, usize),
@@ -100,7 +99,7 @@ impl Programs<'_> {
             edits.push(Edit { span, text: to.to_owned() });
         }
         let fix = Fix::new(format!("Rename `{name}` to `{to}`"), edits);
-        // What the name stands for must be what it was, and nothing else may stand for it.
+        // The new name must refer to the same item, and nothing else may refer to it.
         let moves = Moves::new(&places, name.len(), to.len());
         let at = moves.place(source, at);
         let wanted: Places = places
@@ -122,14 +121,15 @@ impl Programs<'_> {
         Ok(fix)
     }
 
-    /// The word at a byte of a text, and every place where it stands for the same; none for what no text declares.
+    /// Returns the word at a byte of a text, and every place that refers to the same item; an error if no text declares
+    /// it.
     fn named_at(&self, source: SourceId, at: usize) -> Result<(String, Span, Places), String> {
         let nothing = || "there is no name here".to_owned();
         let text = &self.texts.get(source).ok_or_else(nothing)?.text;
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let (before, behind) = (text.get(..at).ok_or_else(nothing)?, text.get(at..).ok_or_else(nothing)?);
+        let (before, after) = (text.get(..at).ok_or_else(nothing)?, text.get(at..).ok_or_else(nothing)?);
         let start = before.len() - before.chars().rev().take_while(|c| is_name(*c)).count();
-        let end = at + behind.chars().take_while(|c| is_name(*c)).count();
+        let end = at + after.chars().take_while(|c| is_name(*c)).count();
         let name = text[start..end].to_owned();
         if name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()) {
             return Err(nothing());
@@ -142,7 +142,7 @@ impl Programs<'_> {
     }
 }
 
-/// Finds bytes of texts again once every place of a name has a name of another length.
+/// Maps bytes of texts from before to after renaming with a name of another length.
 struct Moves {
     starts: BTreeMap<SourceId, Vec<usize>>,
     old: usize,
@@ -158,7 +158,7 @@ impl Moves {
         Self { starts, old, new }
     }
 
-    /// Within a name it stays at the name's begin.
+    /// A byte within a name maps to the name's start.
     fn place(&self, source: SourceId, at: usize) -> usize {
         let starts = self.starts.get(&source).map_or(&[][..], Vec::as_slice);
         let before = starts.partition_point(|&start| start < at);

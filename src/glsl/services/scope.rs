@@ -1,7 +1,7 @@
-//! Names that mean something at a place, broken text or not.
+//! Names that are visible at a position, in valid or invalid text.
 //!
-//! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions,
-//! their locals, globals) is joined here with the brackets of the text as written.
+//! The checker discards its scopes when it is done, and it does not see incomplete statements. Its results (functions,
+//! their locals, globals) are combined here with the brackets of the text as written.
 
 use super::{
     analysis::{Analysis, Position},
@@ -17,14 +17,14 @@ use crate::{
 };
 
 impl Analysis {
-    /// Place of a token as the compiler reads: for what a macro brought in, where the macro is used.
+    /// Returns the position of a token as the compiler reads it: for a token from a macro, the use of the macro.
     pub(super) fn position_of(&self, token: TokenId) -> Option<Position> {
         let span = self.origins.token_span(token);
         Some((self.source_index(span.source)?, span.start))
     }
 
-    /// Returns whether a declaration at a place is known at another one. What the pass's own text, the last one, declares before
-    /// its first `#include` is known in included files, too.
+    /// Returns whether a declaration at one position is visible at another. Declarations of the pass's own text, the
+    /// last one, before its first `#include` are visible in included files, too.
     pub(super) fn is_before(&self, place: Position, at: Position) -> bool {
         let last = self.sources.len() - 1;
         match place.0 == last && (self.included_from..last).contains(&at.0) {
@@ -33,25 +33,25 @@ impl Analysis {
         }
     }
 
-    /// Returns the function whose header or body a place is in.
+    /// Returns the function whose header or body contains a position.
     pub(super) fn function_at(&self, at: Position) -> Option<FuncId> {
         let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
-        let begun = functions.filter_map(|(i, f)| {
+        let started = functions.filter_map(|(i, f)| {
             let start = self.position_of(f.header.first)?;
             (start.0 == at.0 && start.1 <= at.1).then_some((start.1, i))
         });
-        begun.max().map(|(_, i)| FuncId::new(i))
+        started.max().map(|(_, i)| FuncId::new(i))
     }
 
-    /// Locals and parameters that can be named at a place, outermost first; of two of a name the later hides the
-    /// earlier.
+    /// Returns the locals and parameters that are visible at a position, outermost first; a later one hides an earlier
+    /// one of the same name.
     pub(super) fn locals_at(&self, at: Position) -> Vec<LocalId> {
         let Some(function) = self.function_at(at) else { return Vec::new() };
         let locals = self.module[function].locals.clone();
         locals.map(|i| LocalId::new(i as usize)).filter(|&id| self.is_visible(id, at)).collect()
     }
 
-    /// Returns whether a place lies in the scope of a local of the function around it.
+    /// Returns whether a position is in the scope of a local of the function around it.
     fn is_visible(&self, id: LocalId, at: Position) -> bool {
         let Some(name) = self.module[id].name else { return false };
         let Some((source, start)) = self.position_of(name.token) else { return false };
@@ -67,7 +67,7 @@ impl Analysis {
         scope.0 <= at.1 && at.1 <= scope.1
     }
 
-    /// Returns what a name stands for at a place; `called`: it is followed by arguments.
+    /// Returns the target of a name at a position; `called` if arguments follow it.
     pub(super) fn look_up(&self, symbol: Symbol, at: Position, called: bool) -> Option<Target> {
         if let Some(id) = self.macro_at(symbol, at)
             && (called || !self.origins[id].function_like)
@@ -102,12 +102,12 @@ impl Analysis {
         self.predeclared(symbol).map(Target::Decl)
     }
 
-    /// User functions of a name that are declared before a place.
+    /// Returns the user functions of a name that are declared before a position.
     pub(super) fn overloads_of(&self, symbol: Symbol, at: Position) -> impl Iterator<Item = FuncId> {
         self.functions_before(at).filter(move |&id| self.module[id].name.symbol == symbol)
     }
 
-    /// User functions that are declared before a place.
+    /// Returns the user functions that are declared before a position.
     pub(super) fn functions_before(&self, at: Position) -> impl Iterator<Item = FuncId> {
         let is_before = move |token: TokenId| self.position_of(token).is_some_and(|place| self.is_before(place, at));
         let functions = self.module.functions.iter().enumerate();
@@ -116,8 +116,8 @@ impl Analysis {
             .map(|(i, _)| FuncId::new(i))
     }
 
-    /// Returns the macro of a name that was defined last before a place. An `#undef` in between is passed over: a name
-    /// that was a macro once is more likely meant than none.
+    /// Returns the macro of a name that was defined last before a position. An `#undef` in between is ignored: the
+    /// undefined macro is the most likely meaning.
     pub(super) fn macro_at(&self, symbol: Symbol, at: Position) -> Option<crate::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
@@ -128,7 +128,7 @@ impl Analysis {
         Some(crate::ast::MacroId::new(found))
     }
 
-    /// Returns what the language or the site declares under a name.
+    /// Returns the predefined declaration of a name.
     fn predeclared(&self, symbol: Symbol) -> Option<DeclRef> {
         if let Some(builtin) = Builtin::from_symbol(symbol) {
             return (!builtin.is_of_image || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
@@ -157,11 +157,11 @@ impl Analysis {
     }
 }
 
-/// From where to where a variable can be named whose name is token `name`.
+/// Returns the scope, from start to end, of a variable whose name is token `name`.
 fn scope_of(text: &Source, name: usize) -> (u32, u32) {
     let end_of_text = text.text.len() as u32;
     let mut around = text.around(name);
-    // Its own dimensions or a group inside its declaration.
+    // Its own dimensions, or a group inside its declaration.
     while around.is_some_and(|i| text.kind(i) == Kind::LBracket) {
         around = around.and_then(|i| text.around(i));
     }
@@ -170,7 +170,7 @@ fn scope_of(text: &Source, name: usize) -> (u32, u32) {
         let end = text.partner(open).map_or(end_of_text, |close| text.tokens[close].start);
         return (end_of_declarator(text, name), end);
     }
-    // A parameter, or what a loop declares: up to the end of the statement behind the parentheses.
+    // A parameter, or a loop variable: up to the end of the statement after the parentheses.
     let from = text.tokens[name].end;
     let Some(close) = text.partner(open) else { return (from, end_of_text) };
     let level = text.around(open);
@@ -190,8 +190,8 @@ fn scope_of(text: &Source, name: usize) -> (u32, u32) {
     (from, end_of_text)
 }
 
-/// Returns the end of a variable's initialiser, behind which it is in scope (section 4.2.2). Where that is not
-/// finished, the next line ends it.
+/// Returns the end of a variable's initialiser, from which on it is in scope (section 4.2.2). An unfinished one ends at
+/// the next line.
 fn end_of_declarator(text: &Source, name: usize) -> u32 {
     let level = text.around(name);
     for i in name + 1..text.tokens.len() {

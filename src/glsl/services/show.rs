@@ -1,4 +1,4 @@
-//! Declarations as GLSL writes them: what a tooltip shows and a completion is told apart by.
+//! Declarations in GLSL syntax, for tooltips and to distinguish completions.
 
 use super::{analysis::Analysis, symbols::Target};
 use crate::{
@@ -9,9 +9,9 @@ use crate::{
 };
 use std::ops::Range;
 
-/// Longest text of a macro that is shown.
+/// The longest text of a macro that is shown.
 const MAX_MACRO: usize = 240;
-/// Members of a struct that are shown.
+/// The limit of members of a struct that are shown.
 const MAX_MEMBERS: usize = 24;
 
 impl Analysis {
@@ -26,8 +26,8 @@ impl Analysis {
         }
     }
 
-    /// Returns the lines a target is declared by, and for a channel, uniform or variable of the language those that
-    /// would.
+    /// Returns the lines of a target's declaration; for a predefined channel, uniform or variable, of an equivalent
+    /// declaration.
     pub(super) fn declared_as(&self, target: Target) -> Vec<String> {
         let one = |line: String| vec![line];
         match target {
@@ -103,7 +103,7 @@ impl Analysis {
             LocalKind::Out => "out ",
             LocalKind::Inout => "inout ",
         };
-        // What is not written is `highp`.
+        // The default is `highp`.
         let precision = match local.precision {
             Some(Precision::Low) => "lowp ",
             Some(Precision::Medium) => "mediump ",
@@ -116,7 +116,7 @@ impl Analysis {
         format!("{kind}{precision}{} {name}{}", self.type_name(local.ty), self.value_text(value)).trim_end().to_owned()
     }
 
-    /// ` = value` of a constant that is short enough to be read.
+    /// Returns ` = value` of a constant that is short enough to be readable.
     fn value_text(&self, value: Option<ConstId>) -> String {
         let Some(value) = value.map(|id| self.module[id]) else { return String::new() };
         let Some(scalar) = self.module.types.scalar(value.ty) else { return String::new() };
@@ -129,7 +129,7 @@ impl Analysis {
         }
     }
 
-    /// Returns a function's header in one line, and where its parameters stand in it.
+    /// Returns a function's header on one line, and the ranges of its parameters.
     pub(super) fn function_text(&self, id: FuncId) -> (String, Vec<Range<usize>>) {
         let function = &self.module[id];
         let params: Vec<String> = (0..function.param_count)
@@ -151,7 +151,7 @@ impl Analysis {
         lines
     }
 
-    /// Returns the `#define` of a macro, blanks and line ends made single spaces.
+    /// Returns the `#define` of a macro, with white space and line ends collapsed to single spaces.
     fn macro_text(&self, id: MacroId) -> String {
         let def = self.origins[id];
         let Some(span) = def.defined_at else { return format!("#define {}", self.names.get(def.name)) };
@@ -167,7 +167,7 @@ impl Analysis {
         text
     }
 
-    /// Names of a macro's parameters; `None` for one that takes none.
+    /// Returns the names of a macro's parameters; `None` for an object-like macro.
     pub(super) fn macro_params(&self, id: MacroId) -> Option<Vec<String>> {
         let def = self.origins[id];
         if !def.function_like {
@@ -180,7 +180,7 @@ impl Analysis {
     }
 }
 
-/// `head(a, b)`, and where `a` and `b` stand in it.
+/// Returns `head(a, b)`, and the ranges of `a` and `b` in it.
 pub(super) fn call_text(head: &str, params: &[String]) -> (String, Vec<Range<usize>>) {
     let mut text = format!("{head}(");
     let mut ranges = Vec::with_capacity(params.len());

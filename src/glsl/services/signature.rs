@@ -1,4 +1,4 @@
-//! Says what a call that is being written takes, and which argument the caret is at.
+//! Signature help: the parameters of the call that is being written, and the argument at the caret.
 
 use super::{
     analysis::{Analysis, Position},
@@ -15,11 +15,11 @@ use crate::{
 use eddy_diag::SourceId;
 use std::ops::Range;
 
-/// One way to call.
+/// One signature.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
     pub label: String,
-    /// Says where each parameter stands in the label, in bytes.
+    /// The range of each parameter in the label, in bytes.
     pub params: Vec<Range<usize>>,
 }
 
@@ -28,18 +28,18 @@ pub struct Signature {
 pub struct SignatureHelp {
     /// Every overload.
     pub signatures: Vec<Signature>,
-    /// The overload that fits best what is there of the arguments.
+    /// The overload that best matches the arguments so far.
     pub active: usize,
-    /// The argument the caret is in, from 0.
+    /// The argument at the caret, from 0.
     pub parameter: usize,
-    /// Says what the function does; may be empty.
+    /// The description of the function; may be empty.
     pub doc: String,
-    /// Says where the name of what is called begins.
+    /// The start of the called name.
     pub name_start: usize,
 }
 
 impl Analysis {
-    /// Returns the innermost call whose parentheses `offset` is in.
+    /// Returns the innermost call whose parentheses contain `offset`.
     pub fn signature_help(&self, source: SourceId, offset: usize) -> Option<SignatureHelp> {
         let source = self.source_index(source)?;
         let text = &self.sources[source];
@@ -47,7 +47,7 @@ impl Analysis {
             return None;
         }
         let (mut before, mut from) = (text.first_from(offset), offset);
-        // A token that the caret is in the middle of does not count as before it.
+        // A token that contains the caret is not before it.
         if let Some(last) = before.checked_sub(1)
             && text.tokens[last].end as usize > offset
         {
@@ -65,13 +65,13 @@ impl Analysis {
         }
     }
 
-    /// Returns the call whose parenthesis is token `open`; `stop` is the token behind the caret.
+    /// Returns the call whose parenthesis is token `open`; `stop` is the token after the caret.
     fn call_at(&self, source: usize, open: usize, parameter: usize, stop: usize) -> Option<SignatureHelp> {
         let text = &self.sources[source];
         let name = open.checked_sub(1)?;
         let word = text.tokens[name];
         let at: Position = (source, word.start);
-        // A header declares its parameters: what stands before the name is a type.
+        // A header declares its parameters: the name is preceded by a type.
         let declares = name > 0
             && match text.kind(name - 1) {
                 Kind::Type => true,
@@ -115,7 +115,7 @@ impl Analysis {
                 Target::Decl(DeclRef::Builtin(builtin)) => {
                     let all = builtin.overloads;
                     let types = &self.module.types;
-                    // The arguments before the caret's own are whole.
+                    // The arguments before the one at the caret are complete.
                     let whole = &args[..args.len().min(parameter)];
                     let takes = |o: &&Overload| o.params.len() > parameter && o.begins_with(whole, types);
                     let best = all.iter().position(|o| takes(&o));
@@ -140,14 +140,14 @@ impl Analysis {
     }
 }
 
-/// Returns the open parenthesis around what stands before token `before`, and how many commas lie between.
+/// Returns the open parenthesis around the position before token `before`, and the number of commas between them.
 fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
     let mut commas = 0;
     let mut i = before;
     while i > 0 {
         i -= 1;
         match text.kind(i) {
-            // A whole group is passed over.
+            // Skip a whole group.
             Kind::RParen | Kind::RBracket => i = text.partner(i).filter(|&open| open < i).unwrap_or(i),
             Kind::LParen => return Some((i, commas)),
             Kind::LBracket => commas = 0,
@@ -159,7 +159,7 @@ fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
     None
 }
 
-/// Returns the usual ways to make a value of a keyword type.
+/// Returns the usual constructors of a keyword type.
 fn constructors(ty: TypeId, types: &crate::hir::TypeTable) -> Vec<Signature> {
     let Some(basic) = ty.as_basic() else { return Vec::new() };
     let one = |params: &[&str]| {

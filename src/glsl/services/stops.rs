@@ -1,4 +1,4 @@
-//! Says where a debugger can stop.
+//! Statements at which a debugger can stop.
 
 use super::analysis::Analysis;
 use crate::statements::Statements;
@@ -6,15 +6,16 @@ use eddy_diag::{SourceId, Span};
 use std::{collections::HashSet, ops::Range};
 
 impl Analysis {
-    /// Returns where the statement begins that a breakpoint in a line stands for: the first that begins in the line, else
-    /// the one that goes on in it, else the next one of the text. `None` where none comes any more. `line`: its bytes.
+    /// Returns the start of the statement for a breakpoint in a line: the first that starts in the line, otherwise the
+    /// one that continues in it, otherwise the next one of the text. `None` if there is no further one. `line` is its
+    /// bytes.
     pub fn statement_for(&self, source: SourceId, line: Range<usize>) -> Option<usize> {
         let statements = Statements::new(&self.module, &self.origins, &self.names);
         let outer: HashSet<u32> = statements.list.iter().flatten().filter_map(|s| s.parent).collect();
         let (mut around, mut next): (Option<Span>, Option<Span>) = (None, None);
         for (index, statement) in statements.list.iter().enumerate() {
             let Some(statement) = statement else { continue };
-            // A block is nothing but a bracket around others, and what begins a loop belongs to its head.
+            // A block only groups other statements, and the initialiser of a loop belongs to its head.
             let is_block = statement.head == statement.whole && outer.contains(&(index as u32));
             let head = statement.head;
             if head.source != source || statement.is_init || is_block {

@@ -1,5 +1,4 @@
-//! Says what every name in the texts stands for, as far as the checker got: each place, and the way from a place to its
-//! symbol.
+//! The target of every name in the texts, as far as the checker got: a list of occurrences, and look-up by position.
 
 use crate::{
     ast::{MacroId, Symbol},
@@ -7,12 +6,12 @@ use crate::{
 };
 use eddy_diag::Span;
 
-/// Whatever a name can stand for.
+/// Anything that a name can refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Target {
     Decl(DeclRef),
     Macro(MacroId),
-    /// The old name of `iTime`, which means the same but is another word.
+    /// The old name of `iTime`, which has the same meaning but another spelling.
     OldTime,
 }
 
@@ -27,16 +26,16 @@ pub(super) struct Occurrence {
     pub is_declaration: bool,
 }
 
-/// All occurrences, by text and place.
+/// All occurrences, by text and position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Symbols {
     list: Vec<Occurrence>,
-    /// Locals by name, for looking them up where the checker did not.
+    /// Locals by name, for look-up where the checker did not resolve a name.
     locals: Vec<(Symbol, LocalId)>,
 }
 
 impl Symbols {
-    /// Takes in one occurrence in text `source`; an empty one is none. [`Symbols::sort`] comes after the last.
+    /// Adds an occurrence in text `source`; an empty one is ignored. [`Symbols::sort`] must be called after the last.
     pub fn add(&mut self, source: usize, span: Span, target: Target, is_declaration: bool) {
         if span.start < span.end {
             let (start, end) = (span.start, span.end);
@@ -49,12 +48,12 @@ impl Symbols {
     }
 
     pub fn sort(&mut self) {
-        // A macro's name is the macro, whatever it is expanded to at that place.
+        // A macro's name refers to the macro, whatever it expands to at that place.
         self.list.sort_by_key(|o| (o.source, o.start, !matches!(o.target, Target::Macro(_)), !o.is_declaration));
         self.locals.sort_by_key(|l| l.0);
     }
 
-    /// Returns what the word that begins at `start` stands for. In a macro's replacement list there can be several.
+    /// Returns the occurrences of the word that starts at `start`. In a macro's replacement list there can be several.
     pub fn at(&self, source: usize, start: u32) -> &[Occurrence] {
         let key = (source as u32, start);
         let first = self.list.partition_point(|o| (o.source, o.start) < key);
@@ -74,7 +73,7 @@ impl Symbols {
         &self.list
     }
 
-    /// Locals of a name, in every function.
+    /// Returns the locals of a name, in every function.
     pub fn locals(&self, symbol: Symbol) -> impl Iterator<Item = LocalId> {
         let first = self.locals.partition_point(|l| l.0 < symbol);
         self.locals[first..].iter().take_while(move |l| l.0 == symbol).map(|l| l.1)

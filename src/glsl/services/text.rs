@@ -1,7 +1,7 @@
-//! A text as its author sees it: every token before macros are expanded, comments, directives, brackets.
+//! A text as written: every token before macro expansion, comments, directives, brackets.
 //!
-//! The parser's stream knows only what is compiled, and of a statement that it did not understand nothing at all. What
-//! is asked of half a line is answered from here.
+//! The parser's stream only contains what is compiled, and nothing of a statement that it could not parse. Queries
+//! about incomplete lines are answered from here.
 
 use crate::{
     Text,
@@ -16,18 +16,17 @@ use std::{ops::Range, sync::Arc};
 /// One token of the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexeme {
-    /// Keywords are told from names.
+    /// Keywords are distinguished from names.
     pub kind: Kind,
     /// For names: the symbol.
     pub value: u32,
     pub start: u32,
     pub end: u32,
-    /// Index of a bracket's other half; [`brackets::ALONE`] for other tokens and for brackets that have none.
+    /// Index of the matching bracket; [`brackets::ALONE`] for other tokens and for unmatched brackets.
     pub partner: u32,
-    /// Index of the innermost bracket around it that has another half, or that is an open brace; `ALONE` outside of
-    /// all.
+    /// Index of the innermost bracket around it that is matched or is an open brace; `ALONE` outside of all.
     pub around: u32,
-    /// It stands in a directive: `#` and the word behind it, or the rest of the line.
+    /// Its part of a directive: `#` and the word after it, or the rest of the line.
     pub directive: Directive,
     /// An `#if` leaves it out.
     pub is_inactive: bool,
@@ -44,7 +43,7 @@ pub(super) enum Directive {
 }
 
 impl Lexeme {
-    /// Returns whether it is a name, keyword or type: something a person would call a word.
+    /// Returns whether it is a name, keyword or type.
     pub fn is_word(&self) -> bool {
         self.kind == Kind::Ident || self.kind == Kind::BadName || self.kind.is_keyword()
     }
@@ -83,12 +82,12 @@ impl Source {
         source
     }
 
-    /// Index of the first token that begins at or behind `offset`.
+    /// Returns the index of the first token that starts at or after `offset`.
     pub fn first_from(&self, offset: usize) -> usize {
         self.tokens.partition_point(|t| (t.start as usize) < offset)
     }
 
-    /// Returns the word that `offset` is in, or at either end of.
+    /// Returns the word that contains `offset` or has it at either end.
     pub fn word_at(&self, offset: usize) -> Option<usize> {
         let next = self.first_from(offset + 1);
         let holds = |i: usize| self.tokens.get(i).is_some_and(|t| t.is_word() && t.end as usize >= offset);
@@ -96,7 +95,7 @@ impl Source {
         if holds(last) {
             return Some(last);
         }
-        // Behind `foo` in `foo(`, where the bracket begins.
+        // After `foo` in `foo(`, where the bracket starts.
         last.checked_sub(1).filter(|&i| holds(i))
     }
 
@@ -129,7 +128,7 @@ impl Source {
         (around != brackets::ALONE).then_some(around as usize)
     }
 
-    /// Inside of a comment, or at the end of one that goes to the end of its line.
+    /// Returns whether it is inside a comment, or at the end of one that extends to the end of its line.
     pub fn is_comment(&self, offset: usize) -> bool {
         let at = self.comments.partition_point(|c| (c.start as usize) < offset);
         let Some(comment) = at.checked_sub(1).map(|i| &self.comments[i]) else { return false };
@@ -195,7 +194,7 @@ impl Source {
         }
     }
 
-    /// The comments between two tokens, where there is nothing else but blanks.
+    /// Adds the comments between two tokens, where there is nothing else but white space.
     fn take_comments(&mut self, gap: Range<usize>) {
         let bytes = self.text.as_bytes();
         let mut at = gap.start;
@@ -219,7 +218,7 @@ impl Source {
         }
     }
 
-    /// Finds partners and surroundings: in code, and in each directive for itself.
+    /// Finds partners and enclosing brackets: in code, and separately in each directive.
     fn pair(&mut self) {
         let is_code = |t: &Lexeme| t.directive == Directive::No && !t.is_inactive;
         let code: Vec<u32> = (0..self.tokens.len() as u32).filter(|&i| is_code(&self.tokens[i as usize])).collect();
@@ -270,7 +269,7 @@ impl Source {
     }
 }
 
-/// Returns a line, without its end, that goes on in the next.
+/// Returns whether a line, without its end, continues on the next.
 fn is_continued(line: &[u8]) -> bool {
     line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\")
 }

@@ -1,4 +1,4 @@
-//! Operations: what a value is computed from, in those lanes that come there.
+//! Operations: computing a value from its operands, in the active lanes.
 
 use super::{
     layout::{Slot, SlotKind},
@@ -12,7 +12,7 @@ use crate::{
     types::Scalar,
 };
 
-/// Puts a function of each component of one operand into the cells of the result.
+/// Maps each component of one operand to the cells of the result.
 fn map<R: Real>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: impl Fn(Cell<R>) -> Cell<R>) {
     for lane in of(lanes) {
         let (to, from) = (out.first(lane), arg.first(lane));
@@ -22,7 +22,7 @@ fn map<R: Real>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: im
     }
 }
 
-/// The same of two operands. A scalar meets each component of the other side.
+/// As [`map`], with two operands. A scalar is combined with each component of the other side.
 fn zip<R: Real>(
     cells: &mut [Cell<R>],
     lanes: Lanes,
@@ -39,15 +39,15 @@ fn zip<R: Real>(
     }
 }
 
-/// Few cells, which are copied faster one by one.
+/// Copies a few cells; one by one is faster.
 fn copy<R: Real>(cells: &mut [Cell<R>], to: usize, from: usize, count: u32) {
     for i in 0..count as usize {
         cells[to + i] = cells[from + i];
     }
 }
 
-/// A product with a factor that is known before the program runs. Drivers drop a product with a zero that they see,
-/// also one with infinity (`nir_opt_algebraic.py`): `mod(x, 0.0)` is x.
+/// A product with a factor that is known statically. Drivers drop a product with a known zero, even one with infinity
+/// (`nir_opt_algebraic.py`): `mod(x, 0.0)` is x.
 fn product<R: Real>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
     let zero = R::from_f64(0.0);
     let is_dropped = |(factor, is_known): (Cell<R>, bool)| is_known && factor.float() == zero;
@@ -217,7 +217,7 @@ impl<R: Real> State<'_, R> {
         }
     }
 
-    /// Computes a value of one lane that is read of textures, or of its neighbours.
+    /// Computes a value of one lane that is read from textures, or from its neighbours.
     fn read(&self, frame: &Frame<R>, value: Value, lane: usize, out: &mut Vec<Cell<R>>) {
         let cells = |value: Value| self.value(frame, value, lane);
         let int = |value: Value| cells(value)[0].bits() as i32;
@@ -243,7 +243,7 @@ impl<R: Real> State<'_, R> {
         }
     }
 
-    /// The lanes whose difference is a derivative along x or y, in the row or column of a lane.
+    /// Returns the lanes whose difference is a derivative along x or y, in the row or column of a lane.
     fn neighbours(axis: Axis, lane: usize) -> (usize, usize) {
         match axis {
             Axis::Y => (lane & 1, lane & 1 | 2),

@@ -1,11 +1,11 @@
-//! Values that the device hands an entry point, lane by lane.
+//! Values that the device passes to an entry point, lane by lane.
 
 use super::{
     number::{Cell, Real, Shadowed},
     state::LANES,
 };
 
-/// The components of what lies at one location, of each lane.
+/// The components at one location, for each lane.
 pub type SlotCells = [[Cell<Shadowed>; 4]; LANES];
 
 /// The inputs of four fragments of a quad, or of four vertices.
@@ -14,7 +14,7 @@ pub struct EntryInputs {
     /// `gl_FragCoord`: x and y in pixels, the depth from 0 to 1, and 1 / w of clip space (section 7.2 of the GLSL ES
     /// 3.00 specification).
     pub position: [[Shadowed; 4]; LANES],
-    /// `gl_FrontFacing`: the fragments are of a triangle that is seen from its front.
+    /// `gl_FrontFacing`: the fragments belong to a front-facing triangle.
     pub is_front: bool,
     /// `gl_VertexID`.
     pub vertices: [u32; LANES],
@@ -23,7 +23,7 @@ pub struct EntryInputs {
 }
 
 impl EntryInputs {
-    /// The 2x2 block that a pixel of a whole picture lies in: a triangle at depth 0 covers it.
+    /// Returns the 2x2 block that contains a pixel of a whole picture: a triangle at depth 0 covers it.
     pub fn of_pixel(pixel: (u32, u32)) -> Self {
         Self {
             position: quad(pixel).map(|[x, y]| [x, y, 0.0, 1.0].map(Shadowed::exact)),
@@ -33,7 +33,7 @@ impl EntryInputs {
         }
     }
 
-    /// Fills `out` with the first components at a location; zeros where nothing lies there.
+    /// Fills `out` with the first components at a location; zeros if the location is unused.
     pub(super) fn slot<R: Real>(&self, location: u32, lane: usize, out: &mut [Cell<R>]) {
         let Some((_, cells)) = self.slots.iter().find(|(there, _)| *there == location) else {
             return out.fill(Cell::Bits(0));
@@ -47,7 +47,7 @@ impl EntryInputs {
     }
 }
 
-/// The centres of the pixels of the 2x2 block that a pixel lies in, lane by lane.
+/// Returns the centres of the pixels of the 2x2 block that contains a pixel, lane by lane.
 pub fn quad((x, y): (u32, u32)) -> [[f64; 2]; LANES] {
     std::array::from_fn(|lane| {
         let (dx, dy) = (lane as u32 & 1, lane as u32 >> 1);

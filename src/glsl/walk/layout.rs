@@ -1,4 +1,4 @@
-//! The layout of a function's values while it runs: cells, one a scalar, without gaps.
+//! The layout of a function's values while it runs: cells, one per scalar, without gaps.
 
 use super::number::{Cell, Real};
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     types::{Scalar, Type, TypeId},
 };
 
-/// The number of scalars in a value of a type.
+/// Returns the number of scalars in a value of a type.
 pub fn cells(module: &Module, ty: TypeId) -> usize {
     match module.types.get(ty) {
         Type::Void => 0,
@@ -16,7 +16,7 @@ pub fn cells(module: &Module, ty: TypeId) -> usize {
     }
 }
 
-/// The number of scalars before a part.
+/// Returns the number of scalars before a part.
 pub fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
     match module.types.get(ty) {
         Type::Struct(_) => (0..index).map(|i| cells(module, module.part(ty, i))).sum(),
@@ -24,7 +24,7 @@ pub fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
     }
 }
 
-/// Appends a constant, whose words lie in memory order.
+/// Appends a constant, whose words are in memory order.
 pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<Item = u32>, out: &mut Vec<Cell<R>>) {
     match module.types.get(ty) {
         Type::Scalar(scalar) => {
@@ -35,21 +35,21 @@ pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<
     }
 }
 
-/// The place of a value.
+/// The location of a value.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot {
     pub kind: SlotKind,
-    /// The first cell in the frame, of the first lane; of an address the index among the frame's places.
+    /// The first cell in the frame, of the first lane; for an address the index among the frame's places.
     pub start: u32,
-    /// The cells between two lanes: a constant is the same in all.
+    /// The cells between two lanes: 0 for a constant, which is the same in all.
     pub stride: u32,
-    /// The cells of the value; of an address of what it leads to.
+    /// The cells of the value; for an address of its target.
     pub size: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlotKind {
-    /// Known before the program runs.
+    /// Known statically.
     Constant,
     Register,
     /// An address.
@@ -57,7 +57,7 @@ pub enum SlotKind {
 }
 
 impl Slot {
-    /// The first cell of a value in a lane.
+    /// Returns the first cell of a value in a lane.
     pub fn first(self, lane: usize) -> usize {
         self.start as usize + lane * self.stride as usize
     }
@@ -68,15 +68,15 @@ impl Slot {
     }
 }
 
-/// The variable that a place is.
+/// The variable that a place refers to.
 #[derive(Clone, Copy, Debug)]
 pub enum Root {
-    /// A variable of the function, from a cell on behind the base of its memory.
+    /// A variable of the function: the first cell relative to the base of its memory.
     Var(usize),
     Global(GlobalId),
 }
 
-/// The layout of one function: what a step would otherwise ask of the program each time.
+/// The layout of one function, computed once instead of at each step.
 pub struct Layout<R> {
     /// By [`Value::index`].
     pub slots: Vec<Slot>,
@@ -84,18 +84,18 @@ pub struct Layout<R> {
     pub offsets: Vec<u32>,
     /// By [`Value::index`]: the type of the components of a scalar, vector or matrix; floats for anything else.
     pub scalars: Vec<Scalar>,
-    /// The constants, which a frame begins with.
+    /// The constants, at the start of each frame.
     pub constants: Vec<Cell<R>>,
-    /// Cells of a frame, of one lane, without constants.
+    /// Cells of a frame, for one lane, without constants.
     pub registers: usize,
     pub places: usize,
     /// The parameters.
     pub params: Vec<(u32, Slot)>,
     /// Places that are variables.
     pub roots: Vec<(u32, Root)>,
-    /// Variables that begin with a constant: the first cell behind the base of the memory, and the constant.
+    /// Variables with an initial constant: the first cell relative to the base of the memory, and the constant.
     pub inits: Vec<(usize, Slot)>,
-    /// Cells of all variables together, of one lane.
+    /// Cells of all variables together, for one lane.
     pub memory: usize,
     /// Cells of the result.
     pub result: usize,
@@ -141,7 +141,7 @@ impl<R: Real> Layout<R> {
             let init = var.init.map(|init| layout.slots[init.index()]);
             layout.inits.extend(init.filter(|slot| slot.kind == SlotKind::Constant).map(|slot| (start, slot)));
         }
-        // Constants come first, the registers of all lanes behind them.
+        // Constants come first, followed by the registers of all lanes.
         let (count, stride) = (layout.constants.len() as u32, layout.registers as u32);
         let params = layout.params.iter_mut().map(|(_, slot)| slot);
         for slot in layout.slots.iter_mut().chain(params).filter(|slot| slot.kind == SlotKind::Register) {
@@ -150,7 +150,7 @@ impl<R: Real> Layout<R> {
         layout
     }
 
-    /// The slot of a value, of a register among the registers.
+    /// Returns the slot of a value; of a register, relative to the registers.
     fn slot(&mut self, module: &Module, function: &Function, value: Value, op: &Op) -> Slot {
         let ty = function.ty(value);
         if function.is_place(value) {

@@ -1,4 +1,4 @@
-//! The machine: four neighbouring pixels go through a program in lockstep.
+//! The machine: runs four neighbouring pixels through a program in lockstep.
 
 use super::{
     inputs::EntryInputs,
@@ -17,37 +17,37 @@ pub enum Stop {
     Steps(u64),
 }
 
-/// Derivatives, and textures whose level follows from them.
+/// Returns whether an op needs neighbouring lanes: derivatives, and textures whose level follows from them.
 fn is_of_neighbours(op: &Op) -> bool {
     matches!(op, Op::Derivative { .. } | Op::Sample { level: Level::Auto | Level::Bias(_), .. })
 }
 
-/// Lanes that have left a block for where a loop or switch says.
+/// Lanes that have left a block by a jump out of a loop or switch.
 #[derive(Default)]
 struct Jumps {
     broke: Lanes,
     continued: Lanes,
 }
 
-/// Goes through a program.
+/// Runs a program.
 pub struct Machine<'a, R> {
     state: State<'a, R>,
-    /// The variables of the module as a run begins, of one lane.
+    /// The variables of the module at the start of a run, for one lane.
     initial: Vec<Cell<R>>,
     inputs: EntryInputs,
-    /// Lanes that have drawn, or never will.
+    /// Lanes that have finished, with or without drawing.
     ended: Lanes,
-    /// Those among them that never will.
+    /// Those that were discarded.
     discarded: Lanes,
     outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
     steps: u64,
     limit: u64,
     scratch: Vec<Cell<R>>,
-    /// Frames of calls that have ended, by their functions.
+    /// Frames of finished calls, by their functions, for reuse.
     spare: Vec<Vec<Frame<R>>>,
 }
 
-/// The results that the lanes of a quad drew.
+/// The outputs of the lanes of a quad.
 #[derive(Clone, Debug)]
 pub struct Drawn<R> {
     /// The cells of each output and lane; empty for lanes that drew nothing.
@@ -58,7 +58,7 @@ pub struct Drawn<R> {
 }
 
 impl<R> Drawn<R> {
-    /// The cells of an output in a lane; `None` where the lane drew nothing there.
+    /// Returns the cells of an output in a lane; `None` if the lane drew nothing there.
     pub fn output(&self, output: Output, lane: usize) -> Option<&[Cell<R>]> {
         let (_, cells) = self.outputs.iter().find(|(there, _)| *there == output)?;
         Some(&cells[lane][..]).filter(|cells| !cells.is_empty())
@@ -66,7 +66,7 @@ impl<R> Drawn<R> {
 }
 
 impl<'a, R: Real> Machine<'a, R> {
-    /// A machine for what the lanes of `inputs` are: four fragments of a quad, or four vertices. It stops a run after
+    /// Returns a machine for the lanes of `inputs`: four fragments of a quad, or four vertices. It stops a run after
     /// `limit` statements.
     pub fn new(module: &'a Module, world: &'a dyn World, inputs: EntryInputs, limit: u64) -> Self {
         let mut machine = Self {
@@ -85,17 +85,17 @@ impl<'a, R: Real> Machine<'a, R> {
         machine
     }
 
-    /// Lets the next run have other inputs.
+    /// Sets the inputs of the next run.
     pub fn set_inputs(&mut self, inputs: EntryInputs) {
         self.inputs = inputs;
     }
 
-    /// The lane of a pixel of the block.
+    /// Returns the lane of a pixel in its block.
     pub fn lane_of((x, y): (u32, u32)) -> usize {
         ((x & 1) | (y & 1) << 1) as usize
     }
 
-    /// Lets a variable of the module begin with these words, in every lane.
+    /// Sets the initial words of a variable of the module, in every lane.
     pub fn set_global(&mut self, global: GlobalId, words: &[u32]) {
         let start = self.state.globals[global.index()];
         let mut cells = Vec::new();
@@ -104,7 +104,7 @@ impl<'a, R: Real> Machine<'a, R> {
         self.initial[start..start + cells.len()].copy_from_slice(&cells);
     }
 
-    /// Runs the entry point from its beginning. `observer` sees what the lane of one pixel does.
+    /// Runs the entry point from its start. `observer` is notified about the lane of one pixel.
     pub fn run<O: Observer<R> + ?Sized>(&mut self, lane: usize, observer: &mut O) -> Result<Drawn<R>, Stop> {
         for memory in &mut self.state.memory {
             memory.clear();
@@ -145,7 +145,7 @@ impl<'a, R: Real> Machine<'a, R> {
         }
     }
 
-    /// A frame in which nothing is computed yet.
+    /// Returns a frame in which nothing is computed yet.
     fn frame(&mut self, function: FuncId) -> Frame<R> {
         let layout = &self.state.layouts[function.index()];
         match self.spare[function.index()].pop() {
@@ -167,7 +167,7 @@ impl<'a, R: Real> Machine<'a, R> {
                     }
                 }
                 Input::VertexIndex => out.fill(Cell::Bits(self.inputs.vertices[lane])),
-                // There is one instance of each mesh.
+                // Each mesh has a single instance.
                 Input::InstanceIndex => out.fill(Cell::Bits(0)),
                 Input::FrontFacing => out.fill(self.inputs.is_front.into()),
                 Input::Attribute { location, .. } | Input::Varying { location, .. } => {
@@ -368,12 +368,12 @@ impl<'a, R: Real> Machine<'a, R> {
             let mut jumps = Jumps::default();
             let end = self.block(frame, body, active, &mut jumps, lane, observer)?;
             left |= jumps.broke;
-            let mut jumps_behind = Jumps::default();
+            let mut jumps_after = Jumps::default();
             if (end | jumps.continued) & (1 << lane) != 0 {
                 observer.continuing(&View::new(&self.state, frame, lane));
             }
-            active = self.block(frame, continuing, end | jumps.continued, &mut jumps_behind, lane, observer)?;
-            left |= jumps_behind.broke;
+            active = self.block(frame, continuing, end | jumps.continued, &mut jumps_after, lane, observer)?;
+            left |= jumps_after.broke;
             if let Some(condition) = break_if {
                 if active & (1 << lane) != 0 {
                     observer.decide(&View::new(&self.state, frame, lane), condition);
@@ -413,7 +413,7 @@ impl<'a, R: Real> Machine<'a, R> {
         Ok(end | falling)
     }
 
-    /// Computes a value in the lanes that are active.
+    /// Computes a value in the active lanes.
     fn compute<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,

@@ -8,7 +8,7 @@ use crate::{
     types::{Scalar, Type},
 };
 
-/// A unary operator on each component.
+/// Computes a unary operator on each component.
 pub fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
     match (op, operand) {
         (Unary::Negate, Cell::Float(value)) => Cell::Float(-value),
@@ -18,7 +18,7 @@ pub fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
     }
 }
 
-/// A binary operator on two scalars of one type; shifts count by a uint.
+/// Computes a binary operator on two scalars of one type; shift amounts are uints.
 pub fn binary<R: Real>(op: Binary, scalar: Scalar, left: Cell<R>, right: Cell<R>) -> Cell<R> {
     match scalar {
         Scalar::Float => float(op, left.float(), right.float()),
@@ -34,7 +34,7 @@ fn float<R: Real>(op: Binary, left: R, right: R) -> Cell<R> {
         Binary::Multiply => left * right,
         Binary::Divide => left / right,
         Binary::Equal => return (left == right).into(),
-        // As SPIR-V's OpFOrdNotEqual has it: false for NaN. Lowering writes `!=` as `!(a == b)`.
+        // Like SPIR-V's OpFOrdNotEqual: false for NaN. Lowering writes `!=` as `!(a == b)`.
         Binary::NotEqual => return left.partial_cmp(&right).is_some_and(Ordering::is_ne).into(),
         Binary::Less => return (left < right).into(),
         Binary::LessEqual => return (left <= right).into(),
@@ -86,12 +86,12 @@ fn uint<R>(op: Binary, left: u32, right: u32) -> Cell<R> {
     })
 }
 
-/// The ends of an int's range and of a uint's that single precision has: naga clamps floats to them first.
+/// The bounds of an int's and of a uint's range that are exact in single precision: naga clamps floats to them first.
 const INTS: (f64, f64) = (-2_147_483_648.0, 2_147_483_520.0);
 const UINTS: (f64, f64) = (0.0, 4_294_967_040.0);
 
-/// A scalar of another type. Floats beyond an int's range give the nearest number that both types have, and NaN gives
-/// zero.
+/// Converts a scalar to another type. Floats beyond an int's range convert to the nearest number that both types have,
+/// and NaN converts to zero.
 pub fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
     match (from, to) {
         (Scalar::Float, Scalar::Float) => value,
@@ -105,7 +105,7 @@ pub fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
     }
 }
 
-/// The same bits as another type.
+/// Reinterprets the bits as another type.
 pub fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
     match to {
         Scalar::Float => Cell::Float(value.float()),
@@ -113,7 +113,7 @@ pub fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
     }
 }
 
-/// A function of chapter 8; `ty` and `scalar` are those of the first argument.
+/// Computes a function of chapter 8; `ty` and `scalar` are those of the first argument.
 pub fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
     let number = |arg: usize, i: usize| args[arg][i].float();
     let size = args[0].len();

@@ -2,10 +2,9 @@
 //!
 //! Owns the meaning of every operation in single and in double precision. A block of two by two pixels runs in
 //! lockstep, so that derivatives are those of neighbours; an [`Observer`] sees each step of one of them. Vertices run
-//! four at a time in the same way. Operations for
-//! which IEEE 754 fixes the result (sums, products, quotients, square roots, roundings, conversions) are bit for bit
-//! those of a device that follows it; the last bits of `sin` and its like are the processor's. What a program reads
-//! beside its own memory comes from a [`World`].
+//! four at a time in the same way. Operations for which IEEE 754 defines the result (sums, products, quotients, square
+//! roots, roundings, conversions) are bit for bit those of a device that follows it; the last bits of `sin` and similar
+//! functions are the processor's. A program reads everything outside its own memory from a [`World`].
 
 mod compute;
 mod inputs;

@@ -1,5 +1,4 @@
-//! Numbers that a walk computes with: single precision as a device has it, double precision as the reference, and both
-//! side by side.
+//! Number types of a walk: single precision as on a device, double precision as the reference, and both side by side.
 
 use std::{
     cmp::Ordering,
@@ -9,7 +8,7 @@ use std::{
 
 use crate::ir::Math;
 
-/// The floats of a walk.
+/// The float type of a walk.
 pub trait Real:
     Copy
     + Debug
@@ -20,22 +19,22 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Each number has another beside it.
+    /// True if each number has a double-precision shadow.
     const IS_SHADOWED: bool = false;
 
-    /// The number of these bits of single precision.
+    /// Returns the number of these bits of single precision.
     fn from_bits(bits: u32) -> Self;
     fn from_f64(value: f64) -> Self;
-    /// The nearest number of single precision.
+    /// Returns the nearest number of single precision.
     fn to_f32(self) -> f32;
     fn to_f64(self) -> f64;
-    /// The number beside it in double precision; itself where there is none.
+    /// Returns the shadow in double precision; the number itself if there is none.
     fn shadow(self) -> f64;
-    /// A number and the one beside it, which is dropped where there is none.
+    /// Returns a number with this shadow, which is dropped if the type has none.
     fn with_shadow(value: f64, shadow: f64) -> Self;
-    /// A function of chapter 8 of one number.
+    /// Computes a function of chapter 8 of one number.
     fn unary(self, fun: Math) -> Self;
-    /// A function of chapter 8 of two numbers.
+    /// Computes a function of chapter 8 of two numbers.
     fn binary(self, fun: Math, other: Self) -> Self;
 }
 
@@ -107,7 +106,7 @@ macro_rules! real {
                     Math::Min => self.min(other),
                     Math::Max => self.max(other),
                     Math::Atan2 => self.atan2(other),
-                    // Section 8.2: undefined below zero, where a device that takes logarithms has no number.
+                    // Section 8.2: undefined below zero, where a device that uses logarithms returns NaN.
                     Math::Pow if self < 0.0 => $float::NAN,
                     Math::Pow => self.powf(other),
                     other => unreachable!("{other:?} is no function of two numbers"),
@@ -120,7 +119,7 @@ macro_rules! real {
 real!(f32);
 real!(f64);
 
-/// One number in both precisions. What control flow asks for, the single one answers, so that both take the same way.
+/// One number in both precisions. Control flow is decided by the single precision, so that both take the same path.
 #[derive(Clone, Copy, Debug)]
 pub struct Shadowed {
     pub single: f32,
@@ -128,7 +127,7 @@ pub struct Shadowed {
 }
 
 impl Shadowed {
-    /// A number that both precisions hold; one that single precision lacks is rounded there.
+    /// Returns a number that both precisions represent; one that single precision lacks is rounded there.
     pub fn exact(value: f64) -> Self {
         Self { single: value as f32, double: value }
     }
@@ -209,7 +208,7 @@ impl Real for Shadowed {
     }
 }
 
-/// A scalar. Its type is that of what it is part of.
+/// A scalar. Its type is determined by the value that it is part of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<R> {
     Float(R),
@@ -225,7 +224,7 @@ impl<R: Real> Cell<R> {
         }
     }
 
-    /// The bits of an int, uint or bool; of a float those of single precision.
+    /// Returns the bits of an int, uint or bool; for a float those of single precision.
     pub fn bits(self) -> u32 {
         match self {
             Cell::Float(value) => value.to_f32().to_bits(),

@@ -8,7 +8,7 @@ use super::{
 use crate::ir::{FuncId, Function, GlobalId, Module, Op, Output, Stmt, Value};
 use std::ops::Range;
 
-/// One activation of a function, as the pixel that is watched sees it.
+/// One activation of a function, as seen by the observed pixel.
 pub struct View<'v, 'a, R> {
     state: &'v State<'a, R>,
     frame: &'v Frame<R>,
@@ -36,50 +36,51 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
         &self.function()[value]
     }
 
-    /// The cells of a value that is no address.
+    /// Returns the cells of a value that is not an address.
     pub fn value(&self, value: Value) -> &[Cell<R>] {
         self.state.value(self.frame, value, self.lane)
     }
 
-    /// The number of cells that a frame of the function has for its values, in one lane.
+    /// Returns the number of cells that a frame of the function has for its values, in one lane.
     pub fn frame_cells(&self) -> usize {
         let layout = self.state.layout(self.frame);
         layout.constants.len() + layout.registers
     }
 
-    /// The cells among [`Self::frame_cells`] that a value other than an address has for itself.
+    /// Returns the cells among [`Self::frame_cells`] that belong to a value other than an address.
     pub fn cells_of(&self, value: Value) -> Range<usize> {
         self.state.layout(self.frame).slots[value.index()].cells(0)
     }
 
-    /// The number of cells before a part of a value or place ([`Op::Part`]); of an element the number of its own.
+    /// Returns the number of cells before a part of a value or place ([`Op::Part`]); for an element the number of its
+    /// own.
     pub fn offset(&self, part: Value) -> usize {
         self.state.layout(self.frame).offsets[part.index()] as usize
     }
 
-    /// The cells of memory that the variables of this activation have.
+    /// Returns the memory cells of the variables of this activation.
     pub fn own_memory(&self) -> Range<usize> {
         let end = self.state.memory[self.lane].len();
         end - self.state.layout(self.frame).memory..end
     }
 
-    /// The cells of memory of a variable of the module.
+    /// Returns the memory cells of a variable of the module.
     pub fn global_memory(&self, global: GlobalId) -> Range<usize> {
         let start = self.state.globals[global.index()];
         start..start + layout::cells(self.module(), self.module()[global].ty)
     }
 
-    /// The first cell of a place, by which places that overlap are told.
+    /// Returns the first cell of a place, by which overlapping places are found.
     pub fn address(&self, place: Value) -> usize {
         self.state.place(self.frame, place)[self.lane] as usize
     }
 
-    /// A value is an address.
+    /// Returns whether a value is an address.
     pub fn is_place(&self, value: Value) -> bool {
         self.function().is_place(value)
     }
 
-    /// The variable, parameter or global that a place lies in, and how many cells of it lie before the place.
+    /// Returns the variable, parameter or global that contains a place, and the number of its cells before the place.
     pub fn root(&self, place: Value) -> (Value, usize) {
         let (function, module) = (self.function(), self.module());
         let (mut root, mut before) = (place, 0);
@@ -99,76 +100,75 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
         }
     }
 
-    /// The cells of a variable of the module.
+    /// Returns the cells of a variable of the module.
     pub fn global(&self, global: GlobalId) -> &[Cell<R>] {
         self.state.global(global, self.lane)
     }
 
-    /// Returns the result of the function, as far as it has one.
+    /// Returns the result of the function, empty if it has none.
     pub fn result(&self) -> &[Cell<R>] {
         let size = self.frame.result.len() / LANES;
         &self.frame.result[self.lane * size..][..size]
     }
 
-    /// The cells that a place holds.
+    /// Returns the cells of a place's contents.
     pub fn memory(&self, place: Value) -> &[Cell<R>] {
         self.state.memory(self.frame, place, self.lane)
     }
 }
 
-/// Sees each step of one pixel.
+/// Receives each step of one pixel.
 pub trait Observer<R> {
-    /// A function is about to be called with these arguments.
+    /// Called before a function is called with these arguments.
     fn calling(&mut self, _: &View<'_, '_, R>, _arguments: &[Value]) {}
 
-    /// A function begins.
+    /// Called at the start of a function.
     fn enter(&mut self, _: &View<'_, '_, R>) {}
 
-    /// A function returns this value, or nothing.
+    /// Called when a function returns this value, or nothing.
     fn returned(&mut self, _: &View<'_, '_, R>, _: Option<Value>) {}
 
-    /// A function has ended.
+    /// Called after a function has ended.
     fn leave(&mut self, _: &View<'_, '_, R>) {}
 
-    /// A statement that branches has been reached, an `If` or a `Switch`: before [`Self::decide`].
+    /// Called at a statement that branches, an `If` or a `Switch`, before [`Self::decide`].
     fn branch(&mut self, _: &View<'_, '_, R>, _: &Stmt) {}
 
-    /// The statement of the last [`Self::branch`] that is open has ended, by whatever way.
+    /// Called when the statement of the innermost open [`Self::branch`] has ended, in any way.
     fn branch_end(&mut self, _: &View<'_, '_, R>) {}
 
-    /// A loop has been reached.
+    /// Called at the start of a loop.
     fn loop_start(&mut self, _: &View<'_, '_, R>, _: &Stmt) {}
 
-    /// A loop begins another turn.
+    /// Called at the start of an iteration.
     fn turn(&mut self, _: &View<'_, '_, R>) {}
 
-    /// A turn of a loop comes to the part that a `continue` leads to.
+    /// Called when an iteration reaches its `continuing` part.
     fn continuing(&mut self, _: &View<'_, '_, R>) {}
 
-    /// The last loop that is open has ended, by whatever way.
+    /// Called when the innermost open loop has ended, in any way.
     fn loop_end(&mut self, _: &View<'_, '_, R>) {}
 
-    /// The cells of a value that has been computed, in one of the lanes, before anything uses them: they may be made
-    /// others.
+    /// Called with the cells of a computed value, in one of the lanes, before they are used: they may be changed.
     fn correct(&mut self, _: FuncId, _: Value, _: &mut [Cell<R>]) {}
 
-    /// A value has been computed.
+    /// Called after a value has been computed.
     fn value(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
-    /// A value has been computed of what all four pixels hold, while not all of them came there.
+    /// Called after a value has been computed from all four pixels although not all of them reached it.
     fn diverged(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
-    /// A value decides which way is gone: the condition of a branch, or of the test after a turn.
+    /// Called for a value that decides control flow: the condition of a branch, or of the test after an iteration.
     fn decide(&mut self, _: &View<'_, '_, R>, _: Value) {}
 
-    /// A value is what the shader draws.
+    /// Called for a value that the shader outputs.
     fn output(&mut self, _: &View<'_, '_, R>, _: Output, _: Value) {}
 
-    /// A value has been written to a place.
+    /// Called after a value has been written to a place.
     fn store(&mut self, _: &View<'_, '_, R>, _place: Value, _value: Value) {}
 }
 
-/// Sees nothing.
+/// An observer that does nothing.
 pub struct NoObserver;
 
 impl<R> Observer<R> for NoObserver {}

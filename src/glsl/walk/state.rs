@@ -1,4 +1,4 @@
-//! The state of a program while it runs: values, variables and the way to them.
+//! The state of a running program: values, variables and access to them.
 
 use super::{
     layout::{self, Layout, SlotKind},
@@ -21,7 +21,7 @@ pub fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
 /// One activation of a function.
 pub struct Frame<R> {
     pub function: FuncId,
-    /// The function's constants, and behind them what is computed, lane by lane: all that an operand may be.
+    /// The function's constants, followed by its computed values, lane by lane: everything that can be an operand.
     pub cells: Vec<Cell<R>>,
     /// The cell of each place in the memory of each lane.
     pub places: Vec<[u32; LANES]>,
@@ -37,7 +37,7 @@ impl<R: Real> Frame<R> {
         Self { function, cells, places, result }
     }
 
-    /// Makes the frame what it was at first.
+    /// Resets the frame to its initial state.
     pub fn clear(&mut self, layout: &Layout<R>) {
         self.cells[layout.constants.len()..].fill(Cell::Bits(0));
         self.places.fill([0; LANES]);
@@ -45,7 +45,7 @@ impl<R: Real> Frame<R> {
     }
 }
 
-/// The program, and its memory.
+/// The program and its memory.
 pub struct State<'a, R> {
     pub module: &'a Module,
     pub world: &'a dyn World,
@@ -73,21 +73,21 @@ impl<'a, R: Real> State<'a, R> {
         &mut frame.cells[slot.cells(lane)]
     }
 
-    /// The cells of a value in a lane.
+    /// Returns the cells of a value in a lane.
     pub fn value<'f>(&'f self, frame: &'f Frame<R>, value: Value, lane: usize) -> &'f [Cell<R>] {
         let slot = self.layout(frame).slots[value.index()];
         debug_assert!(slot.kind != SlotKind::Place, "{value:?} is an address");
         &frame.cells[slot.cells(lane)]
     }
 
-    /// The cells of what a place holds in a lane.
+    /// Returns the cells of a place's contents in a lane.
     pub fn memory(&self, frame: &Frame<R>, place: Value, lane: usize) -> &[Cell<R>] {
         let slot = self.layout(frame).slots[place.index()];
         let start = frame.places[slot.start as usize][lane] as usize;
         &self.memory[lane][start..start + slot.size as usize]
     }
 
-    /// The cells of a variable of the module in a lane.
+    /// Returns the cells of a variable of the module in a lane.
     pub fn global(&self, global: GlobalId, lane: usize) -> &[Cell<R>] {
         let start = self.globals[global.index()];
         &self.memory[lane][start..start + layout::cells(self.module, self.module[global].ty)]

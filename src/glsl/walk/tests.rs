@@ -10,7 +10,7 @@ use eddy_diag::SourceId;
 
 const LIMIT: u64 = 1_000_000;
 
-/// No textures; iTime is 2, the canvas 8x4.
+/// A world without textures; iTime is 2, the resolution 8x4.
 struct Bare(UniformBlock);
 
 impl Default for Bare {
@@ -48,7 +48,7 @@ impl World for Bare {
         [at[0] as f32, at[1] as f32, level as f32, 1.0]
     }
 
-    /// Shows the coordinate and the level.
+    /// Returns the coordinate and the level as a colour.
     fn sample(&self, _: u8, at: [f64; 3], lod: Lod, _: [i32; 3]) -> [f64; 4] {
         let level = match lod {
             Lod::Exact(level) => level,
@@ -73,7 +73,7 @@ fn draw<R: Real>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
 }
 
 /// Runs the body of a function `f`, whose result is `r`, at pixel (3, 2), in both precisions.
-fn gives_with(declarations: &str, body: &str, wanted: [f64; 4]) {
+fn assert_result_with(declarations: &str, body: &str, wanted: [f64; 4]) {
     let code = format!("{declarations}\nvoid mainImage(out vec4 r, in vec2 p) {{ {body} }}");
     let single = draw::<f32>(&code, (3, 2)).unwrap();
     let double = draw::<f64>(&code, (3, 2)).unwrap();
@@ -83,35 +83,44 @@ fn gives_with(declarations: &str, body: &str, wanted: [f64; 4]) {
     }
 }
 
-fn gives(body: &str, wanted: [f64; 4]) {
-    gives_with("", body, wanted);
+fn assert_result(body: &str, wanted: [f64; 4]) {
+    assert_result_with("", body, wanted);
 }
 
 #[test]
 fn arithmetic_and_functions() {
-    gives("r = vec4(p, iTime, iResolution.x);", [3.5, 2.5, 2.0, 8.0]);
-    gives("r = vec4(7 / 2, -7 / 2, -7 % 3, 7 % -3);", [3.0, -3.0, -1.0, 1.0]);
-    gives("int a = int(p.x) - 10; r = vec4(a / 2, a % 4, a >> 1, a & 6);", [-3.0, 1.0, -4.0, 0.0]);
-    gives("uint a = uint(p.x) - 4u; r = vec4(a >> 31, a == 4294967295u, ~a, a << 4 >> 28);", [1.0, 1.0, 0.0, 15.0]);
-    gives("r = vec4(mod(-p.x, 2.0), fract(-p.x), sign(-p.x), round(p.x));", [0.5, 0.5, -1.0, 4.0]);
-    gives(
+    assert_result("r = vec4(p, iTime, iResolution.x);", [3.5, 2.5, 2.0, 8.0]);
+    assert_result("r = vec4(7 / 2, -7 / 2, -7 % 3, 7 % -3);", [3.0, -3.0, -1.0, 1.0]);
+    assert_result("int a = int(p.x) - 10; r = vec4(a / 2, a % 4, a >> 1, a & 6);", [-3.0, 1.0, -4.0, 0.0]);
+    assert_result(
+        "uint a = uint(p.x) - 4u; r = vec4(a >> 31, a == 4294967295u, ~a, a << 4 >> 28);",
+        [1.0, 1.0, 0.0, 15.0],
+    );
+    assert_result("r = vec4(mod(-p.x, 2.0), fract(-p.x), sign(-p.x), round(p.x));", [0.5, 0.5, -1.0, 4.0]);
+    assert_result(
         "r = vec4(length(p), dot(p, p), cross(vec3(p, 1), vec3(1, p)).xy);",
         [18.5f64.sqrt(), 18.5, 2.5 * 2.5 - 3.5, 1.0 - 3.5 * 2.5],
     );
-    gives("mat2 m = mat2(1, 2, 3, 4); r = vec4(m * p, p * m);", [3.5 + 7.5, 7.0 + 10.0, 3.5 + 5.0, 10.5 + 10.0]);
-    gives(
+    assert_result(
+        "mat2 m = mat2(1, 2, 3, 4); r = vec4(m * p, p * m);",
+        [3.5 + 7.5, 7.0 + 10.0, 3.5 + 5.0, 10.5 + 10.0],
+    );
+    assert_result(
         "mat3 m = mat3(2, 0, 1, p.x, 3, 0, 0, 1, 4); r = vec4(determinant(m), (inverse(m) * m)[1]);",
         [2.0 * 12.0 + 3.5, 0.0, 1.0, 0.0],
     );
-    gives("r = vec4(smoothstep(3.0, 4.0, p.x), mix(1.0, 3.0, p.y), clamp(p, 0.0, 3.0));", [0.5, 6.0, 3.0, 2.5]);
-    gives("uint u = packHalf2x16(p); r = vec4(unpackHalf2x16(u), unpackUnorm2x16(0xffff0000u));", [3.5, 2.5, 0.0, 1.0]);
-    gives("float n = sqrt(p.x - 9.0); r = vec4(isnan(n), n == n, n != n, n < 1.0);", [1.0, 0.0, 1.0, 0.0]);
+    assert_result("r = vec4(smoothstep(3.0, 4.0, p.x), mix(1.0, 3.0, p.y), clamp(p, 0.0, 3.0));", [0.5, 6.0, 3.0, 2.5]);
+    assert_result(
+        "uint u = packHalf2x16(p); r = vec4(unpackHalf2x16(u), unpackUnorm2x16(0xffff0000u));",
+        [3.5, 2.5, 0.0, 1.0],
+    );
+    assert_result("float n = sqrt(p.x - 9.0); r = vec4(isnan(n), n == n, n != n, n < 1.0);", [1.0, 0.0, 1.0, 0.0]);
 }
 
-/// The nearest number of both types stands for what is undefined, as in the code of naga.
+/// Undefined conversions return the nearest number of both types, as naga's code does.
 #[test]
 fn floats_beyond_the_range_of_an_int() {
-    gives(
+    assert_result(
         "r = vec4(int(p.x * 1e20) == 0x7fffff80, int(p.x * -1e20) == int(0x80000000u), \
          uint(p.x * 1e20) == 0xffffff00u, uint(p.x * -1e20) == 0u);",
         [1.0; 4],
@@ -120,34 +129,34 @@ fn floats_beyond_the_range_of_an_int() {
 
 #[test]
 fn control_flow() {
-    gives(
+    assert_result(
         "for (int i = 0; i < 10; i++) { if (i == 3) continue; if (i == 6) break; r.x += float(i); }",
         [12.0, 0.0, 0.0, 0.0],
     );
-    gives(
+    assert_result(
         "int i = 0; do { i++; } while (float(i) < p.x); while (true) { if (i++ > 8) break; } r = vec4(i);",
         [10.0; 4],
     );
-    gives(
+    assert_result(
         "switch (int(p.x)) { case 2: r.x = 9.0; case 3: r.y = 1.0; case 4: r.z = 2.0; break; default: r.w = 3.0; }",
         [0.0, 1.0, 2.0, 0.0],
     );
-    gives_with(
+    assert_result_with(
         "float g = 1.0; float f(inout float a, out float b) { a += g; g *= 2.0; b = a; if (a > 5.0) return a; return 0.0; }",
         "float a = p.x, b = 7.0; float c = f(a, b) + f(a, b); r = vec4(a, b, c, g);",
         [6.5, 6.5, 6.5, 4.0],
     );
-    gives_with(
+    assert_result_with(
         "struct S { float a[3]; vec2 v; }; S make(float x) { S s; s.a[1] = x; s.v = vec2(x, 2.0 * x); return s; }",
         "S s = make(p.x); s.a[int(p.y)] += 1.0; s.v.y = 9.0; r = vec4(s.a[1], s.a[2], s.v);",
         [3.5, 1.0, 3.5, 9.0],
     );
-    gives_with(
+    assert_result_with(
         "bool t(inout float n) { n += 1.0; return true; }",
         "float n = 0.0; bool b = p.x < 0.0 && t(n); bool c = p.x < 0.0 || t(n); r = vec4(n, b, c, p.x > 0.0 ? 5.0 : 6.0);",
         [1.0, 0.0, 1.0, 5.0],
     );
-    gives_with(
+    assert_result_with(
         "const float T[4] = float[4](1.0, 2.0, 4.0, 8.0);",
         "r = vec4(T[int(p.x)], T[int(p.y) + 7], 0, 0);",
         [8.0, 8.0, 0.0, 0.0],
@@ -156,20 +165,20 @@ fn control_flow() {
 
 #[test]
 fn derivatives_are_those_of_neighbours() {
-    gives(
+    assert_result(
         "r = vec4(dFdx(p.x * p.x), dFdy(p.y * p.x), fwidth(p.x - 2.0 * p.y), dFdx(p.y));",
         [3.5 * 3.5 - 2.5 * 2.5, 3.5, 3.0, 0.0],
     );
-    gives(
+    assert_result(
         "r = texture(iChannel0, p * 0.5, 0.25) + texelFetch(iChannel1, ivec2(p), 2);",
         [1.75 + 3.0, 1.25 + 2.0, 50.0 + 5.0 + 0.25 + 2.0, 2.0],
     );
-    // Of lanes that went another way.
-    gives("float a = p.x; if (p.x > 3.0) a = 10.0; r = vec4(dFdx(a), 0, 0, 0);", [7.5, 0.0, 0.0, 0.0]);
+    // Neighbouring lanes took another branch.
+    assert_result("float a = p.x; if (p.x > 3.0) a = 10.0; r = vec4(dFdx(a), 0, 0, 0);", [7.5, 0.0, 0.0, 0.0]);
 }
 
 #[test]
-fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
+fn endless_loops_are_stopped_and_discard_draws_nothing() {
     let endless = "void mainImage(out vec4 r, in vec2 p) { for (;;) { r.x += 1.0; if (r.x < 0.0) break; } }";
     assert_eq!(draw::<f32>(endless, (0, 0)), Err(Stop::Steps(LIMIT)));
     let (walkable, world) =
@@ -182,20 +191,20 @@ fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
 }
 
 #[test]
-fn what_the_language_leaves_open_is_as_drivers_have_it() {
-    // A product with a zero that a driver sees is none, and one that it does not see is computed.
-    gives(
+fn undefined_cases_follow_drivers() {
+    // A product with a zero that the driver sees is dropped; one that it does not see is computed.
+    assert_result(
         "float z = p.x * 0.0; r = vec4(mod(p.x, 0.0), mod(vec2(p.x), vec2(0.0, 1.0)), isnan(mod(p.x, z)));",
         [3.5, 3.5, 0.5, 1.0],
     );
-    gives(
+    assert_result(
         "float z = p.x * 1e30; r = vec4(int(z) == 2147483520, int(-z) + 2147483647 == -1, uint(z) == 4294967040u, uint(-z));",
         [1.0, 1.0, 1.0, 0.0],
     );
 }
 
 #[test]
-fn single_precision_is_a_devices_and_the_shadow_knows_better() {
+fn single_precision_follows_the_device_and_the_shadow_is_exact() {
     let code = "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = vec4((a + 1e8) - 1e8 - a); }";
     assert_eq!(draw::<f32>(code, (3, 2)).unwrap()[0], f64::from((3.5f32 * 0.1 + 1e8) - 1e8 - 3.5 * 0.1));
     assert!(draw::<f64>(code, (3, 2)).unwrap()[0].abs() < 1e-7);
@@ -205,7 +214,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
         .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(f64::from(single) < -0.3 && double.abs() < 1e-7, "{single} {double}");
-    // What is read of a texture is read twice, where the coordinates are apart.
+    // A texel is read for both precisions where their coordinates differ.
     let code =
         "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = texture(iChannel0, vec2((a + 1e8) - 1e8)); }";
     let walkable = self::walkable(code);
@@ -217,7 +226,7 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
 }
 
 #[test]
-fn an_observer_sees_the_way_of_one_pixel() {
+fn observer_sees_the_steps_of_one_pixel() {
     #[derive(Default)]
     struct Log(Vec<String>);
     impl Observer<f32> for Log {

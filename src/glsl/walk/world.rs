@@ -1,46 +1,47 @@
-//! Everything that a program reads beside its own memory.
+//! Everything that a program reads outside its own memory.
 
 use crate::{
     builtins::Uniform,
     interface::{GeometryBlock, UniformBlock},
 };
 
-/// A mip level, as a sample asks for it.
+/// The mip level of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lod {
-    /// The level itself.
+    /// This level.
     Exact(f64),
-    /// By how much the coordinate changes from pixel to pixel, along x and along y, and what is added to the level
-    /// (section 3.8.11 of the OpenGL ES 3.0 specification).
+    /// From the derivatives of the coordinate along x and along y, plus a bias (section 3.8.11 of the OpenGL ES 3.0
+    /// specification).
     Derivatives { x: [f64; 3], y: [f64; 3], bias: f64 },
 }
 
 /// Uniforms, textures and inputs of a frame.
 pub trait World {
-    /// The site's uniforms.
+    /// Returns Shadertoy's uniforms.
     fn uniforms(&self) -> &UniformBlock;
     /// Returns the matrices and the camera that a mesh is drawn with; zeros for a pass that draws none, whose program
-    /// names nothing of it.
+    /// does not use them.
     fn geometry(&self) -> GeometryBlock;
-    /// The words of the author's own uniform in a slot.
+    /// Returns the words of the custom uniform in a slot.
     fn custom_uniform(&self, slot: u16) -> [u32; 4];
-    /// Face of the cube map that is drawn, 0 to 5.
+    /// Returns the face of the cube map that is being drawn, 0 to 5.
     fn cube_face(&self) -> u32;
-    /// Width, height and depth of a level of a channel's texture; zeros for one that has none.
+    /// Returns width, height and depth of a level of a channel's texture; zeros if it has no texture.
     fn size(&self, channel: u8, level: i32) -> [i32; 3];
     fn levels(&self, channel: u8) -> u32;
-    /// A texel of a level; zeros outside of the texture.
+    /// Returns a texel of a level; zeros outside of the texture.
     fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4];
-    /// The level of a read that says none follows, for all four pixels of a quad, from the differences along its first
-    /// row and its first column. GLSL ES 3.00 leaves that open (section 8.8); each pixel has its own otherwise.
+    /// Returns whether a read without an explicit level uses one level for all four pixels of a quad, from the
+    /// differences along its first row and its first column. GLSL ES 3.00 does not define this (section 8.8); otherwise
+    /// each pixel has its own.
     fn has_one_level_a_quad(&self, _channel: u8) -> bool {
         false
     }
-    /// A filtered read. `offset` is in texels.
+    /// Returns a filtered read. `offset` is in texels.
     fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4];
 }
 
-/// The words of one of the site's uniforms, in memory order.
+/// Returns the words of one of Shadertoy's uniforms, in memory order.
 pub fn uniform_words(world: &dyn World, uniform: Uniform) -> Vec<u32> {
     let block = world.uniforms();
     let floats = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect();

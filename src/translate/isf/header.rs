@@ -1,12 +1,12 @@
-//! The JSON object at the beginning of an ISF file.
+//! The JSON object at the start of an ISF file.
 
 use super::{Image, Images};
 use eddy_engine::Sources;
 use eddy_project::{CustomUniform, CustomUniformType, PassId, PassSize, Project, TexelFormat};
 use serde_json::{Map, Value, json};
 
-/// Numbers of a menu that an `int` slider becomes, at most.
-const MOST_VALUES: i64 = 256;
+/// The limit of values for an `int` slider to become a menu.
+const MAX_MENU_VALUES: i64 = 256;
 
 /// Returns the object as text.
 pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, reads_mouse: bool) -> String {
@@ -27,7 +27,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
     let mut header = Map::new();
     header.insert("ISFVSN".into(), json!("2"));
     let description = if project.info.description.is_empty() { &project.name } else { &project.info.description };
-    // The object is in a comment.
+    // The object is inside a comment.
     header.insert("DESCRIPTION".into(), json!(description.replace("*/", "* /")));
     header.insert("CREDIT".into(), json!(project.info.author.replace("*/", "* /")));
     header.insert("CATEGORIES".into(), json!(project.info.tags));
@@ -71,7 +71,7 @@ fn pass(pass: &eddy_project::Pass, project: &Project) -> Value {
     of.into()
 }
 
-/// Returns whether a slider becomes one input; else it becomes one of numbers for each component.
+/// Returns whether a slider becomes a single input; otherwise each component becomes one.
 pub(super) fn is_one_input(uniform: &CustomUniform) -> bool {
     match uniform.ty {
         CustomUniformType::Vec3 | CustomUniformType::Vec4 => false,
@@ -117,7 +117,7 @@ fn inputs(uniform: &CustomUniform, project: &Project) -> Vec<Value> {
             if let Some((min, max)) = range(0).map(|(min, max)| (min as i64, max as i64)) {
                 of.insert("MIN".into(), json!(min));
                 of.insert("MAX".into(), json!(max));
-                if (1..MOST_VALUES).contains(&max.saturating_sub(min)) {
+                if (1..MAX_MENU_VALUES).contains(&max.saturating_sub(min)) {
                     of.insert("VALUES".into(), (min..=max).collect());
                     of.insert("LABELS".into(), (min..=max).map(|n| n.to_string()).collect());
                 }
@@ -132,7 +132,7 @@ fn inputs(uniform: &CustomUniform, project: &Project) -> Vec<Value> {
             }
             of.into()
         }
-        // A colour of ISF has an alpha; `shader` takes the other three.
+        // A colour in ISF has an alpha; `shader` uses the other three components.
         CustomUniformType::Color3 => {
             input(format!("{name}_rgba"), "color", json!([value[0], value[1], value[2], 1.0])).into()
         }

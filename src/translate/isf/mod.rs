@@ -1,7 +1,8 @@
 //! A project as one file of Interactive Shader Format: <https://github.com/mrRay/ISF_Spec>.
 //!
-//! Owns the header that describes inputs and passes ([`header`]), the passes' texts behind each other in one shader ([`shader`]),
-//! and the calls that read channels, which ISF reads by names of images ([`reads`]). The texts are the author's own but for that.
+//! Owns the header that describes inputs and passes ([`header`]), the concatenation of the passes' texts in one shader
+//! ([`shader`]), and the calls that read channels, which ISF reads by names of images ([`reads`]). Otherwise the texts
+//! are the author's own.
 
 mod header;
 mod reads;
@@ -15,15 +16,16 @@ use eddy_engine::Sources;
 use eddy_glsl::Driver;
 use eddy_project::{Dialect, Input, InputKind, Media, PassBody, PassId, Project};
 
-/// An ISF file, and what its author should know of it.
+/// An ISF file, and diagnostics for its author.
 #[derive(Debug)]
 pub struct IsfFile {
     pub text: String,
-    /// Warnings, with what ISF shows otherwise.
+    /// Warnings about differences in ISF.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns a project as an ISF file. Err: the errors of the compiler, or what ISF cannot say, each with its place.
+/// Converts a project to an ISF file. Returns the errors of the compiler, or the features that ISF cannot express, each
+/// with its place.
 pub fn isf(project: &Project) -> Result<IsfFile, Vec<Diagnostic>> {
     let sources = Sources::new(project);
     let mut found = compile(&sources, project);
@@ -52,7 +54,7 @@ fn compile(sources: &Sources<'_>, project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-/// Returns what ISF has no word for in the passes' settings.
+/// Returns errors for settings of passes that ISF cannot express.
 fn refusals(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let mut error = |message: String, hint: &str| found.push(Diagnostic::error(None, message).hint(hint));
@@ -83,9 +85,9 @@ fn refusals(project: &Project) -> Vec<Diagnostic> {
 pub(crate) enum Image {
     /// The target of a pass.
     Target(String),
-    /// A file beside the shader, by name and path.
+    /// A file in the folder of the shader, by name and path.
     File(String, String),
-    /// One that the host gives.
+    /// An image that the host provides.
     Input(String),
 }
 
@@ -100,7 +102,7 @@ impl Image {
 /// The images of each pass's channels, by the indices of pass and channel.
 pub(crate) type Images = Vec<[Option<Image>; 4]>;
 
-/// Names what each channel reads.
+/// Names the image that each channel reads.
 fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
     let mut files: Vec<String> = Vec::new();
     let mut inputs: Vec<Input> = Vec::new();
@@ -144,7 +146,7 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
     all
 }
 
-/// An error at a place of a text.
+/// Returns an error at a place of a text.
 fn refused(span: Span, message: &str, hint: &str) -> Diagnostic {
     Diagnostic::error(span, message).hint(hint)
 }

@@ -1,5 +1,5 @@
-//! Calls that read channels: `texture(iChannel0, at)` becomes `IMG_NORM_PIXEL(image, at)`. ISF hosts find these calls in the
-//! text, so the name of the image stands in each of them.
+//! Calls that read channels: `texture(iChannel0, at)` becomes `IMG_NORM_PIXEL(image, at)`. ISF hosts search the text
+//! for these calls, so each of them must contain the name of the image.
 
 use super::{Image, refused};
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -9,7 +9,7 @@ use std::ops::Range;
 /// A text whose calls are replaced.
 pub(super) struct Reads<'t> {
     text: &'t str,
-    /// The text with blanks in place of comments, byte for byte.
+    /// The text with comments replaced by spaces, byte for byte.
     code: Vec<u8>,
     id: SourceId,
     images: &'t [Option<Image>; 4],
@@ -28,7 +28,7 @@ impl<'t> Reads<'t> {
         Self { text, code: without_comments(text), id, images, channels, found: Vec::new() }
     }
 
-    /// Returns the text with every read of a channel by the name of its image.
+    /// Returns the text with every read of a channel replaced by one of its image.
     pub fn replaced(&mut self) -> String {
         self.part(0..self.text.len())
     }
@@ -37,7 +37,7 @@ impl<'t> Reads<'t> {
         &self.text[range]
     }
 
-    /// Returns the word at a place of the code, if one begins there.
+    /// Returns the word at a position of the code, if one starts there.
     fn word_at(&self, at: usize) -> Option<Range<usize>> {
         let is_letter = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
         let begins = is_letter(*self.code.get(at)?) && (at == 0 || !is_letter(self.code[at - 1]));
@@ -87,22 +87,22 @@ impl<'t> Reads<'t> {
         }
     }
 
-    /// The parts of brackets that open at a place, without the signs between them, and the place behind them.
+    /// Returns the arguments of the brackets that open at a position, without separators, and the position after them.
     fn arguments(&self, open: usize) -> Option<(Vec<Range<usize>>, usize)> {
-        let (mut depth, mut begin, mut parts) = (0, open + 1, Vec::new());
+        let (mut depth, mut start, mut parts) = (0, open + 1, Vec::new());
         for at in open..self.code.len() {
             match self.code[at] {
                 b'(' | b'[' | b'{' => depth += 1,
                 b')' | b']' | b'}' => {
                     depth -= 1;
                     if depth == 0 {
-                        parts.push(begin..at);
+                        parts.push(start..at);
                         return Some((parts, at + 1));
                     }
                 }
                 b',' if depth == 1 => {
-                    parts.push(begin..at);
-                    begin = at + 1;
+                    parts.push(start..at);
+                    start = at + 1;
                 }
                 _ => {}
             }
@@ -110,7 +110,7 @@ impl<'t> Reads<'t> {
         None
     }
 
-    /// Returns what a call that reads a channel becomes, and where it ends.
+    /// Returns the replacement of a call that reads a channel, and the call's end.
     fn call(&mut self, word: &Range<usize>) -> Option<(String, usize)> {
         let name = self.word(word.clone()).to_owned();
         if !matches!(
@@ -164,7 +164,7 @@ impl<'t> Reads<'t> {
         }
     }
 
-    /// Returns what `iChannelResolution[0]` becomes, and where it ends.
+    /// Returns the replacement of `iChannelResolution[0]`, and its end.
     fn resolution(&mut self, word: &Range<usize>) -> Option<(String, usize)> {
         let name = self.word(word.clone());
         if name != "iChannelResolution" {
@@ -194,7 +194,7 @@ fn is_channel(name: &str) -> bool {
     channel_index(name).is_some()
 }
 
-/// Returns the bytes of a text with blanks for comments.
+/// Returns the bytes of a text with comments replaced by spaces.
 pub(super) fn without_comments(text: &str) -> Vec<u8> {
     let mut out = text.as_bytes().to_vec();
     let mut at = 0;

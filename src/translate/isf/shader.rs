@@ -1,4 +1,4 @@
-//! The passes' texts behind each other, in one fragment shader.
+//! Concatenates the passes' texts in one fragment shader.
 
 use super::{
     Images,
@@ -16,7 +16,7 @@ pub(super) struct Body {
     pub reads_mouse: bool,
 }
 
-/// Shadertoy's uniforms in terms of ISF's; those that a text names are written out.
+/// Shadertoy's uniforms in terms of ISF's; those that a text names are added to it.
 const UNIFORMS: [(&str, &str); 8] = [
     ("iResolution", "vec3(RENDERSIZE, 1.0)"),
     ("iTime", "TIME"),
@@ -28,7 +28,7 @@ const UNIFORMS: [(&str, &str); 8] = [
     ("iMouse", "vec4(mouse, 0.0, 0.0)"),
 ];
 
-/// Returns the shader, and adds what ISF cannot say.
+/// Returns the shader, and adds errors for features that ISF cannot express.
 pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, found: &mut Vec<Diagnostic>) -> Body {
     let passes: Vec<usize> = (0..project.passes.len()).filter(|&i| project.passes[i].id != PassId::Sound).collect();
     if passes.len() < project.passes.len() {
@@ -39,7 +39,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
     let mut texts = String::new();
     if project.common.is_some() {
         let text = text_of(Project::COMMON_ID);
-        // What Common reads is the same in every pass, or nothing.
+        // Common's reads must be the same in every pass; otherwise none is resolved.
         let same = passes.first().filter(|&&first| passes.iter().all(|&index| images[index] == images[first]));
         let none = Default::default();
         let (own, channels) =
@@ -83,7 +83,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
             let _ = writeln!(texts, "#define {name} {prefix}{name}");
         }
         let _ = writeln!(texts, "{}", body.trim());
-        let macros = if passes.len() > 1 { defined(&text) } else { Vec::new() };
+        let macros = if passes.len() > 1 { defined_macros(&text) } else { Vec::new() };
         for name in names.iter().chain(&macros) {
             let _ = writeln!(texts, "#undef {name}");
         }
@@ -124,14 +124,14 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
     Body { text, reads_mouse }
 }
 
-/// Returns whether a name can stand behind a dot, as components of a vector do.
+/// Returns whether a name can follow a dot, like components of a vector.
 fn is_swizzle(name: &str) -> bool {
     let of = |set: &str| name.chars().all(|c| set.contains(c));
     name.len() <= 4 && (of("xyzw") || of("rgba") || of("stpq"))
 }
 
 /// Returns the names of the macros that a text defines, each once.
-fn defined(text: &str) -> Vec<String> {
+fn defined_macros(text: &str) -> Vec<String> {
     let code = String::from_utf8(without_comments(text)).unwrap_or_default();
     let mut names: Vec<String> = Vec::new();
     for line in code.lines() {

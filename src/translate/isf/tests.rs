@@ -61,7 +61,7 @@ fn an_image_pass_keeps_its_text() {
 }
 
 #[test]
-fn buffers_become_passes_with_names_of_their_own() {
+fn buffers_become_named_passes() {
     let buffer = "#define RATE 0.9\nfloat at(float x) { return x * RATE; }\n\
                   void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + at(1.0); }";
     let shown = "float at(float x) { return x; }\nvoid mainImage(out vec4 c, in vec2 p) {\n\
@@ -91,7 +91,7 @@ fn buffers_become_passes_with_names_of_their_own() {
 }
 
 #[test]
-fn images_are_imported_or_given() {
+fn images_are_imported_or_inputs() {
     let text = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p) + textureLod(iChannel1, p, 2.0); }";
     let file = Input::texture(Media::File("pics/a.png".into()));
     let mut shown = pass(PassId::Image, text, &[file, Input::texture(Media::Builtin("marble".into()))]);
@@ -113,7 +113,7 @@ fn images_are_imported_or_given() {
 }
 
 #[test]
-fn what_isf_cannot_say_is_an_error() {
+fn features_that_isf_lacks_are_errors() {
     let text = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p); }";
     let reads = |text: &str, input: Input| refused(&project(vec![pass(PassId::Image, text, &[input])]));
     assert!(reads(text, Input::KEYBOARD)[0].contains("reads Keyboard"));

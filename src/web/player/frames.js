@@ -10,7 +10,7 @@ function sizeOf(p) {
   if (Array.isArray(p.size)) return p.size;
   return [W, H].map(side => Math.max(1, Math.round(side * (p.size || 1))));
 }
-// A device that cannot draw or filter 32-bit floats gets 16 bits.
+// Devices that cannot draw or filter 32-bit floats use 16 bits.
 function formatOf(p, k) {
   const f = p.formats[k], filtered = channels.some(c => c.in == 'pass' && P.passes[c.pass] == p && c.target == k && c.filter != 'nearest');
   return f.endsWith('32f') && (!canFloat || filtered && !canFilter) ? f.replace('32f', '16f') : f;
@@ -59,7 +59,7 @@ function copy(from, to, w, h) {
     if (to.tex[k].mips) gl.generateMipmap(t.target);
   });
 }
-// The texels before frame 0: what the project says, or zeros.
+// The texels before frame 0: the project's fill, or zeros.
 function start(p) {
   for (const set of p.sets) {
     set.frames.forEach(f => {
@@ -85,7 +85,7 @@ function bind(unit, tex, filter, wrap) {
   for (const target of Object.values(TARGET)) gl.bindTexture(target, tex && tex.target == target ? tex.id : null);
   gl.bindSampler(unit, tex ? sampler(filter, wrap, tex) : null);
 }
-// The texture of a channel, its size as iChannelResolution has it, and its time.
+// Returns the texture of a channel, its size for iChannelResolution, and its time.
 function source(c, time) {
   if (!c || c.in == 'none') return {size: [0, 0, 0], time: 0};
   if (c.in == 'pass') {
@@ -104,14 +104,14 @@ function source(c, time) {
 }
 
 const custom = {};
-// The value of a condition: a number, a name, or an operator with its terms.
+// Evaluates a condition: a number, a name, or an operator with its terms.
 function valueOf(t) {
   if (typeof t == 'number') return t;
   if (typeof t == 'string') return custom[t] ? Math.fround(+custom[t][0]) : {width: W, height: H}[t];
   const [a, b] = t.slice(1).map(valueOf), d = a - b;
   return +{'!': !a, '-': -a, '||': !!(a || b), '&&': !!(a && b), '==': !d, '!=': !!d, '<': d < 0, '<=': d <= 0, '>': d > 0, '>=': d >= 0}[t[0]];
 }
-// While its condition is false, a pass holds what it holds before frame 0.
+// While its condition is false, a pass has its content from before frame 0.
 function isOff(p) {
   if (!p.when || valueOf(p.when)) return p.off = false;
   if (p.off) return true;
@@ -120,7 +120,7 @@ function isOff(p) {
   for (const set of p.sets) for (const t of set.tex) t.version = ++versions;
   return p.off = true;
 }
-// Draws a pass once: of a cube all faces.
+// Draws a pass once; all faces of a cube map.
 function draw(p, frame) {
   if (isOff(p) || p.region && !regionOf(p)) return;
   const image = !p.sets, n = image ? 1 : p.sets.length, back = image ? 0 : (p.front + 1) % n, set = image ? {w: W, h: H, frames: [null], tex: []} : p.sets[back];
@@ -166,7 +166,7 @@ function edges(b, w, h) {
   return [[0, 0, w, b], [0, h - b, w, b], [0, b, b, h - 2 * b], [w - b, b, b, h - 2 * b]];
 }
 
-// Meshes: matrices column by column, as OpenGL has them.
+// Meshes: column-major matrices, as in OpenGL.
 const radians = Math.PI / 180, cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2], unit = a => a.map(x => x / Math.hypot(...a));
 function model(d) {
@@ -223,7 +223,7 @@ function arrayOf(d) {
   gl.bindVertexArray(null);
 }
 
-// Compiles all programs and makes all textures.
+// Compiles all programs and creates all textures.
 async function build() {
   const all = [];
   const add = (title, kind, channels, uniforms, text, stage) => {

@@ -81,7 +81,7 @@ addEventListener('keydown', e => {
 });
 addEventListener('keyup', e => { if (e.keyCode < 256) keys[e.keyCode] = keys[256 + e.keyCode] = 0; clock.due = true; });
 addEventListener('blur', () => keys.fill(0, 0, 512));
-// Time stands still while nobody sees the page.
+// Time is paused while the page is hidden.
 document.addEventListener('visibilitychange', () => { Object.assign(clock, {before: null, first: true}); hush(); });
 
 function sliders() {
@@ -141,7 +141,7 @@ function awake() { $('bar').classList.remove('idle'); clearTimeout(idle); idle =
 for (const e of ['pointermove', 'pointerdown', 'keydown']) addEventListener(e, awake);
 canvas.addEventListener('webglcontextlost', () => report('The graphics driver has given up the picture, perhaps because a frame took too long. Reload the page to try again.'));
 
-// `#frame=N&fps=60&size=640x360` draws frames 0 to N at a fixed rate and shows the last one; `#size=WxH` fixes the size alone.
+// `#frame=N&fps=60&size=640x360` draws frames 0 to N at a fixed rate and shows the last one; `#size=WxH` fixes only the size.
 const fixed = /^(\d+)x(\d+)$/.exec(hash.get('size') || ''), still = hash.has('frame') ? Math.max(0, parseInt(hash.get('frame')) || 0) : -1;
 addEventListener('hashchange', () => location.reload());
 sliders();

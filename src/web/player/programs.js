@@ -1,4 +1,4 @@
-// Programs: the text around the author's GLSL, compiling, uniforms.
+// Programs: the text around the author's GLSL, compilation, uniforms.
 const $ = id => document.getElementById(id);
 const P = JSON.parse($('project').textContent), canvas = $('picture');
 const hash = new URLSearchParams(location.hash.slice(1));
@@ -37,7 +37,7 @@ const PAINT = 'if(eddy_bad.x)eddy_out=vec4(1,0,0,1);if(eddy_bad.y)eddy_out=vec4(
 const TRIANGLE = '#version 300 es\nvoid main(){gl_Position=vec4(float(gl_VertexID&1)*4.-1.,float(gl_VertexID>>1)*4.-1.,0,1);}';
 const SAMPLER = {'2d': 'sampler2D', '3d': 'sampler3D', cube: 'samplerCube'};
 
-// The text before the author's own. `text` only says which rarely used names are needed.
+// Returns the text before the author's own. `text` only determines which rarely used names are needed.
 function head(kind, channels, uniforms, text) {
   let s = HEAD + SHARED + (kind == 'sound' ? SOUND : PICTURE) + (kind == 'mesh' ? MESH : '');
   for (let c = 0; c < 4; c++) {
@@ -53,7 +53,7 @@ function head(kind, channels, uniforms, text) {
   return s + `out vec4 eddy_out;${declared}\n${asserts ? ASSERTS : ''}void main(){vec4 c=vec4(0,0,0,1);${body}${asserts ? PAINT : ''}}\n`;
 }
 
-// Starts to compile; `finish` asks for the result, so that a driver may compile all programs at once.
+// Starts to compile; `finish` requests the result, so that a driver may compile all programs in parallel.
 function begin(title, vertex, fragment) {
   const id = gl.createProgram(), stages = [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]].map(([type, text]) => {
     const s = gl.createShader(type);
@@ -94,7 +94,7 @@ function COMPONENTS(call) {
   return call[0] == 'M' ? m[1] * (m[2] || m[1]) : +m[1];
 }
 
-// Sets what the program reads of `values` (lists of numbers by name) and returns it as a text.
+// Sets the uniforms that the program reads from `values` (lists of numbers by name) and returns them as a text.
 function setUniforms(p, values) {
   let key = '';
   for (const u of p.active) {

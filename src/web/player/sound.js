@@ -1,4 +1,4 @@
-// Sound: the sound pass in blocks as they are needed, and music, both at the place of iTime.
+// Sound: the sound pass, rendered in blocks on demand, and music, both in step with iTime.
 const BLOCK = 512 * 512, soundPass = P.passes.find(p => p.kind == 'sound');
 let listening = null;
 function soundBlock(k) {
@@ -23,7 +23,7 @@ function hush() {
   listening.nodes.clear();
   listening.base = null;
 }
-// Keeps the loudspeaker in step with iTime.
+// Keeps the audio output in step with iTime.
 function listen(time, isPlaying) {
   if (!listening || !listening.on) return;
   const {audio, nodes} = listening;

@@ -1,4 +1,4 @@
-// Textures: those that passes draw into, pictures, volumes, the keyboard, gamepads, music, cameras.
+// Textures: targets of passes, pictures, volumes, the keyboard, gamepads, music, cameras.
 const FORMATS = {};
 for (const [n, all] of Object.entries({r: ['RED', 1], rg: ['RG', 2], rgba: ['RGBA', 4]})) {
   FORMATS[n + '8'] = {internal: gl[n.toUpperCase() + '8'], layout: gl[all[0]], type: gl.UNSIGNED_BYTE, list: Uint8Array};
@@ -27,7 +27,7 @@ function write(t, bytes) {
   t.version++;
 }
 
-// Writes a picture of the browser's: an image or a video.
+// Uploads an image or a video of the browser.
 function writePicture(t, picture, flip) {
   gl.bindTexture(t.target, t.id);
   gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, flip);
@@ -123,7 +123,7 @@ function fourier(re, im) {
     }
   }
 }
-// What Shadertoy shows in place of music that it may not play.
+// The texture that Shadertoy shows for music that it may not play.
 function synthetic(t) {
   const out = new Uint8Array(1024);
   for (let j = 0; j < 512; j++) {
@@ -134,7 +134,7 @@ function synthetic(t) {
   return out;
 }
 
-// Devices. Each is made when a channel asks for it.
+// Devices. Each is opened when a channel first needs it.
 const devices = {}, keys = new Uint8Array(768), pads = new Float32Array(204);
 function device(kind) {
   return devices[kind] ||= {
@@ -158,7 +158,7 @@ function readPads() {
     }
   }
 }
-// Brings everything that no pass draws to the time of a frame.
+// Updates all textures that are not drawn by passes to the time of a frame.
 function updateInputs(time) {
   P.media.forEach(m => {
     if (m.kind == 'music' && m.analyser && m.at !== time) { write(m.tex, m.analyser.at(time)); m.at = time; }

@@ -1,4 +1,4 @@
-//! Control flow that depends on undefined values: the undefined values that decided the branches which are open.
+//! Control flow that depends on undefined values: for each open branch, the undefined values that decided it.
 
 use super::sets::{Set, Sets};
 use eddy_glsl::ir::{Stmt, Value};
@@ -14,11 +14,11 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug)]
 struct Open {
     kind: Kind,
-    /// The values that decided it, or a jump out of it.
+    /// The values that decided it, or decided a jump out of it.
     own: Set,
-    /// For a loop: what decided a `continue` of the present turn.
+    /// For a loop: the values that decided a `continue` of the current iteration.
     turn: Set,
-    /// With all that it lies in.
+    /// The union with those of all enclosing ones.
     total: Set,
 }
 
@@ -26,7 +26,7 @@ struct Open {
 #[derive(Default)]
 pub struct Control {
     open: Vec<Open>,
-    /// The values that decided whether the pixel is drawn at all.
+    /// The values that decided whether the pixel is discarded.
     discard: Set,
 }
 
@@ -44,7 +44,7 @@ impl Control {
         self.open.pop();
     }
 
-    /// Ends a function with all that is open in it.
+    /// Ends a function with everything that is open in it.
     pub fn pop_function(&mut self) {
         while self.open.pop().is_some_and(|open| open.kind != Kind::Function) {}
     }
@@ -53,7 +53,7 @@ impl Control {
         self.open.last().map(|open| open.kind)
     }
 
-    /// The innermost thing of a kind lasts under the influence of a set.
+    /// Adds a set to the innermost open item of a kind, for the rest of its duration.
     pub fn add(&mut self, set: Set, is_kind: impl Fn(Kind) -> bool, sets: &mut Sets) {
         if let Some(at) = self.open.iter().rposition(|open| is_kind(open.kind)) {
             self.open[at].own = sets.union(self.open[at].own, set);
@@ -73,7 +73,7 @@ impl Control {
         self.refresh(0, sets);
     }
 
-    /// The turn of the innermost loop comes to where its `continue` leads, or to the next turn.
+    /// Called when the iteration of the innermost loop reaches its `continuing` part, or the next iteration.
     pub fn end_turn(&mut self, sets: &mut Sets) {
         if let Some(at) = self.open.len().checked_sub(1)
             && !self.open[at].turn.is_empty()

@@ -1,10 +1,10 @@
-//! Follows what was never written through a walk, scalar by scalar, to what the pass draws.
+//! Tracks the influence of unwritten values through a walk, scalar by scalar, up to the output of the pass.
 //!
-//! The rules: a result of arithmetic depends on each operand of its component, also where a number hides it
-//! (`0.0 * x`, `min(x, x)`); of a conditional expression only on the condition and on the side that is evaluated; a read
-//! or write at an undefined index depends on the index, as does everything that the write might have hit. Where a branch,
-//! a loop or a jump depends on something undefined, so does all that is written under it, and all that the way which was
-//! not gone would have written. What is written with a defined value on a defined way is defined.
+//! The rules: a result of arithmetic depends on each operand of its component, even if the operand has no effect on the
+//! number (`0.0 * x`, `min(x, x)`); a conditional expression depends only on the condition and on the evaluated side; a
+//! read or write at an undefined index depends on the index, as does everything that the write might have hit. If a
+//! branch, a loop or a jump depends on an undefined value, so does everything that is written under it, and everything
+//! that the path not taken would have written. A defined value that is written on a defined path is defined.
 
 mod control;
 mod operations;
@@ -27,7 +27,7 @@ use std::{
 };
 use writes::{Effects, Globals, Summary};
 
-/// A declaration that leaves something undefined.
+/// A declaration that leaves a value undefined.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     pub kind: UnsetKind,
@@ -38,13 +38,13 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// It is the same declaration: a function that is compiled several times has it several times.
+    /// Returns whether it is the same declaration: a function that is compiled several times has several copies.
     pub fn is_like(&self, other: &Origin) -> bool {
         (self.kind, self.span, &self.name) == (other.kind, other.span, &other.name)
     }
 }
 
-/// A declaration, and those of its scalars that what the pass draws depends on.
+/// A declaration, and those of its scalars that the output depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
     pub origin: Origin,
@@ -55,12 +55,12 @@ pub struct Shown {
 struct Frame {
     /// By [`View::cells_of`].
     cells: Vec<Set>,
-    /// Places that an undefined index leads to: what that depends on, and all cells that may be meant.
+    /// Places at an undefined index: the dependencies of the index, and all cells that it may refer to.
     places: HashMap<Value, (Set, Range<usize>)>,
     result: Vec<Set>,
 }
 
-/// An argument of a call: what its scalars depend on, or what an address does.
+/// An argument of a call: the dependencies of its scalars, or of an address.
 enum Argument {
     Value(Vec<Set>),
     Place(Option<(Set, Range<usize>)>),
@@ -70,17 +70,17 @@ pub struct Flow<'w> {
     walkable: &'w Walkable,
     sets: Sets,
     origins: Vec<Origin>,
-    /// By function and value, the number of the first scalar's origin.
+    /// The number of the first scalar's origin, by function and value.
     numbers: HashMap<(usize, Value), u32>,
     frames: Vec<Frame>,
     memory: Vec<Set>,
     arguments: Vec<Argument>,
     returned: Vec<Set>,
     control: Control,
-    /// The undefined values that the drawn ones depend on.
+    /// The undefined values that the output depends on.
     drawn: Set,
     has_drawn: bool,
-    /// Scalars that each target stores.
+    /// The number of scalars that each target stores.
     stored: &'w [usize],
     summaries: Option<Vec<Summary>>,
 }
@@ -104,7 +104,7 @@ impl<'w> Flow<'w> {
         }
     }
 
-    /// Returns what the pixel shows of undefined values.
+    /// Returns the undefined values that the pixel shows.
     pub fn shown(mut self) -> Vec<Shown> {
         if !self.has_drawn {
             self.drawn = self.control.total();
@@ -120,7 +120,7 @@ impl<'w> Flow<'w> {
         all
     }
 
-    /// Returns whether some operand of an operation depends on something undefined.
+    /// Returns whether some operand of an operation depends on an undefined value.
     pub fn is_undefined(&self, view: &View<'_, '_, Shadowed>, op: &Op) -> bool {
         let Some(frame) = self.frames.last() else { return false };
         let mut found = false;
@@ -204,7 +204,7 @@ impl<'w> Flow<'w> {
         self.returned = self.frames.pop().map(|frame| frame.result).unwrap_or_default();
     }
 
-    /// Notes what a place that has been computed depends on.
+    /// Records the dependencies of a computed place.
     pub fn place(&mut self, view: &View<'_, '_, Shadowed>, place: Value) {
         let Some(frame) = self.frames.last_mut() else { return };
         let known = match *view.op(place) {
@@ -284,7 +284,7 @@ impl<'w> Flow<'w> {
         self.control.end_turn(&mut self.sets);
     }
 
-    /// A value decides; of the test after a turn of a loop nothing else tells.
+    /// Called for a deciding value; the test after an iteration of a loop is only reported here.
     pub fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let Some(Kind::Loop { stmt, break_if }) = self.control.top() else { return };
         let set = self.frames.last().map_or(Set::EMPTY, |frame| frame.cells[view.cells_of(value).start]);
@@ -295,7 +295,7 @@ impl<'w> Flow<'w> {
         self.spread(view, stmt, set, Effects { breaks: true, ..Effects::default() });
     }
 
-    /// A branch depends on something undefined.
+    /// Records that a branch depends on an undefined value.
     fn decided(&mut self, view: &View<'_, '_, Shadowed>, stmt: &Stmt, set: Set) {
         self.control.add(set, |_| true, &mut self.sets);
         let jumps = self.effects(view, stmt).0;
@@ -323,7 +323,7 @@ impl<'w> Flow<'w> {
         (effects, globals)
     }
 
-    /// All that a statement may write, and all that its jumps pass over, depends on a set.
+    /// Adds a set to the dependencies of everything that a statement may write, and that its jumps skip.
     fn spread(&mut self, view: &View<'_, '_, Shadowed>, stmt: *const Stmt, set: Set, mut jumps: Effects) {
         let (module, function) = (view.module(), view.function());
         let summaries = self.summaries.get_or_insert_with(|| writes::summaries(module));
@@ -349,7 +349,7 @@ impl<'w> Flow<'w> {
     }
 }
 
-/// Adds what the statement at an address itself may do.
+/// Adds the effects of the statement at an address itself.
 fn add_own(
     place: (&eddy_glsl::ir::Module, &eddy_glsl::ir::Function, &[Summary]),
     block: &[Stmt],

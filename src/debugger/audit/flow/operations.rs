@@ -1,4 +1,4 @@
-//! Dependence of each scalar of a result on those of its operands.
+//! Dependencies of each scalar of a result on those of its operands.
 
 use super::Flow;
 use super::sets::{Set, Sets};
@@ -9,7 +9,7 @@ use eddy_glsl::{
 };
 
 impl Flow<'_> {
-    /// Notes what a value that has been computed depends on.
+    /// Records the dependencies of a computed value.
     pub fn value(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let op = view.op(value);
         let out = view.cells_of(value);
@@ -102,7 +102,7 @@ impl Flow<'_> {
                 by_component(view, op, out, cells, sets);
             }
             Op::Math { fun, .. } if fun.is_by_component() => by_component(view, op, out, cells, sets),
-            // Each scalar of the result depends on all that is read.
+            // Each scalar of the result depends on all operands.
             _ => {
                 let mut read = Set::EMPTY;
                 op.operands(|operand| {
@@ -115,7 +115,7 @@ impl Flow<'_> {
     }
 }
 
-/// A scalar meets each component of the other operands.
+/// A scalar is combined with each component of the other operands.
 fn by_component(
     view: &View<'_, '_, Shadowed>,
     op: &Op,

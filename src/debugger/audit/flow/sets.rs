@@ -1,4 +1,4 @@
-//! Sets of undefined scalars, each made once, so that a cell of memory holds a number for its set.
+//! Interned sets of undefined scalars, so that a memory cell stores the number of its set.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use std::collections::HashMap;
 pub struct Set(u32);
 
 impl Set {
-    /// Nothing undefined.
+    /// The empty set.
     pub const EMPTY: Set = Set(0);
 
     pub fn is_empty(self) -> bool {
@@ -15,20 +15,20 @@ impl Set {
     }
 }
 
-/// One scalar of what a declaration leaves undefined.
+/// One scalar of a declaration that leaves it undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Scalar {
-    /// The declaration, by its number among those that were met.
+    /// The declaration, by its number in order of discovery.
     pub origin: u32,
     /// The scalar among those of its type, in memory order.
     pub cell: u32,
 }
 
-/// Scalars that a set has one by one; of one that would have more it keeps one for each declaration, so that what a set
-/// costs is bounded by the text.
-const MOST_SCALARS: usize = 256;
-/// Sets that are made for a pixel; unions beyond that keep their first part.
-const MOST_SETS: usize = 1 << 16;
+/// The limit of scalars that a set stores one by one; a larger set stores one for each declaration, so that the cost of
+/// a set is bounded by the text.
+const MAX_SCALARS: usize = 256;
+/// The limit of sets per pixel; unions beyond that keep only their first operand.
+const MAX_SETS: usize = 1 << 16;
 
 /// All sets of a walk.
 pub struct Sets {
@@ -48,7 +48,7 @@ impl Sets {
     }
 
     pub fn single(&mut self, scalar: Scalar) -> Set {
-        self.number([scalar].into())
+        self.intern([scalar].into())
     }
 
     /// Returns the union of two sets.
@@ -63,21 +63,21 @@ impl Sets {
         if let Some(&known) = self.unions.get(&key) {
             return known;
         }
-        if self.sets.len() >= MOST_SETS || self.unions.len() >= MOST_SETS {
+        if self.sets.len() >= MAX_SETS || self.unions.len() >= MAX_SETS {
             return a;
         }
         let mut all = [self.of(a), self.of(b)].concat();
         all.sort_unstable();
         all.dedup();
-        if all.len() > MOST_SCALARS {
+        if all.len() > MAX_SCALARS {
             all.dedup_by_key(|scalar| scalar.origin);
         }
-        let made = self.number(all.into());
+        let made = self.intern(all.into());
         self.unions.insert(key, made);
         made
     }
 
-    fn number(&mut self, set: Box<[Scalar]>) -> Set {
+    fn intern(&mut self, set: Box<[Scalar]>) -> Set {
         let next = Set(self.sets.len() as u32);
         let number = *self.numbers.entry(set.clone()).or_insert(next);
         if number == next {
@@ -109,7 +109,7 @@ mod tests {
         for cell in 0..2000 {
             let one = sets.single(Scalar { origin: 0, cell });
             all = sets.union(all, one);
-            assert!(sets.of(all).len() <= MOST_SCALARS);
+            assert!(sets.of(all).len() <= MAX_SCALARS);
             assert!([0, 1].iter().all(|origin| sets.of(all).iter().any(|scalar| scalar.origin == *origin)));
         }
     }

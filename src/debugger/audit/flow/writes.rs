@@ -1,4 +1,5 @@
-//! Variables that a branch may write, and jumps that it may take, by the text alone: an undefined condition decides them.
+//! Variables that a branch may write, and jumps that it may take, determined statically: an undefined condition decides
+//! them.
 
 use eddy_glsl::{
     ir::{Block, Function, Module, Op, Stmt, Value},
@@ -10,13 +11,13 @@ use std::collections::HashSet;
 /// Cells of a variable, a parameter by reference or a global that may be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Written {
-    /// The variable, by the value that is its address.
+    /// The variable, as the value that is its address.
     pub root: Value,
     pub start: usize,
     pub count: usize,
 }
 
-/// The effects that a piece of a program may have.
+/// The possible effects of a part of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Effects {
     pub writes: HashSet<Written>,
@@ -29,7 +30,7 @@ pub struct Effects {
 /// The memory outside of a function that it may write.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
-    /// By the parameter, or else by the global: the cells from which on, and how many.
+    /// By parameter, or by global: the first cell, and the number of cells.
     params: HashSet<(u32, usize, usize)>,
     pub globals: HashSet<(eddy_glsl::ir::GlobalId, usize, usize)>,
     discards: bool,
@@ -60,7 +61,7 @@ pub fn summaries(module: &Module) -> Vec<Summary> {
 /// Globals that callees write.
 pub type Globals = HashSet<(eddy_glsl::ir::GlobalId, usize, usize)>;
 
-/// Adds what the statements of a block may do. Jumps that stay inside of it are left out.
+/// Adds the effects of the statements of a block. Jumps that stay inside of it are left out.
 pub fn add_block(
     module: &Module,
     function: &Function,
@@ -117,7 +118,7 @@ pub fn add_stmt(
     }
 }
 
-/// Returns the cells that a store to a place may write: of an index that the text does not know all.
+/// Returns the cells that a store to a place may write; all cells for an index that is not statically known.
 fn written(module: &Module, function: &Function, place: Value) -> Written {
     let mut links = Vec::new();
     let mut root = place;
@@ -136,8 +137,8 @@ fn written(module: &Module, function: &Function, place: Value) -> Written {
     Written { root, start, count }
 }
 
-/// Adds what is left undone where a jump out of `stmt` is taken: the statements after it up to where the jump leads, and
-/// the loops that it leaves. Returns whether `stmt` lies in the block.
+/// Adds the effects that are skipped if a jump out of `stmt` is taken: the statements after it up to the jump's target,
+/// and the loops that it leaves. Returns whether the block contains `stmt`.
 pub fn add_rest(
     (module, function, summaries): (&Module, &Function, &[Summary]),
     block: &Block,

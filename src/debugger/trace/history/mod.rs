@@ -1,7 +1,8 @@
-//! The way of one pixel through a pass, kept so that it can be gone forwards and backwards.
+//! The execution of one pixel of a pass, recorded so that it can be stepped forwards and backwards.
 //!
-//! Owns the moments at which control came to a part of the text, and every write to one of the author's variables
-//! between them: what a variable held at any moment is found by these. How one moves in it is `travel`'s.
+//! Owns the moments at which control reached a part of the text, and every write to one of the author's variables
+//! between them: the value of a variable at any moment is reconstructed from these. Stepping is implemented in
+//! `travel`.
 
 mod places;
 mod record;

@@ -1,11 +1,11 @@
-//! Says where moments are in the texts, and which moments a place of a text has.
+//! The places of moments in the texts, and the moments of a place.
 
 use super::record::{History, Moment, MomentKind};
 use eddy_diag::{SourceId, Span};
 use eddy_glsl::statements::Statement;
 
 impl History {
-    /// The text that control is at.
+    /// Returns the text at which control is.
     pub fn span(&self, at: usize) -> Option<Span> {
         let moment = self.moments.get(at)?;
         let statement = self.walkable.statements().get(moment.statement)?;
@@ -18,7 +18,7 @@ impl History {
         })
     }
 
-    /// One stops at it: what goes with the line that one is at already is passed.
+    /// Returns whether stepping stops at a moment: parts of a line at which it has already stopped are skipped.
     pub fn is_stop(&self, at: usize) -> bool {
         let Some(moment) = self.moments.get(at) else { return false };
         let Some(statement) = self.walkable.statements().get(moment.statement) else { return false };
@@ -34,7 +34,7 @@ impl History {
         self.moments.get(at).map_or(0, |moment| self.calls[moment.call as usize].depth)
     }
 
-    /// The statement that a line stands for: the first that begins in it or below it, in a text.
+    /// Returns the statement for a line: the first that starts in it or below it, in a text.
     pub(in crate::trace) fn statement_from(&self, source: SourceId, from: u32) -> Option<u32> {
         let statements = self.walkable.statements().list.iter().enumerate();
         let begins = statements.filter_map(|(index, statement)| {
@@ -46,7 +46,7 @@ impl History {
         begins.min().map(|(_, index)| index)
     }
 
-    /// Nothing but a bracket around others.
+    /// Returns whether a statement is a block, which only groups others.
     fn is_block(&self, index: u32) -> bool {
         let list = &self.walkable.statements().list;
         list.iter().flatten().any(|other| other.parent == Some(index))
@@ -56,13 +56,13 @@ impl History {
         self.walkable.statements().get(index).map(|statement| statement.head)
     }
 
-    /// The statement that is about to run.
+    /// Returns the statement that is about to run.
     pub(in crate::trace) fn statement_of(&self, at: usize) -> Option<u32> {
         self.moments.get(at).map(|moment| moment.statement)
     }
 
-    /// The moments at which it is the turn of a comment at a byte of a text: behind the statement that ends before it
-    /// in the same block, or, where none does, before the first one of the block.
+    /// Returns the moments at which a comment at a byte of a text is reached: after the statement that ends before it
+    /// in the same block or, if there is none, before the first one of the block.
     pub(in crate::trace) fn turns_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
         let statements = self.walkable.statements();
         let holds = |span: &Span| span.source == source && span.start <= byte && byte < span.end;
@@ -76,33 +76,33 @@ impl History {
         let around = all().filter(|(_, s)| holds(&s.whole)).min_by_key(|(_, s)| s.whole.end - s.whole.start);
         let around = around.map(|(index, _)| index);
         let siblings = || all().filter(|(_, s)| s.parent == around);
-        // What stands in the other half of a branch is no neighbour.
+        // Statements of the other half of a branch are not neighbours.
         let is_near =
             |s: &Statement| text.get(s.whole.end as usize..byte as usize).is_none_or(|between| !between.contains('}'));
         let before = siblings().filter(|(_, s)| s.whole.end <= byte && is_near(s)).max_by_key(|(_, s)| s.whole.end);
-        let behind = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
+        let after = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
         let begins = |of: u32| {
             let is_it = move |moment: &Moment| moment.statement == of && moment.kind == MomentKind::Statement;
             self.moments.iter().enumerate().filter(move |(_, moment)| is_it(moment)).map(|(at, _)| at)
         };
-        match (before, behind) {
-            (Some((index, _)), _) => begins(index).filter_map(|at| self.done(at)).collect(),
+        match (before, after) {
+            (Some((index, _)), _) => begins(index).filter_map(|at| self.end_of_statement(at)).collect(),
             (None, Some((index, _))) => begins(index).collect(),
             (None, None) => Vec::new(),
         }
     }
 
-    /// The moment at which a statement with what it holds has been done, after one at which it begins.
-    fn done(&self, at: usize) -> Option<usize> {
-        let begun = self.moments.get(at)?;
+    /// Returns the moment at which a statement, including nested ones, is done, given the moment at which it starts.
+    fn end_of_statement(&self, at: usize) -> Option<usize> {
+        let started = self.moments.get(at)?;
         let statements = self.walkable.statements();
-        let is_behind = |other: &Moment| {
-            other.call == begun.call
+        let is_after = |other: &Moment| {
+            other.call == started.call
                 && (other.kind == MomentKind::Return
-                    || !statements.lies_in(other.statement, begun.statement)
-                    || (other.statement == begun.statement && other.kind == MomentKind::Statement))
+                    || !statements.lies_in(other.statement, started.statement)
+                    || (other.statement == started.statement && other.kind == MomentKind::Statement))
         };
-        let behind = self.moments[at + 1..].iter().position(is_behind)?;
-        Some(at + 1 + behind)
+        let after = self.moments[at + 1..].iter().position(is_after)?;
+        Some(at + 1 + after)
     }
 }

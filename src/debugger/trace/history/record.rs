@@ -1,17 +1,17 @@
-//! Owns what is kept of a walk.
+//! The recorded data of a walk.
 
 use super::super::number::Number;
 use eddy_glsl::{types::TypeId, walkable::Walkable};
 
-/// Control comes to a part of the text.
+/// Control reaches a part of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Moment {
     pub kind: MomentKind,
-    /// The statement: an id of the program's.
+    /// The id of the statement in the program.
     pub(in crate::trace) statement: u32,
     /// An index into the calls.
     pub(in crate::trace) call: u32,
-    /// Writes before it.
+    /// The number of earlier writes.
     pub(super) writes: u32,
 }
 
@@ -19,13 +19,13 @@ pub struct Moment {
 pub enum MomentKind {
     /// A statement is about to run.
     Statement,
-    /// A loop is about to begin a turn, from 1: with its test, if that stands before its body.
+    /// A loop is about to start an iteration, numbered from 1: with its test, if that comes before its body.
     Iteration(u32),
-    /// A loop is about to do the test behind its body.
+    /// A loop is about to run the test after its body.
     Test,
-    /// A loop is about to do what it does between two turns.
+    /// A loop is about to run its step between two iterations.
     Step,
-    /// The function has done its last statement.
+    /// The function has run its last statement.
     Return,
 }
 
@@ -33,28 +33,28 @@ pub enum MomentKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call {
     pub name: String,
-    /// The call that it was made in, and the last moment before it.
+    /// The calling activation, and the last moment before the call.
     pub parent: Option<u32>,
     pub from: u32,
-    /// Calls that it lies in.
+    /// The number of enclosing calls.
     pub depth: u32,
-    /// The function's variables lie from here on among the slots.
+    /// The first slot of the function's variables.
     pub(super) slots: u32,
     pub(super) function: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Write {
-    /// Says where the words begin.
+    /// The index of the first word.
     pub words: u32,
-    /// Words of the variable before those that are written, and how many are.
+    /// The offset in the variable of the written words, and their number.
     pub offset: u32,
     pub count: u32,
-    /// The write to the same variable before it.
+    /// The previous write to the same variable.
     pub previous: u32,
 }
 
-/// No write.
+/// The index for no write.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// A variable of a function or of the module.
@@ -62,23 +62,23 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) struct Variable {
     pub name: String,
     pub ty: TypeId,
-    /// The local variable that it is, by its place among the program's.
+    /// The index of the local variable among the program's.
     pub local: Option<u32>,
-    /// Holds what it always holds.
+    /// Its constant value, if it is never written.
     pub constant: Option<Vec<u32>>,
 }
 
-/// A turn of a loop, by moments.
+/// An iteration of a loop, by moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Iteration {
     pub first: usize,
     /// Its last statement.
     pub last: usize,
-    /// Before what the loop does between two turns; the last statement where it comes to that no more.
+    /// The moment before the loop's step between two iterations; the last statement if the step is not reached.
     pub end: usize,
 }
 
-/// Holds what a name stands for at a moment.
+/// The value of a name at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedValue {
     pub name: String,
@@ -91,21 +91,21 @@ pub struct Value {
     pub type_text: String,
     /// Every scalar in memory order.
     pub numbers: Vec<Number>,
-    /// It is a vector of floats, which can be a colour.
+    /// True for a vector of floats, which can be a colour.
     pub is_vector: bool,
     pub(in crate::trace) words: Vec<u32>,
 }
 
-/// The way of a pixel.
+/// The execution of a pixel.
 pub struct History {
     pub(super) walkable: Walkable,
     pub moments: Vec<Moment>,
     pub calls: Vec<Call>,
-    /// More happened than was kept.
+    /// The limit was exceeded: the rest was not recorded.
     pub is_cut: bool,
     pub(super) writes: Vec<Write>,
     pub(super) words: Vec<u32>,
-    /// The newest write to each variable of each call; first those of the module.
+    /// The newest write to each variable of each call; the module's variables come first.
     pub(super) slots: Vec<u32>,
     pub(super) globals: Vec<Variable>,
     /// The variables of each function.

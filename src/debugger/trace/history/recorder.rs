@@ -1,4 +1,4 @@
-//! Writes a history down while the walk goes on.
+//! Records a history during the walk.
 
 use super::record::{Call, History, Moment, MomentKind, NONE, Variable, Write};
 use eddy_glsl::{
@@ -9,40 +9,40 @@ use eddy_glsl::{
 };
 use std::collections::HashMap;
 
-/// Moments, calls' variables and words that are kept: some 200 MB at most, as a write of a word takes 20 bytes.
-const MOST_MOMENTS: usize = 2_000_000;
-const MOST_SLOTS: usize = 8_000_000;
-const MOST_WORDS: usize = 6_000_000;
-/// The most numbers of a value passed by reference that is noted at the call.
-const MOST_PASSED: usize = 64;
+/// The limit of moments, calls' variables and words: about 200 MB, as a write of a word takes 20 bytes.
+const MAX_MOMENTS: usize = 2_000_000;
+const MAX_SLOTS: usize = 8_000_000;
+const MAX_WORDS: usize = 6_000_000;
+/// The size limit of a value passed by reference that is recorded at the call.
+const MAX_PASSED: usize = 64;
 
-/// Holds what a value of a function means to who records.
+/// The meaning of a function's value for the recorder.
 #[derive(Clone, Debug, Default)]
 struct Role {
     event: Option<StatementEvent>,
-    /// Variables of the function that the value is, or the place of.
+    /// Variables of the function that the value is, or is an address of.
     variables: Vec<u32>,
     global: Option<u32>,
 }
 
-/// A function, as it is recorded.
+/// A function, prepared for recording.
 struct Function {
     name: Option<String>,
-    /// By [`Value::index`]: 0 for a value that means nothing, else one more than its place among the roles.
+    /// By [`Value::index`]: 0 for a value without a role, otherwise the index of its role plus one.
     roles: Vec<u32>,
     list: Vec<Role>,
-    /// Parameters that are variables, with whether they are places.
+    /// Parameters that are variables, and whether each is an address.
     params: Vec<(Value, bool)>,
-    /// The number of its variables, behind which stands what it gives back.
+    /// The number of its variables, which are followed by its result.
     slots: u32,
-    /// Parameters that it writes.
+    /// True for each parameter that it writes.
     writes: Vec<bool>,
 }
 
 struct Active {
-    /// None of the code around the author's.
+    /// None for code around the author's.
     call: Option<u32>,
-    /// Loops under way, each with its turns.
+    /// Active loops, each with its iteration.
     loops: Vec<(u32, u32)>,
     last: Option<u32>,
 }
@@ -89,7 +89,7 @@ impl<'w> HistoryRecorder<'w> {
         let mut variables = Vec::new();
         for (local, value) in walkable.variables(id) {
             let known = &statements.locals[local as usize];
-            // What is never computed is always the same.
+            // A value that is never computed is constant.
             let constant = (!function.is_place(value)).then(|| constant(walkable, id, value)).flatten();
             let (name, ty) = (known.name.clone(), known.ty);
             roles.entry(value.index()).or_default().variables.push(variables.len() as u32);
@@ -97,7 +97,7 @@ impl<'w> HistoryRecorder<'w> {
         }
         variables.push(Variable { name: String::new(), ty: function.result, local: None, constant: None });
         let slots = variables.len() as u32;
-        // Constants of the language are no values of the function, and nothing is written to them.
+        // Constants of the language are not values of the function, and are never written.
         for (local, known) in statements.locals.iter().enumerate() {
             if let Some(words) = &known.constant {
                 let (name, ty) = (known.name.clone(), known.ty);
@@ -120,7 +120,7 @@ impl<'w> HistoryRecorder<'w> {
         let params = params.filter(|(value, _)| places[value.index()] > 0);
         let params = params.map(|(value, _)| (value, function.is_place(value))).collect();
         let mut writes = vec![false; function.params.len()];
-        self.note_writes(id, &function.body, &mut writes);
+        self.record_param_writes(id, &function.body, &mut writes);
         self.functions.push(Function {
             name: walkable.function_name(id).map(str::to_owned),
             roles: places,
@@ -132,8 +132,8 @@ impl<'w> HistoryRecorder<'w> {
         self.out.variables.push(variables);
     }
 
-    /// Notes which parameters a function writes, itself or by what it calls: callees come before their callers.
-    fn note_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
+    /// Records which parameters a function writes, itself or through callees: callees come before their callers.
+    fn record_param_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
         let function = &self.walkable.program[id];
         let mut note = |place: Value| {
             if let Op::Param(index) = function[function.root(place)] {
@@ -153,11 +153,11 @@ impl<'w> HistoryRecorder<'w> {
             }
         }
         for stmt in block {
-            stmt.blocks(|inner| self.note_writes(id, inner, writes));
+            stmt.blocks(|inner| self.record_param_writes(id, inner, writes));
         }
     }
 
-    /// The history, once the walk has ended.
+    /// Returns the history after the walk has ended.
     pub fn end(self) -> Recorded {
         self.out
     }
@@ -174,8 +174,8 @@ impl<'w> HistoryRecorder<'w> {
 
     fn moment(&mut self, kind: MomentKind, statement: u32) {
         let Some(call) = self.call() else { return };
-        let is_full = self.out.words.len() >= MOST_WORDS || self.out.slots.len() >= MOST_SLOTS;
-        if self.out.moments.len() >= MOST_MOMENTS || is_full {
+        let is_full = self.out.words.len() >= MAX_WORDS || self.out.slots.len() >= MAX_SLOTS;
+        if self.out.moments.len() >= MAX_MOMENTS || is_full {
             self.out.is_cut = true;
             return;
         }
@@ -221,8 +221,8 @@ impl<'w> HistoryRecorder<'w> {
         self.moment(kind, statement);
     }
 
-    /// Notes what a place of the function at hand holds, by the variable that it lies in.
-    fn note<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
+    /// Records the contents of a place of the current function, as a write to its variable.
+    fn record_place<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
         let (root, offset) = view.root(place);
         let Some(role) = self.role(view.function_id(), root) else { return };
         let (variable, global) = (role.variables.first().copied(), role.global);
@@ -237,7 +237,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 }
 
-/// The words of a value that no statement computes.
+/// Returns the words of a value that no statement computes.
 fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u32>> {
     let program = &walkable.program;
     match program[function][value] {
@@ -248,7 +248,7 @@ fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u
     }
 }
 
-/// A history without the program that it is of.
+/// A history without its program.
 #[derive(Default)]
 pub struct Recorded {
     variables: Vec<Vec<Variable>>,
@@ -300,7 +300,7 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
             let (param, is_place) = self.functions[id.index()].params[index];
             match is_place {
                 false => self.value(view, param),
-                true if view.memory(param).len() <= MOST_PASSED => self.note(view, param),
+                true if view.memory(param).len() <= MAX_PASSED => self.record_place(view, param),
                 true => {}
             }
         }
@@ -331,17 +331,17 @@ impl<R: Real> Observer<R> for HistoryRecorder<'_> {
                 }
             }
         }
-        // What a function has written to what it was passed is its caller's.
+        // The caller records what a function wrote to its arguments.
         if let Op::Call { function: callee, args } = view.op(value) {
             for (index, &arg) in args.iter().enumerate() {
                 if self.functions[callee.index()].writes.get(index) == Some(&true) && view.function().is_place(arg) {
-                    self.note(view, arg);
+                    self.record_place(view, arg);
                 }
             }
         }
     }
 
     fn store(&mut self, view: &View<'_, '_, R>, place: Value, _: Value) {
-        self.note(view, place);
+        self.record_place(view, place);
     }
 }

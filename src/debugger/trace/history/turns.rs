@@ -1,14 +1,14 @@
-//! The turns of a loop.
+//! The iterations of a loop.
 
 use super::record::{History, Iteration, Moment, MomentKind, NamedValue};
 use eddy_glsl::statements::StatementPoint;
 
 impl History {
-    /// The loop that a moment lies in, the innermost.
+    /// Returns the innermost loop that contains a moment.
     fn loop_of(&self, moment: &Moment) -> Option<u32> {
         let statements = self.walkable.statements();
         let mut at = match moment.kind {
-            // The head of a loop is of the loop.
+            // The head of a loop belongs to the loop.
             MomentKind::Iteration(_) | MomentKind::Test | MomentKind::Step => Some(moment.statement),
             MomentKind::Statement | MomentKind::Return => statements.get(moment.statement)?.parent,
         };
@@ -22,7 +22,7 @@ impl History {
         None
     }
 
-    /// The turns of the innermost loop around a moment. Empty outside of loops.
+    /// Returns the iterations of the innermost loop around a moment. Empty outside of loops.
     pub fn turns(&self, at: usize) -> Vec<Iteration> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let Some(of) = self.loop_of(moment) else { return Vec::new() };
@@ -30,11 +30,11 @@ impl History {
         let mine = |other: &Moment| other.call == moment.call;
         let begins =
             |other: &Moment| mine(other) && other.statement == of && matches!(other.kind, MomentKind::Statement);
-        let begin = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
+        let start = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
         let mut found: Vec<Iteration> = Vec::new();
-        // The turn under way: where it began, and its last statement.
-        let (mut first, mut last) = (begin + 1, None);
-        for (index, other) in self.moments.iter().enumerate().skip(begin + 1).filter(|(_, other)| mine(other)) {
+        // The current iteration: its first moment, and its last statement.
+        let (mut first, mut last) = (start + 1, None);
+        for (index, other) in self.moments.iter().enumerate().skip(start + 1).filter(|(_, other)| mine(other)) {
             let is_head = other.statement == of;
             if !statements.lies_in(other.statement, of) || (is_head && other.kind == MomentKind::Statement) {
                 break;
@@ -56,7 +56,7 @@ impl History {
         found
     }
 
-    /// Returns what the function's variables hold at the end of a turn, those of the loop's body too.
+    /// Returns the values of the function's variables at the end of an iteration, including those of the loop's body.
     pub fn turn_values(&self, turn: &Iteration) -> Vec<NamedValue> {
         let moment = &self.moments[turn.last];
         let slots = self.calls[moment.call as usize].slots as usize;

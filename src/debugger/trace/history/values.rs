@@ -1,4 +1,4 @@
-//! Owns what variables hold at a moment, and which can be named there.
+//! The values of variables at a moment, and the names that are visible there.
 
 use super::{
     super::number::Number,
@@ -11,7 +11,8 @@ use eddy_glsl::{
 };
 
 impl History {
-    /// The calls that a moment lies in, the innermost first, each with a moment in it: the one from which it went on.
+    /// Returns the active calls at a moment, the innermost first, each with a moment in it: for a caller the moment of
+    /// the call.
     pub fn stack(&self, at: usize) -> Vec<(&Call, usize)> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let mut found = Vec::new();
@@ -24,7 +25,7 @@ impl History {
         found
     }
 
-    /// Returns what can be named at a moment, the function's own first, each by its name once.
+    /// Returns the visible variables at a moment, the function's own first, without hidden ones.
     pub fn visible(&self, at: usize) -> Vec<NamedValue> {
         let names = self.names(at);
         names
@@ -33,7 +34,7 @@ impl History {
             .collect()
     }
 
-    /// The variables that can be named, with their types; of those of one name the one that is meant.
+    /// Returns the visible variables with their types, without hidden ones.
     pub(in crate::trace) fn names(&self, at: usize) -> Vec<(String, String)> {
         let mut names: Vec<(String, String)> = Vec::new();
         let mut add = |name: &str, ty: TypeId| {
@@ -52,7 +53,7 @@ impl History {
         names
     }
 
-    /// The author's variables of the module that code may write, with their types: no `in` variables of a stage.
+    /// Returns the author's writable variables of the module, with their types: no `in` variables of a stage.
     pub(in crate::trace) fn global_names(&self) -> impl Iterator<Item = (&str, &str)> {
         let inputs: Vec<_> = self.walkable.inputs().collect();
         let inputs = self.walkable.globals().filter(|(_, id)| inputs.contains(id)).map(|(name, _)| name);
@@ -61,7 +62,7 @@ impl History {
         names.filter(move |(name, _)| !inputs.contains(name))
     }
 
-    /// The function's variables that can be named, the outermost first, with their places among its slots.
+    /// Returns the visible variables of the function, the outermost first, with their indices among its slots.
     fn locals(&self, at: usize) -> Vec<(&Variable, Option<usize>)> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let when = match moment.kind {
@@ -82,7 +83,7 @@ impl History {
         statements.visible(moment.statement, when).into_iter().filter_map(find).collect()
     }
 
-    /// Returns what a name stands for; `None` for one that nothing of the program's stands for.
+    /// Returns the value of a name; `None` if the program has nothing of this name.
     pub fn value(&self, at: usize, name: &str) -> Option<Value> {
         let local = self.locals(at).into_iter().rev().find(|(variable, _)| variable.name == name);
         let (variable, slot) = match local {
@@ -92,7 +93,7 @@ impl History {
         Some(self.of(variable.ty, self.held(at, variable, slot)))
     }
 
-    /// A variable of the module, whatever else has its name.
+    /// Returns the value of a variable of the module, even if a local hides it.
     pub(in crate::trace) fn global_words(&self, at: usize, name: &str) -> Option<Vec<u32>> {
         let (variable, slot) = self.global(name)?;
         Some(self.held(at, variable, slot))
@@ -103,19 +104,19 @@ impl History {
         Some((&self.globals[slot], slot))
     }
 
-    /// Returns what the function gives back, at its end.
+    /// Returns the function's result, at its end.
     pub fn result(&self, at: usize) -> Option<Value> {
         let moment = self.moments.get(at).filter(|moment| moment.kind == MomentKind::Return)?;
         let call = &self.calls[moment.call as usize];
         let variables = &self.variables[call.function as usize];
-        // It alone is none of the author's.
+        // The result is the only variable that is not the author's.
         let slot = variables.iter().position(|variable| variable.local.is_none())?;
         let variable = &variables[slot];
         (variable.ty != TypeId::VOID).then(|| self.of(variable.ty, self.held(at, variable, call.slots as usize + slot)))
     }
 
-    /// The words of a variable at a moment: its writes before that, the newest first, until there is nothing left to
-    /// know. What was never written is zero, as the language has it here.
+    /// Returns the words of a variable at a moment: its writes before that, the newest first, until all words are
+    /// known. Words that were never written are zero, as defined here.
     pub(super) fn held(&self, at: usize, variable: &Variable, slot: usize) -> Vec<u32> {
         if let Some(constant) = &variable.constant {
             return constant.clone();

@@ -1,4 +1,4 @@
-//! The stores that write the scalar variables of a function, and the loops that count them up or down.
+//! The stores to the scalar variables of a function, and the loops that count them up or down.
 
 use rustc_hash::FxHashMap;
 
@@ -10,16 +10,16 @@ use crate::{
 /// The stores to a variable.
 #[derive(Clone, Copy, Debug)]
 pub enum Definition {
-    /// In ways that are not told apart.
+    /// Not analysed.
     Unknown,
-    /// By one store, before everything that reads it.
+    /// One store, before every read.
     Once,
-    /// By such a store, and by one that adds a constant to it, at most once in each round of the loop of this number
-    /// and behind the loop's test.
+    /// Such a store, and one that adds a constant to the variable, at most once per iteration of the loop of this
+    /// number and after the loop's test.
     Counted { number: usize, ty: TypeId, by: Step },
 }
 
-/// The amount that a round adds.
+/// The amount added per iteration.
 #[derive(Clone, Copy, Debug)]
 pub enum Step {
     Int(i64),
@@ -29,14 +29,14 @@ pub enum Step {
 pub struct Counters {
     /// By [`VarId::index`](crate::ir::VarId::index).
     pub vars: Vec<Definition>,
-    /// The test of each counter's loop: the comparison that holds for another round, and the value that the counter is
-    /// compared with.
+    /// The test of each counter's loop: the comparison that is true for another iteration, and the value that the
+    /// counter is compared with.
     tests: FxHashMap<usize, (Binary, Value)>,
 }
 
 impl Counters {
     pub fn of(f: &Function) -> Counters {
-        let vars = f.vars.iter().map(|var| Var { is_bad: var.init.is_some(), ..Var::default() }).collect();
+        let vars = f.vars.iter().map(|var| Var { is_unanalysed: var.init.is_some(), ..Var::default() }).collect();
         let mut walk = Walk {
             f,
             vars,
@@ -59,14 +59,14 @@ impl Counters {
     }
 }
 
-/// The uses that are seen of a variable.
+/// The uses of a variable found so far.
 #[derive(Default)]
 struct Var {
-    /// It is read where it may not be written yet, or given to a call, or written more than twice.
-    is_bad: bool,
+    /// It is read where it may not have been written yet, or passed to a call, or written more than twice.
+    is_unanalysed: bool,
     /// The block of the first store.
     first: Option<usize>,
-    /// Values, and the loops around the store.
+    /// The stored values, and the loops around each store.
     stores: Vec<(Value, Vec<usize>)>,
 }
 
@@ -76,13 +76,13 @@ struct Walk<'a> {
     vars: Vec<Var>,
     /// The variable that each load reads, and the innermost loop around it.
     loads: FxHashMap<Value, (usize, usize)>,
-    /// Numbers of the block at hand and of those around it.
+    /// Numbers of the current block and of the enclosing ones.
     open: Vec<usize>,
     blocks: usize,
-    /// Numbers of the loops around.
+    /// Numbers of the enclosing loops.
     loops: Vec<usize>,
     count: usize,
-    /// Comparisons that hold for another round of each loop, by its number.
+    /// Comparisons that are true for another iteration of each loop, by its number.
     tests: Vec<Vec<(Binary, Value, Value)>>,
 }
 
@@ -120,7 +120,7 @@ impl Walk<'_> {
             Op::Load { place } => {
                 let Some(var) = self.var(place) else { return };
                 let is_written = self.vars[var].first.is_some_and(|block| self.open.contains(&block));
-                self.vars[var].is_bad |= !is_written;
+                self.vars[var].is_unanalysed |= !is_written;
                 if let Some(&innermost) = self.loops.last() {
                     self.loads.insert(value, (var, innermost));
                 }
@@ -128,7 +128,7 @@ impl Walk<'_> {
             Op::Call { ref args, .. } => {
                 for &arg in args.iter().filter(|&&arg| self.f.is_place(arg)) {
                     if let Some(var) = self.var(arg) {
-                        self.vars[var].is_bad = true;
+                        self.vars[var].is_unanalysed = true;
                     }
                 }
             }
@@ -141,9 +141,9 @@ impl Walk<'_> {
         let block = *self.open.last().expect("a statement stands in a block");
         let var = &mut self.vars[var];
         let is_first = var.first.is_none();
-        let is_behind = var.first.is_some_and(|block| self.open.contains(&block));
-        var.is_bad |= var.stores.len() == 2 || !(is_first || is_behind) || !matches!(self.f[place], Op::Var(_));
-        if !var.is_bad {
+        let is_after = var.first.is_some_and(|block| self.open.contains(&block));
+        var.is_unanalysed |= var.stores.len() == 2 || !(is_first || is_after) || !matches!(self.f[place], Op::Var(_));
+        if !var.is_unanalysed {
             var.first = var.first.or(Some(block));
             var.stores.push((value, self.loops.clone()));
         }
@@ -152,7 +152,7 @@ impl Walk<'_> {
     fn definition(&self, var: usize, tests: &mut FxHashMap<usize, (Binary, Value)>) -> Definition {
         let seen = &self.vars[var];
         match &seen.stores[..] {
-            _ if seen.is_bad => Definition::Unknown,
+            _ if seen.is_unanalysed => Definition::Unknown,
             [_] => Definition::Once,
             [(start, around), (next, loops)] => {
                 let counted = || {
@@ -172,7 +172,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns whether a value was loaded from a variable in this round of a loop.
+    /// Returns whether a value was loaded from a variable in the current iteration of a loop.
     fn is_loaded(&self, value: Value, var: usize, number: usize) -> bool {
         self.loads.get(&value) == Some(&(var, number))
     }
@@ -210,7 +210,7 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the comparisons that hold where a loop's body goes on behind the test that it begins with.
+/// Returns the comparisons that are true where a loop's body continues after the test at its start.
 fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
     let first = body.iter().find(|stmt| match stmt {
         Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),
@@ -230,7 +230,7 @@ fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
     found
 }
 
-/// Returns the comparison that says the same with its sides exchanged.
+/// Returns the equivalent comparison with its sides exchanged.
 pub(super) fn mirrored(op: Binary) -> Option<Binary> {
     Some(match op {
         Binary::Less => Binary::Greater,
@@ -242,12 +242,12 @@ pub(super) fn mirrored(op: Binary) -> Option<Binary> {
     })
 }
 
-/// The comparisons that hold where a condition is `truth`.
+/// Collects the comparisons that are true where a condition is `truth`.
 pub(super) fn holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
     match f[condition] {
         Op::Unary { op: Unary::LogicalNot, operand } => holding(f, operand, !truth, out),
         Op::Binary { op, left, right } if truth => out.push((op, left, right)),
-        // Of floats both may be false.
+        // For floats both may be false (NaN).
         Op::Binary { op, left, right } if matches!(f.ty(left), TypeId::INT | TypeId::UINT) => {
             let opposite = match op {
                 Binary::Less => Binary::GreaterEqual,

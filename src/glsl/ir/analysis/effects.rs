@@ -1,8 +1,8 @@
-//! Effects of statements: the places that they write, and whether control goes on behind them.
+//! Effects of statements: the places that they write, and whether control flow continues after them.
 
 use crate::ir::{Block, Function, Op, Stmt, Value};
 
-/// Visits the places that statements write, with those of the blocks within: that are stored to, or given to a call.
+/// Visits the places that statements and their nested blocks write: those that are stored to, or passed to a call.
 pub fn stores(f: &Function, stmts: &[Stmt], visit: &mut impl FnMut(Value)) {
     for stmt in stmts {
         match stmt {
@@ -17,7 +17,7 @@ pub fn stores(f: &Function, stmts: &[Stmt], visit: &mut impl FnMut(Value)) {
     }
 }
 
-/// Returns whether no way leads behind a block.
+/// Returns whether control flow never continues after a block.
 pub fn leaves(block: &Block) -> bool {
     matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))
 }

@@ -1,4 +1,4 @@
-//! Loops that end after rounds that a counter counts.
+//! Loops that end because of a counter.
 
 use rustc_hash::FxHashSet;
 
@@ -11,8 +11,8 @@ use crate::{
     types::{Scalar, TypeId},
 };
 
-/// Returns whether a loop ends whatever its values are: an int is compared with a limit that stays in each round, and
-/// each round adds a constant to it, towards the limit. It may have as many rounds as there are ints.
+/// Returns whether a loop ends for all values: an int is compared with a loop-invariant limit, and each iteration adds
+/// a constant to it, towards the limit. It may have as many iterations as there are ints.
 pub fn ends(globals: &[Global], f: &Function, body: &Block, continuing: &Block, break_if: Option<Value>) -> bool {
     let mut tests = Vec::new();
     for stmt in body.iter().take_while(|stmt| !continues(stmt)) {
@@ -28,15 +28,15 @@ pub fn ends(globals: &[Global], f: &Function, body: &Block, continuing: &Block, 
     if tests.is_empty() {
         return false;
     }
-    let mut rounds = Rounds { globals, f, body, continuing, computed: FxHashSet::default(), calls: false };
-    rounds.gather(body);
-    rounds.gather(continuing);
+    let mut iterations = Iterations { globals, f, body, continuing, computed: FxHashSet::default(), calls: false };
+    iterations.gather(body);
+    iterations.gather(continuing);
     tests.iter().any(|&(op, left, right)| {
-        rounds.count_to(left, op, right) || mirrored(op).is_some_and(|op| rounds.count_to(right, op, left))
+        iterations.approaches(left, op, right) || mirrored(op).is_some_and(|op| iterations.approaches(right, op, left))
     })
 }
 
-/// As [`holding`], of each side of an `&&` where both hold.
+/// As [`holding`], of each side of an `&&` where both are true.
 fn all_holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
     match f[condition] {
         Op::Unary { op: Unary::LogicalNot, operand } => all_holding(f, operand, !truth, out),
@@ -49,12 +49,12 @@ fn all_holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binar
     }
 }
 
-/// Returns whether every way through a block leaves the loop around.
+/// Returns whether every path through a block leaves the enclosing loop.
 fn leaves_loop(block: &Block) -> bool {
     leaves(block) && !matches!(block.last(), Some(Stmt::Continue))
 }
 
-/// Returns whether a round of the loop around may end in a statement.
+/// Returns whether a statement may end an iteration of the enclosing loop.
 fn continues(stmt: &Stmt) -> bool {
     let any = |block: &Block| block.iter().any(continues);
     match stmt {
@@ -65,19 +65,19 @@ fn continues(stmt: &Stmt) -> bool {
     }
 }
 
-/// The rounds of a loop.
-struct Rounds<'a> {
+/// The iterations of a loop.
+struct Iterations<'a> {
     globals: &'a [Global],
     f: &'a Function,
     body: &'a Block,
     continuing: &'a Block,
-    /// Values that a round computes.
+    /// Values computed inside the loop.
     computed: FxHashSet<Value>,
-    /// A round calls a function, which may write what all share.
+    /// An iteration calls a function, which may write shared memory.
     calls: bool,
 }
 
-impl Rounds<'_> {
+impl Iterations<'_> {
     fn gather(&mut self, block: &Block) {
         for stmt in block {
             if let Stmt::Let(value) = stmt {
@@ -88,14 +88,14 @@ impl Rounds<'_> {
         }
     }
 
-    /// Returns whether `counter`, while it compares so with `limit`, comes nearer to it in each round.
-    fn count_to(&self, counter: Value, op: Binary, limit: Value) -> bool {
+    /// Returns whether `counter`, while this comparison with `limit` is true, comes nearer to it in each iteration.
+    fn approaches(&self, counter: Value, op: Binary, limit: Value) -> bool {
         if !matches!(self.f.ty(counter), TypeId::INT | TypeId::UINT) {
             return false;
         }
-        let Some(var) = self.loads(counter).or_else(|| self.stored_to(counter)) else { return false };
+        let Some(var) = self.loaded_from(counter).or_else(|| self.stored_to(counter)) else { return false };
         let Some(by) = self.step(var) else { return false };
-        // Numbers wrap: where none is beyond the limit, or it can be stepped over, no round is the last.
+        // Numbers wrap: if no number is beyond the limit, or the counter can step over it, the loop may never end.
         let (least, most) = match self.f.ty(counter) {
             TypeId::INT => (i64::from(i32::MIN), i64::from(i32::MAX)),
             _ => (0, i64::from(u32::MAX)),
@@ -114,15 +114,15 @@ impl Rounds<'_> {
             Binary::Greater => by == -1 || (by < 0 && has_room(by + 1)),
             Binary::LessEqual => by > 0 && has_room(by),
             Binary::GreaterEqual => by < 0 && has_room(by),
-            // All numbers come by.
+            // The counter takes every value.
             Binary::NotEqual => by.abs() == 1,
             _ => false,
         };
-        counts && self.stays(limit)
+        counts && self.is_invariant(limit)
     }
 
-    /// Returns the variable that a value of a round was loaded from.
-    fn loads(&self, value: Value) -> Option<VarId> {
+    /// Returns the variable that a value of an iteration was loaded from.
+    fn loaded_from(&self, value: Value) -> Option<VarId> {
         let Op::Load { place } = self.f[value] else { return None };
         match self.f[place] {
             Op::Var(var) if self.computed.contains(&value) => Some(var),
@@ -130,7 +130,7 @@ impl Rounds<'_> {
         }
     }
 
-    /// Returns the variable that a value is stored to, as `++i` gives it.
+    /// Returns the variable that a value is stored to, as in `++i`.
     fn stored_to(&self, value: Value) -> Option<VarId> {
         self.body.iter().find_map(|stmt| match *stmt {
             Stmt::Store { place, value: stored } if stored == value => match self.f[place] {
@@ -141,7 +141,7 @@ impl Rounds<'_> {
         })
     }
 
-    /// Returns what each round adds to a variable, if that is all that a round writes to it.
+    /// Returns the amount that each iteration adds to a variable, if it writes nothing else to it.
     fn step(&self, var: VarId) -> Option<i64> {
         if self.writes(Op::Var(var)) != 1 {
             return None;
@@ -150,7 +150,7 @@ impl Rounds<'_> {
             Stmt::Store { place, value } if self.f[place] == Op::Var(var) => Some(value),
             _ => None,
         };
-        // No round passes it over.
+        // No iteration skips it.
         let whole = self.body.iter().take_while(|stmt| !continues(stmt)).chain(self.continuing);
         let Op::Binary { op, left, right } = self.f[whole.into_iter().find_map(stored)?] else { return None };
         let number = |value: Value| match self.f[value] {
@@ -159,14 +159,14 @@ impl Rounds<'_> {
             _ => None,
         };
         match op {
-            Binary::Add if self.loads(left) == Some(var) => number(right),
-            Binary::Add if self.loads(right) == Some(var) => number(left),
-            Binary::Subtract if self.loads(left) == Some(var) => Some(-number(right)?),
+            Binary::Add if self.loaded_from(left) == Some(var) => number(right),
+            Binary::Add if self.loaded_from(right) == Some(var) => number(left),
+            Binary::Subtract if self.loaded_from(left) == Some(var) => Some(-number(right)?),
             _ => None,
         }
     }
 
-    /// Counts the statements of a round that write to a variable, or to a part of it.
+    /// Counts the statements of an iteration that write to a variable, or to a part of it.
     fn writes(&self, root: Op) -> usize {
         let mut count = 0;
         let mut visit = |place| count += usize::from(self.f[self.f.root(place)] == root);
@@ -175,8 +175,8 @@ impl Rounds<'_> {
         count
     }
 
-    /// Returns whether a value is the same in each round.
-    fn stays(&self, value: Value) -> bool {
+    /// Returns whether a value is loop-invariant.
+    fn is_invariant(&self, value: Value) -> bool {
         if !self.computed.contains(&value) {
             return true;
         }
@@ -190,15 +190,15 @@ impl Rounds<'_> {
                     Op::Param(_) => true,
                     _ => false,
                 };
-                self.writes(root) == 0 && !(is_shared && self.calls) && self.all_stay(&self.f[*place])
+                self.writes(root) == 0 && !(is_shared && self.calls) && self.are_operands_invariant(&self.f[*place])
             }
-            op => self.all_stay(op),
+            op => self.are_operands_invariant(op),
         }
     }
 
-    fn all_stay(&self, op: &Op) -> bool {
+    fn are_operands_invariant(&self, op: &Op) -> bool {
         let mut all = true;
-        op.operands(|operand| all &= self.stays(operand));
+        op.operands(|operand| all &= self.is_invariant(operand));
         all
     }
 }

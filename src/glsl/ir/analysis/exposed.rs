@@ -1,12 +1,12 @@
-//! Finds the variables of the module whose first value may be read.
+//! Finds the variables of the module whose initial value may be read.
 //!
-//! Most are set at the beginning of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
-//! sees that the zero that such a variable begins with gets nowhere.
+//! Most are set at the start of the program, as `f = 5.0 / iResolution.y;`. A driver that has inlined the functions
+//! sees that the initial zero of such a variable is never read.
 
 use super::leaves;
 use crate::ir::{Block, Function, GlobalKind, Module, Op, Stmt, Value};
 
-/// Returns for each variable of the module whether something may read it before it is written as a whole.
+/// Returns for each variable of the module whether it may be read before it is written as a whole.
 pub fn exposed(program: &Module) -> Vec<bool> {
     let mut functions: Vec<Summary> = Vec::with_capacity(program.functions.len());
     for f in &program.functions {
@@ -30,7 +30,7 @@ fn none(program: &Module) -> Set {
     vec![false; program.globals.len()]
 }
 
-fn keep_common(set: &mut Set, other: &Set) {
+fn intersect(set: &mut Set, other: &Set) {
     set.iter_mut().zip(other).for_each(|(one, other)| *one &= other);
 }
 
@@ -43,17 +43,17 @@ struct Summary {
 struct Walk<'a> {
     program: &'a Module,
     f: &'a Function,
-    /// The callees.
+    /// Summaries of the callees.
     functions: &'a [Summary],
     exposed: Set,
-    /// All that is written wherever the function returns.
+    /// The variables that are written on every path that returns.
     returned: Option<Set>,
 }
 
 impl Walk<'_> {
     fn leave(&mut self, written: &Set) {
         match &mut self.returned {
-            Some(returned) => keep_common(returned, written),
+            Some(returned) => intersect(returned, written),
             None => self.returned = Some(written.clone()),
         }
     }
@@ -98,10 +98,10 @@ impl Walk<'_> {
                     match (leaves(accept), leaves(reject)) {
                         (true, _) => *written = other,
                         (false, true) => {}
-                        (false, false) => keep_common(written, &other),
+                        (false, false) => intersect(written, &other),
                     }
                 }
-                // A block of these may not be run, or be left anywhere.
+                // These blocks may not run, or may be left at any point.
                 Stmt::Loop { .. } | Stmt::Switch { .. } => {
                     stmt.blocks(|block| self.block(block, &mut written.clone()));
                 }

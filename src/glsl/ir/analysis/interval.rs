@@ -1,16 +1,16 @@
-//! Intervals of numbers, of which something is known before a program runs.
+//! Intervals of numbers: what is known statically about values.
 
 use crate::{
     ir::{Binary, Math, Unary},
     types::{Scalar, TypeId},
 };
 
-/// The interval in which the numbers lie that a value has, or its components.
+/// The interval that contains a value, or all its components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     pub least: f64,
     pub most: f64,
-    /// The number may be a zero. No interval without 0 has one, but not each interval with 0 has one.
+    /// The value may be zero. Never true if the interval excludes 0, but not always true if it includes 0.
     pub zero: bool,
 }
 
@@ -24,7 +24,7 @@ impl Interval {
         Interval::between(number, number)
     }
 
-    /// All numbers of an interval; any number where a bound is NaN.
+    /// Returns all numbers of an interval; any number if a bound is NaN.
     pub fn between(least: f64, most: f64) -> Interval {
         if least.is_nan() || most.is_nan() {
             return Interval::ANY;
@@ -32,7 +32,7 @@ impl Interval {
         Interval { least, most, zero: least <= 0.0 && most >= 0.0 }
     }
 
-    /// A scalar by its bits.
+    /// Returns the interval of a scalar, given its bits.
     pub fn literal(scalar: Scalar, bits: u32) -> Interval {
         Interval::exact(match scalar {
             Scalar::Float => f32::from_bits(bits).into(),
@@ -41,7 +41,7 @@ impl Interval {
         })
     }
 
-    /// The least and the greatest number of an int or a uint; none of other types.
+    /// Returns all numbers of an int or a uint; `None` for other types.
     pub fn of_type(ty: TypeId) -> Option<Interval> {
         match ty {
             TypeId::INT => Some(Interval::between(i32::MIN.into(), i32::MAX.into())),
@@ -50,7 +50,7 @@ impl Interval {
         }
     }
 
-    /// Any number, which is a zero only where `zero` says so.
+    /// Returns any number, which may be zero only if `zero` is true.
     pub fn any_but(zero: bool) -> Interval {
         Interval { zero, ..Interval::ANY }
     }
@@ -59,14 +59,14 @@ impl Interval {
         Interval { least: self.least.min(other.least), most: self.most.max(other.most), zero: self.zero || other.zero }
     }
 
-    /// `self`, which `before` has grown to, with the bounds that have grown taken to infinity.
+    /// Returns `self`, the successor of `before`, with the bounds that have grown widened to infinity.
     pub fn widened(self, before: Interval) -> Interval {
         let least = if self.least < before.least { f64::NEG_INFINITY } else { self.least };
         let most = if self.most > before.most { f64::INFINITY } else { self.most };
         Interval { least, most, zero: self.zero }
     }
 
-    /// Returns the intersection with an interval that it meets.
+    /// Returns the intersection with an overlapping interval.
     pub fn within(self, other: Interval) -> Interval {
         Interval { least: self.least.max(other.least), most: self.most.min(other.most), zero: self.zero && other.zero }
     }
@@ -75,7 +75,7 @@ impl Interval {
         self.least == self.most
     }
 
-    /// The least interval around what `f` makes of the bounds of both, for an `f` that is monotonic in either.
+    /// Returns the smallest interval around `f` of the bounds of both, for an `f` that is monotonic in each argument.
     fn corners(self, other: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
         let (l, r) = (self, other);
         let all = [f(l.least, r.least), f(l.least, r.most), f(l.most, r.least), f(l.most, r.most)];
@@ -91,7 +91,7 @@ impl Interval {
     /// Returns what the device computes in this type: floats are rounded, and integers wrap.
     fn as_type(self, scalar: Scalar) -> Interval {
         let (least, most) = match scalar {
-            // The same as a single rounding: a double has more than twice the bits of a float.
+            // Equal to a single rounding: a double has more than twice the bits of a float.
             Scalar::Float => {
                 let (least, most) = (f64::from(self.least as f32), f64::from(self.most as f32));
                 return Interval { least, most, zero: self.zero || (self.is_exact() && least == 0.0) };
@@ -100,7 +100,7 @@ impl Interval {
             Scalar::Uint => (0.0, u32::MAX.into()),
             Scalar::Bool => (0.0, 1.0),
         };
-        // No loop is unrolled until its counter wraps: a bound that was taken to infinity stays there.
+        // No loop is unrolled until its counter wraps: a bound that was widened to infinity stays there.
         let wraps = |bound: f64| bound.is_finite() && !(least..=most).contains(&bound);
         if wraps(self.least) || wraps(self.most) { Interval::between(least, most) } else { self }
     }
@@ -128,11 +128,11 @@ impl Interval {
                 _ => l.corners(r, |l, r| (l / r).trunc()),
             },
             Binary::And if l.least >= 0.0 || r.least >= 0.0 => {
-                // Of a negative number any bit may be set.
+                // Any bit of a negative number may be set.
                 let most = |side: Interval| if side.least >= 0.0 { side.most } else { f64::INFINITY };
                 Interval::between(0.0, most(l).min(most(r)))
             }
-            // It has the divisor's sign.
+            // The result has the divisor's sign.
             Binary::Modulo if r.least > 0.0 => Interval::between(0.0, r.most - 1.0),
             Binary::ShiftRight if r.is_exact() && (0.0..32.0).contains(&r.least) => {
                 let shifted = |number: f64| (number / r.least.exp2()).floor();
@@ -161,11 +161,12 @@ impl Interval {
         (all || none).then_some(all)
     }
 
-    /// A function of one number, or of two. Of an interval, those whose results hardly anybody divides by have any result.
+    /// A function of one number, or of two. Functions whose results are seldom divided by return any number for an
+    /// interval.
     pub fn function(self, fun: Math, other: Option<Interval>, scalar: Scalar) -> Interval {
         let x = self;
         if let (true, Some(y)) = (x.is_exact(), other.map_or(Some(0.0), |y| y.is_exact().then_some(y.least)))
-            && let Some(result) = of_numbers(fun, x.least, y)
+            && let Some(result) = std_function(fun, x.least, y)
         {
             return Interval::exact(result).as_type(scalar);
         }
@@ -188,7 +189,7 @@ impl Interval {
             (Math::Sqrt, None) if x.least >= 0.0 => {
                 Interval { least: x.least.sqrt(), most: x.most.sqrt(), zero: x.zero }
             }
-            // Less would underflow.
+            // Smaller values would underflow.
             (Math::Exp | Math::Exp2, None) if x.least > -80.0 => {
                 Interval { least: 0.0, most: f64::INFINITY, zero: false }
             }
@@ -207,8 +208,8 @@ impl Interval {
     }
 }
 
-/// A function of numbers, where it is that of the standard library: a zero of the one is a zero of the other.
-fn of_numbers(fun: Math, x: f64, y: f64) -> Option<f64> {
+/// A function of numbers, where the standard library's has the same zeros.
+fn std_function(fun: Math, x: f64, y: f64) -> Option<f64> {
     Some(match fun {
         Math::Abs => x.abs(),
         Math::Floor => x.floor(),
@@ -304,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_may_be_any() {
+    fn nan_bounds_allow_any_number() {
         assert_eq!(float(f32::NAN), Interval::ANY);
         let infinite = binary(float(f32::MAX), Binary::Multiply, float(f32::MAX));
         assert_eq!(binary(infinite, Binary::Subtract, infinite), Interval::ANY);

@@ -1,8 +1,9 @@
-//! Facts about a program that hold without running it, for passes and work-arounds.
+//! Static facts about a program, for passes and work-arounds.
 //!
 //! Owns one domain of numbers ([`Interval`]), what statements write ([`stores`]), the loops that count a variable
-//! ([`Counters`]), and those that end by that ([`ends()`]). Which facts follow from them where, says who asks:
-//! `opt::ranges` may use a bound only where it holds on every way, and `emit::work_arounds::zero_divisors` asks what a driver may know on any.
+//! ([`Counters`]), and those that end because of a counter ([`ends()`]). The callers decide where these facts apply:
+//! `opt::ranges` may use a bound only where it is valid on every path, and `emit::work_arounds::zero_divisors` needs
+//! what a driver may know on any path.
 
 mod counters;
 mod effects;

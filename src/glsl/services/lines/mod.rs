@@ -1,17 +1,18 @@
-//! The lexer for an editor: it reads a line, or a piece of one, at a time, so that an editor colours only what it shows.
+//! The incremental lexer for an editor: it reads a line, or a part of one, at a time, so that an editor highlights only
+//! the visible text.
 //!
-//! A piece of a line can be lexed alone given the [`LexState`] that it begins in. Words and numbers are those of the
-//! compiler's lexer; blanks, comments and directives are told from code without reading what stands before. Nothing is
-//! refused: a name that is no word of the language is [`Class::Unknown`].
+//! A part of a line can be lexed separately given the [`LexState`] at its start. Words and numbers are those of the
+//! compiler's lexer; white space, comments and directives are distinguished from code without reading the text before.
+//! There are no errors: a name that is not a word of the language is [`Class::Unknown`].
 
 use super::{Class, docs};
 use crate::lex::{self, words::Meaning};
 use std::ops::Range;
 
-/// The construct that a place of a line lies in.
+/// The construct that contains a position of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LineContext {
-    /// Nothing but blanks stands before it in its line: a `#` here begins a directive.
+    /// Only white space precedes it on its line: a `#` here starts a directive.
     #[default]
     Indent,
     Code,
@@ -19,16 +20,16 @@ pub enum LineContext {
     BlockComment,
 }
 
-/// The facts about the text before a place that lexing needs.
+/// The facts about the text before a position that lexing needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LexState {
     pub inside: LineContext,
-    /// The line belongs to a directive, its own or one that an earlier line began and continued by a backslash.
+    /// The line belongs to a directive, its own or one that an earlier line continued by a backslash.
     pub in_directive: bool,
 }
 
 impl LexState {
-    /// The state that the next line begins in, `self` being the state at the end of `line`.
+    /// Returns the state at the start of the next line, `self` being the state at the end of `line`.
     pub fn next_line(self, line: &str) -> LexState {
         let continues = line.ends_with('\\');
         match self.inside {
@@ -42,18 +43,18 @@ impl LexState {
     }
 }
 
-/// A run of bytes of one class.
+/// A range of bytes of one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     pub len: usize,
     pub class: Class,
 }
 
-/// Says how far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
+/// The distance after a name within which a `(` is searched: a lexer of parts must not read the rest of the line.
 const LOOK_AHEAD: usize = 256;
 
-/// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the
-/// range begins and ends between two tokens or inside of a comment.
+/// Returns tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte,
+/// and the range starts and ends between two tokens or inside of a comment.
 pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&str) -> bool) -> Vec<Token> {
     let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
     let mut state = state;
@@ -85,13 +86,13 @@ pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&
         } else if c.is_alphabetic() || c == '_' {
             let len = identifier_len(rest);
             let name = &rest[..len];
-            let mut behind = line[lexer.at + len..].chars().take(LOOK_AHEAD);
+            let mut following = line[lexer.at + len..].chars().take(LOOK_AHEAD);
             let class = if std::mem::take(&mut names_macro) || is_macro(name) {
                 Class::Macro
             } else {
                 match class_of_word(name) {
                     Some(class) => class,
-                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => Class::Function,
+                    None if following.find(|c| !c.is_whitespace()) == Some('(') => Class::Function,
                     None => Class::Unknown,
                 }
             };
@@ -105,7 +106,7 @@ pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&
     lexer.tokens
 }
 
-/// Goes through a line byte by byte and keeps the [`LexState`]: much quicker than tokens, for what nobody sees.
+/// Scans a line byte by byte and tracks the [`LexState`]: much faster than tokens, for lines that are not visible.
 #[derive(Clone, Debug)]
 pub struct Scanner<'a> {
     line: &'a [u8],
@@ -114,7 +115,7 @@ pub struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    /// `state` is that of the byte `at`.
+    /// Returns a scanner at byte `at`, where the state is `state`.
     pub fn new(line: &'a str, at: usize, state: LexState) -> Self {
         Self { line: line.as_bytes(), at, state }
     }
@@ -123,7 +124,7 @@ impl<'a> Scanner<'a> {
         self.at >= self.line.len()
     }
 
-    /// Goes on by one byte, or past the two that begin or end a comment.
+    /// Advances by one byte, or by the two that start or end a comment.
     #[inline]
     pub fn step(&mut self) {
         let byte = self.line[self.at];
@@ -155,7 +156,7 @@ impl<'a> Scanner<'a> {
     }
 }
 
-/// The name a `#define` line gives, if the line is one.
+/// Returns the name that a `#define` line defines, if the line is one.
 pub fn defined_name(line: &str) -> Option<&str> {
     let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("define")?;
     let name = rest.trim_start();
@@ -180,7 +181,7 @@ impl Lexer<'_> {
         }
     }
 
-    /// To the comment's end, which is looked for behind the first `skip` bytes.
+    /// Advances to the comment's end, which is searched after the first `skip` bytes.
     fn block_comment(&mut self, skip: usize) {
         let rest = &self.line[self.at..];
         let end = rest[skip..].find("*/").map_or(rest.len(), |i| skip + i + 2);
@@ -192,7 +193,7 @@ fn identifier_len(text: &str) -> usize {
     text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
 }
 
-/// Returns the class of a word of the language or of the site.
+/// Returns the class of a predefined word.
 fn class_of_word(name: &str) -> Option<Class> {
     match lex::words::meaning(name) {
         Some(Meaning::Builtin) => Some(Class::Builtin),

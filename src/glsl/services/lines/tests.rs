@@ -23,7 +23,7 @@ fn kind_of(line: &str, what: &str) -> Class {
 }
 
 #[test]
-fn words_have_their_kinds() {
+fn words_are_classified() {
     let line = "  const vec3 c = mix(iResolution, vec3(PI, .5e-3, 0x1Fu), shade(uv)); // 1.0";
     for (what, kind) in [
         ("const", Class::Keyword),
@@ -44,7 +44,7 @@ fn words_have_their_kinds() {
     assert_eq!(kind_of("#ifdef WILD", "#ifdef"), Class::Preprocessor);
 }
 
-/// The state at every byte, and the one the next line begins in.
+/// Returns the state at every byte, and the one at the start of the next line.
 fn states(line: &str, state: LexState) -> (Vec<(usize, LexState)>, LexState) {
     let mut scanner = Scanner::new(line, 0, state);
     let mut states = Vec::new();
@@ -91,7 +91,7 @@ fn lexer_and_scanner_agree_on_what_is_comment() {
 }
 
 #[test]
-fn a_part_of_a_line_is_lexed_as_in_the_whole() {
+fn part_of_a_line_is_lexed_as_in_the_whole_line() {
     let line = "  a /* b c */ shade   (1.5e-3) #x // d e";
     let (states, _) = states(line, LexState::default());
     let whole = lex(line, 0..line.len(), LexState::default(), &|_| false);
@@ -107,7 +107,7 @@ fn a_part_of_a_line_is_lexed_as_in_the_whole() {
     }
 }
 
-/// The language's words and what the site gives are the compiler's: an editor has no list of its own.
+/// Predefined words are the compiler's: an editor has no list of its own.
 #[test]
 fn every_word_of_the_language_has_a_class() {
     for word in crate::lex::words::keywords() {

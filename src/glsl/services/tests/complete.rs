@@ -1,4 +1,4 @@
-//! Completion: what is proposed where, and in which order.
+//! Completion: which items, and in which order.
 
 use super::Marked;
 use crate::{
@@ -14,14 +14,14 @@ fn at(m: &Marked) -> (Completions, String) {
     (found, typed)
 }
 
-/// Labels that fit what is typed, best first.
+/// Returns the labels that match what is typed, best first.
 fn labels(common: &str, code: &str) -> Vec<String> {
     let (found, typed) = at(&Marked::new(common, code));
     found.matching(&typed).into_iter().map(|i| found.items[i].label.clone()).collect()
 }
 
 #[test]
-fn the_wanted_name_is_near_the_top() {
+fn wanted_name_ranks_near_the_top() {
     for (code, wanted) in [
         ("void f() { vec3 c = nor@", "normalize"),
         ("void f() { vec3 c = nor@\n float y = 1.; }", "normalize"),
@@ -92,7 +92,7 @@ fn members_follow_from_the_type_before_the_point() {
 }
 
 #[test]
-fn nothing_is_proposed_where_nothing_can_be() {
+fn no_completions_where_no_name_is_valid() {
     for code in [
         "// nor@",
         "/* nor@ */",
@@ -110,7 +110,7 @@ fn nothing_is_proposed_where_nothing_can_be() {
 }
 
 #[test]
-fn scopes_are_kept() {
+fn completions_respect_scopes() {
     let has = |code: &str, name: &str| labels("", code).iter().any(|l| l == name);
     assert!(!has("void f() { { float inner; } inn@", "inner"));
     assert!(!has("void f() { for (int idx = 0; idx < 3; idx++) { } id@", "idx"));
@@ -119,7 +119,7 @@ fn scopes_are_kept() {
     assert!(!has("void f() { onl@ }\nfloat only;", "only"));
     assert!(!has("void f() { float self = sel@; }", "self"));
     assert!(has("void f(float arg) { if (arg > 1.) { ar@", "arg"));
-    // An open brace above takes nothing away.
+    // An open brace above hides nothing.
     assert!(has("void g() { if (true) {\n}\nvoid f(float arg) { ar@ }", "arg"));
     // One name, one item: the innermost.
     let (found, _) = at(&Marked::code("float v;\nvoid f(vec2 v) { { vec3 v; v@ } }"));
@@ -128,7 +128,7 @@ fn scopes_are_kept() {
 }
 
 #[test]
-fn proposals_say_what_they_are() {
+fn completions_have_kind_and_detail() {
     let code =
         "// Length of it.\nfloat len(vec2 p) { return 1.; }\nfloat len(vec3 p) { return 1.; }\nvoid f(vec2 q) { @ }";
     let (found, _) = at(&Marked::code(code));
@@ -144,7 +144,7 @@ fn proposals_say_what_they_are() {
 }
 
 #[test]
-fn plain_shaders_have_no_names_of_the_site() {
+fn plain_shaders_have_no_shadertoy_names() {
     let text = "#version 300 es\nprecision highp float;\nout vec4 color;\nvoid main() { color = vec4(i";
     let analysis = Analysis::new(&PassSource::fragment(text));
     let labels: Vec<String> =
@@ -156,7 +156,7 @@ fn plain_shaders_have_no_names_of_the_site() {
 }
 
 #[test]
-fn an_included_file_knows_what_comes_before_it() {
+fn included_file_sees_earlier_declarations() {
     let code = "#define SCALE 2.0\nconst int PASS = 1;\n\n#include \"a.glsl\"\n\nconst int LATER = 2;\n";
     let included = "float f() { return 1.0; }\n";
     let text = |id, text| Text { id: SourceId(id), text };

@@ -1,4 +1,4 @@
-//! Each service on whole and on broken texts. A caret or a place is marked by `@`, which GLSL does not have.
+//! Each service on valid and on invalid texts. A caret or a place is marked by `@`, which GLSL does not have.
 
 mod complete;
 mod names;
@@ -12,7 +12,7 @@ use eddy_diag::{SourceId, Span};
 const COMMON: SourceId = SourceId(0);
 const CODE: SourceId = SourceId(1);
 
-/// A text behind a Common, either with a mark.
+/// A text that follows a Common, one of them with a mark.
 struct Marked {
     common: String,
     code: String,

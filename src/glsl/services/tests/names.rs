@@ -7,7 +7,7 @@ use crate::{
 };
 use eddy_diag::SourceId;
 
-/// Kind, first line of the signature and text of what the mark is on.
+/// Returns the kind, first line of the signature and text for the marked name.
 fn hover(m: &Marked) -> (&'static str, String, String) {
     let found = m.analysis().hover(m.at.0, m.at.1).unwrap_or_else(|| panic!("no hover in {:?}", m.code));
     (found.kind, found.signature.join("\n"), found.doc)
@@ -68,7 +68,7 @@ fn hover_shows_what_a_name_is() {
         ("#ifdef@ X\n#endif", "directive", "", "Compiles the lines up to `#endif` only if a macro is defined."),
         ("void mainImage@(out vec4 o, vec2 p) { }", "function", "void mainImage(out vec4 o, vec2 p)", ""),
         ("void f() { normalise@(vec3(1)); }", "unknown name", "", "Not declared here. Did you mean `normalize`?"),
-        // Broken texts.
+        // Invalid texts.
         ("void f(vec3 p) { vec3 c = nor@malize(p }", "built-in function", "", ""),
         ("void f(vec3 pos) { float d = 1.; pos@. \n}", "parameter", "vec3 pos", ""),
         ("float g(float a) { return a; }\nvoid f() { if (x { g@(1.); \n", "function", "float g(float a)", ""),
@@ -86,7 +86,7 @@ fn hover_shows_what_a_name_is() {
 }
 
 #[test]
-fn what_needs_no_explanation_has_none() {
+fn tokens_without_explanation_have_no_hover() {
     for code in [
         "float x = 1.@5;",
         "// a c@omment iTime",
@@ -119,7 +119,7 @@ fn definitions_are_found_in_both_texts() {
             "float g(float a) { return a; }\nfloat g(vec2 a) { return a.x; }\nvoid f() { g@(vec2(1)); }",
             "float [g](vec2 a) { return a.x; }",
         ),
-        // The statement at the mark is broken: only words are left of it.
+        // The statement at the mark is invalid: only its words are known.
         (
             "",
             "float g(float a) { return a; }\nfloat g(vec2 a) { return a.x; }\nvoid f(vec2 p) { float y = g@(p.yx) + ; }",
@@ -153,7 +153,7 @@ fn definitions_are_found_in_both_texts() {
 }
 
 #[test]
-fn uses_keep_apart_what_only_looks_alike() {
+fn uses_distinguish_items_of_the_same_name() {
     for (common, code, count) in [
         ("", "void f() { float a@ = 1.; { float a = 2.; a; } a; }", 2),
         ("", "void f() { float a = 1.; { float a = 2.; a@; } a; }", 2),
@@ -162,7 +162,7 @@ fn uses_keep_apart_what_only_looks_alike() {
         ("float g() { return 1.; }", "void f() { g@(); g(); }", 3),
         ("float g@() { return 1.; }", "void f() { g(); g(); }", 3),
         ("", "struct S { float a; };\nstruct T { float a; };\nvoid f(S s, T t) { s.a; t.a@; t.a; }", 3),
-        // In a macro's text too, and in a statement that is broken.
+        // In a macro's text too, and in an invalid statement.
         ("", "float k@ = 1.;\n#define M k\nvoid f() { M; k; }", 3),
         ("", "void f() { float a@ = 1.; a; a + ; }", 3),
         ("", "void f() { sin@(1.); sin(2.); cos(1.); }", 2),
@@ -179,7 +179,7 @@ fn uses_keep_apart_what_only_looks_alike() {
 }
 
 #[test]
-fn a_use_is_found_from_each_of_its_places() {
+fn uses_are_the_same_from_every_place() {
     let m = Marked::new(
         "float base(vec3 p) { return p.x; }\n",
         "@vec3 q;\nfloat twice(vec3 p) { return base(p) + base(p.zyx); }\nvoid mainImage(out vec4 o, vec2 u) { o = vec4(base(q), twice(q) }",
@@ -194,7 +194,7 @@ fn a_use_is_found_from_each_of_its_places() {
 }
 
 #[test]
-fn words_have_the_colour_of_what_they_are() {
+fn words_are_classified_by_meaning() {
     use Class as C;
     let code = "@#define PI 3.\n#if 0\nold /* x */\n#else\nstruct S { float a; };\n#endif\nfloat g = PI;\nfloat fun(float par, S s) {\n  // note\n  float loc = sin(par) + s.a + iTime + 2.;\n  return loc.x + gone + g; /* end */ }\nvoid broken() { fun(g, + ; vec3 nor = \n}";
     let m = Marked::code(code);
@@ -243,7 +243,7 @@ fn words_have_the_colour_of_what_they_are() {
 }
 
 #[test]
-fn an_authors_uniform_is_known_wherever_it_is_used() {
+fn custom_uniform_is_resolved_in_all_texts() {
     let common = "float twice() { return 2.0 * speed; }\n#define HALF (0.5 * speed)\n#define NEVER 1\n";
     let code = "float f(float speed) { return speed; }\nfloat g() { return HALF + speed + nothing(speed);";
     let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
@@ -258,7 +258,7 @@ fn an_authors_uniform_is_known_wherever_it_is_used() {
     };
     let of = |text: &str| -> Vec<usize> { text.match_indices("speed").map(|(at, _)| at).collect() };
     assert_eq!(places(COMMON, common), of(common));
-    // The parameter of that name is another.
+    // The parameter of the same name is a different item.
     assert_eq!(places(CODE, code), of(code)[2..]);
     let named = |at: usize| analysis.custom_uniform_at(CODE, at);
     assert_eq!((named(of(code)[0]), named(of(code)[1])), (None, None));

@@ -1,9 +1,9 @@
-//! Any text, any place: an answer, and no panic.
+//! Any text, any position: an answer, and no panic.
 
 use super::Marked;
 use crate::services::Analysis;
 
-/// Asks everything at every place of both texts.
+/// Calls every service at every position of both texts.
 fn ask_all(m: &Marked) {
     let analysis: Analysis = m.analysis();
     for (source, text) in [(super::COMMON, &m.common), (super::CODE, &m.code)] {
@@ -30,19 +30,19 @@ fn ask_all(m: &Marked) {
 const WHOLE: &str = "#define R iResolution\n#define F(a, b) (a + b)\nstruct S { vec3 p; float d[2]; };\nfloat g(in vec3 p, inout float t);\nfloat g(in vec3 p, inout float t) { t += p.x; return F(t, R.x); }\n#if 0\nleft out\n#else\nvoid mainImage(out vec4 o, in vec2 u) {\n  S s = S(vec3(u, 1.), float[2](1., 2.)); float t = 0.;\n  for (int i = 0; i < 2; i++) { t += s.d[i]; /* c */ }\n  o = vec4(g(s.p.zyx, t), texture(iChannel0, u / R.xy).rgb);\n}\n#endif\n";
 
 #[test]
-fn every_place_of_a_text_can_be_asked() {
+fn services_accept_every_position() {
     ask_all(&Marked::new("const float K = 1.; // é\n", &format!("@{WHOLE}")));
 }
 
 #[test]
-fn a_text_may_end_anywhere() {
+fn truncated_text_does_not_panic() {
     for end in (0..WHOLE.len()).step_by(7) {
         ask_all(&Marked::new("#define X", &format!("{}@", &WHOLE[..end])));
     }
 }
 
 #[test]
-fn odd_texts_are_no_trouble() {
+fn malformed_text_does_not_panic() {
     for code in [
         "@",
         "\u{feff}@",

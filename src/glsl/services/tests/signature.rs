@@ -17,7 +17,7 @@ fn help(code: &str) -> String {
 }
 
 #[test]
-fn the_argument_at_the_caret_is_known() {
+fn argument_at_the_caret_is_found() {
     for (code, wanted) in [
         ("void f() { float y = clamp(@ }", "genType clamp([genType x], genType minVal, genType maxVal)"),
         (
@@ -61,7 +61,7 @@ fn the_argument_at_the_caret_is_known() {
 }
 
 #[test]
-fn every_overload_is_listed_and_explained() {
+fn all_overloads_are_listed_with_a_description() {
     let m = Marked::code(
         "// Distance to a ball.\nfloat ball(vec3 p) { return 1.; }\nfloat ball(vec3 p, float r) { return r; }\nvoid f() { ball(@ }",
     );
