@@ -1,21 +1,14 @@
-//! A run on a thread of its own, told of over a channel.
+//! A run on a thread of its own, which tells what happens.
 
 use super::{
     CostRecord, ErrorRecord, LabError, Point, Results, Stop, Study,
     run::{self, Control, Options, Step},
 };
+use eddy_background::{Background, Control as Told, Wake};
 use eddy_gpu::{self as gpu, Gpu, GpuError};
-use std::{
-    panic::{AssertUnwindSafe, catch_unwind},
-    sync::{
-        Arc,
-        mpsc::{Receiver, RecvTimeoutError, channel},
-    },
-    thread::JoinHandle,
-    time::Duration,
-};
+use std::time::Duration;
 
-/// Says how long a run that is dropped may take to its next frame. One that computes a reference longer is left behind.
+/// The time that a run which is dropped may take to its next frame. One that computes a reference for longer is left alone.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window
@@ -23,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 const STEPS_BACK: i32 = 10;
 
 /// Carries what the thread says.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Event {
     /// Says what the folder holds already.
     Resumed(Results),
@@ -53,67 +46,49 @@ pub enum Progress {
 }
 
 /// A run. Dropped, it ends.
-pub struct Background {
-    events: Receiver<Event>,
-    stop: Stop,
-    thread: Option<JoinHandle<()>>,
+pub struct BackgroundRun {
+    work: Background<(), Vec<Event>, ()>,
 }
 
-impl Background {
+impl BackgroundRun {
     /// Measures on a device that `open` opens on the run's thread. `wake` is called after each event.
     pub fn start(
         open: impl FnOnce() -> Result<Gpu, GpuError> + Send + 'static,
         studies: Vec<&'static Study>,
         options: Options,
-        wake: Arc<dyn Fn() + Send + Sync>,
-    ) -> std::io::Result<Background> {
-        let (sender, events) = channel();
-        let stop = Stop::default();
-        let control = Control { stop: stop.clone(), estimates: true, beside_window: true };
-        let work = move || {
+        wake: Wake,
+    ) -> std::io::Result<BackgroundRun> {
+        let work = Background::once("lab", "the measurement", wake, move |told: &Told<Vec<Event>>| {
             gpu::step_back(STEPS_BACK);
-            let tell = |event: Event| {
-                // Whoever hung up has given the stop, too.
-                let _ = sender.send(event);
-                wake();
-            };
-            let run = || measure(open, &studies, &options, &control, &tell);
-            let ended = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err("this is a bug in Eddy".into()));
-            tell(Event::Ended(ended));
-        };
-        let thread = std::thread::Builder::new().name("lab".into()).spawn(work)?;
-        Ok(Background { events, stop, thread: Some(thread) })
+            let control = Control { stop: Stop::of(told.cancel_flag()), estimates: true, beside_window: true };
+            measure(open, &studies, &options, &control, &|event| told.update(|events| events.push(event)))
+        })?;
+        Ok(BackgroundRun { work })
     }
 
     /// Returns what has been said since the last call. Does not wait.
-    pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
-        self.events.try_iter()
+    pub fn events(&mut self) -> Vec<Event> {
+        // First, as every event is said before the end.
+        let ended = self.work.take();
+        let mut events = self.work.take_progress();
+        events.extend(ended.map(Event::Ended));
+        events
     }
 
     /// Ends the run at its next frame; [`Event::Ended`] follows.
     pub fn stop(&self) {
-        self.stop.now();
+        self.work.stop();
     }
 
     pub fn is_stopping(&self) -> bool {
-        self.stop.is_wanted()
+        self.work.is_stopping()
     }
 }
 
-impl Drop for Background {
+impl Drop for BackgroundRun {
     /// A thread inside a driver should not outlive the process.
     fn drop(&mut self) {
-        self.stop.now();
-        loop {
-            match self.events.recv_timeout(PATIENCE) {
-                Ok(Event::Ended(_)) | Err(RecvTimeoutError::Disconnected) => break,
-                Ok(_) => {}
-                Err(RecvTimeoutError::Timeout) => return,
-            }
-        }
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        self.work.end(PATIENCE);
     }
 }
 
