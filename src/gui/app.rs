@@ -4,7 +4,7 @@
 //! an event, the session or egui asks for one.
 
 use super::{
-    GuiError, Options,
+    GuiError, Opened, Options,
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
@@ -61,7 +61,7 @@ pub fn run(options: Options) -> Result<(), GuiError> {
 /// As [`run`]. Once the window is open, calls `opened` with its first graphics device.
 pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result<(), GuiError> {
     let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(no_display)?;
-    let opened: Option<Box<dyn FnOnce(&Gpu)>> = Some(Box::new(opened));
+    let opened: Option<Opened> = Some(Box::new(opened));
     let mut app = App { proxy: event_loop.create_proxy(), options, opened, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(no_display)?;
     let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
@@ -91,7 +91,7 @@ struct App {
     proxy: EventLoopProxy<AppEvent>,
     options: Options,
     /// `None` after the call.
-    opened: Option<Box<dyn FnOnce(&Gpu)>>,
+    opened: Option<Opened>,
     running: Option<Running>,
     failed: Option<GuiError>,
 }

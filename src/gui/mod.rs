@@ -75,8 +75,15 @@ mod window_identity;
 
 pub use app::{run, run_with};
 
-use crate::{gpu::GpuError, session::SessionError, video::CameraSource};
+use crate::{
+    gpu::{Gpu, GpuError},
+    session::SessionError,
+    video::CameraSource,
+};
 use std::{net::SocketAddr, time::Duration};
+
+/// Called with the first device of a window that has opened.
+type Opened = Box<dyn FnOnce(&Gpu)>;
 
 /// The project to open, and how.
 #[derive(Clone, Debug, Default)]
