@@ -14,6 +14,7 @@ pub mod cli;
 pub mod gui;
 
 pub use eddy_audio as audio;
+pub use eddy_background as background;
 pub use eddy_control as control;
 pub use eddy_debugger as debugger;
 pub use eddy_diag as diag;

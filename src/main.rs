@@ -23,20 +23,8 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window {
-        project,
-        guest: _,
-        size,
-        set,
-        follow,
-        paused,
-        frame_timeout,
-        compile_timeout,
-        webcam,
-        osc,
-        json,
-        lose_device,
-    } = window;
+    let Window { project, guest: _, size, set, follow, paused, frame_timeout, compile_timeout, webcam, osc, json } =
+        window;
     Ok(eddy::gui::run(eddy::gui::Options {
         project,
         size,
@@ -48,7 +36,6 @@ fn open(window: Window) -> anyhow::Result<()> {
         webcam,
         osc,
         json,
-        lose_device,
     })?)
 }
 

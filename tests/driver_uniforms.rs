@@ -127,8 +127,7 @@ fn resident() -> Option<u64> {
 #[test]
 fn frames_take_no_memory() {
     let Some(gpu) = gpu() else { return };
-    let path = format!("{}/presets/mip-fluid", env!("CARGO_MANIFEST_DIR"));
-    let project = eddy::project::load(&path).expect("a preset").project;
+    let project = eddy::project::presets::load("mip-fluid").expect("a preset").project;
     let mut engine = engine(&gpu, &project, (64, 36));
     run(&mut engine, 0, 40);
     let Some(before) = resident() else { return };

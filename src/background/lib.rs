@@ -1,7 +1,10 @@
-//! Work on a thread of its own, for somebody who goes on meanwhile: the newest job counts.
+//! Work on a thread of its own, while its owner does something else: the newest job counts.
 //!
-//! Owns the hand-over: jobs that a newer one has overtaken are not begun, results that a newer job or a cancel has made
+//! Owns the hand-over: jobs that a newer one has overtaken are not started, results that a newer job or a cancel has made
 //! stale are not handed out, and a panic in a job is its error and does not end the program. Does not know what a job is.
+//!
+//! A job's progress is a value that it replaces ([`Control::report`]) or adds to ([`Control::update`]). Where every event
+//! counts, it is a list of events, which [`Background::take_progress`] empties.
 
 use std::{
     any::Any,
@@ -75,7 +78,7 @@ pub struct Control<Progress> {
 #[derive(Default)]
 struct Shared<Progress> {
     progress: Mutex<Progress>,
-    is_cancelled: AtomicBool,
+    is_cancelled: Arc<AtomicBool>,
 }
 
 impl<Progress> Clone for Control<Progress> {
@@ -91,11 +94,21 @@ impl<Progress: Clone + Default> Control<Progress> {
 
     /// Tells how far the work is.
     pub fn report(&self, progress: Progress) {
-        *self.shared.progress.lock().unwrap_or_else(|e| e.into_inner()) = progress;
+        self.update(|shared| *shared = progress);
+    }
+
+    /// Changes what is told of the work, and wakes the owner.
+    pub fn update(&self, change: impl FnOnce(&mut Progress)) {
+        change(&mut self.shared.progress.lock().unwrap_or_else(|e| e.into_inner()));
         (self.wake)();
     }
 
-    /// Returns whether the result is not wanted any more: what the work gives from then on is dropped.
+    /// Returns the flag that is set when the work is to end, for code that does not know a `Control`.
+    pub fn cancel_flag(&self) -> Arc<AtomicBool> {
+        self.shared.is_cancelled.clone()
+    }
+
+    /// Returns whether the work is to end: its result is not wanted any more, or what it has by now is enough.
     pub fn is_cancelled(&self) -> bool {
         self.shared.is_cancelled.load(Ordering::Relaxed)
     }
@@ -209,6 +222,21 @@ where
         (self.input, self.is_busy) = (Input::None, false);
     }
 
+    /// Asks the newest job to end soon. Unlike a cancelled job's, its result counts.
+    pub fn stop(&self) {
+        self.control.cancel();
+    }
+
+    /// Returns whether the newest job was asked to end and has not yet.
+    pub fn is_stopping(&self) -> bool {
+        self.is_busy && self.control.is_cancelled()
+    }
+
+    /// Takes what the newest job has told of its progress. It continues from the default.
+    pub fn take_progress(&mut self) -> Progress {
+        mem::take(&mut self.control.shared.progress.lock().unwrap_or_else(|e| e.into_inner()))
+    }
+
     /// Cancels, and forgets the last result too.
     pub fn clear(&mut self) {
         self.cancel();
@@ -261,6 +289,13 @@ where
         self.thread = None;
     }
 
+    /// Returns it after [`Background::leave`]. For a job that may wait for a person or for another program.
+    #[must_use]
+    pub fn detached(mut self) -> Self {
+        self.leave();
+        self
+    }
+
     /// Cancels, and waits for the thread's end, but not for long. Returns false where it goes on: then nobody waits for it
     /// any more.
     pub fn end(&mut self, patience: Duration) -> bool {
@@ -275,6 +310,29 @@ where
             thread::sleep(Duration::from_millis(2));
         }
         true
+    }
+}
+
+impl<Progress, Out> Background<(), Progress, Out>
+where
+    Progress: Clone + Default + PartialEq + Send + 'static,
+    Out: Send + 'static,
+{
+    /// Starts a thread for one job, which ends with the job. The rest is as with [`Background::new`].
+    pub fn once(
+        name: &str,
+        what: &'static str,
+        wake: Wake,
+        work: impl FnOnce(&Control<Progress>) -> Result<Out, String> + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let mut work = Some(work);
+        let mut once = Self::new(name, what, wake, move |(), control| match work.take() {
+            Some(work) => work(control),
+            None => Err(format!("{what} has ended")),
+        })?;
+        once.start(());
+        once.jobs = None;
+        Ok(once)
     }
 }
 

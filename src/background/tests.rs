@@ -8,7 +8,12 @@ fn background<In: Send + 'static, Out: Send + 'static>(
     Background::new("test", "the test", Arc::new(|| ()), move |input, _| Ok(work(input))).unwrap()
 }
 
-fn wait<In: Send + 'static, Out: Send + 'static>(b: &mut Background<In, (), Out>) -> Result<Out, String> {
+fn wait<In, Progress, Out>(b: &mut Background<In, Progress, Out>) -> Result<Out, String>
+where
+    In: Send + 'static,
+    Progress: Clone + Default + PartialEq + Send + 'static,
+    Out: Send + 'static,
+{
     let end = Instant::now() + Duration::from_secs(10);
     loop {
         if let Some(result) = b.take() {
@@ -110,4 +115,66 @@ fn a_request_is_under_way_until_its_input_has_led_to_a_result() {
     assert!(matches!(b.status(), Some(Status::UnderWay(()))) && b.result().is_some(), "the last one stays");
     b.clear();
     assert!(b.status().is_none() && !b.take_request());
+}
+
+#[test]
+fn events_are_told_in_order_and_none_is_lost() {
+    let (go, gate) = mpsc::channel::<()>();
+    let mut b = Background::once("test", "the test", Arc::new(|| ()), move |control: &Control<Vec<u32>>| {
+        for n in 0..100 {
+            control.update(|events| events.push(n));
+            if n == 50 {
+                gate.recv().unwrap();
+            }
+        }
+        Ok(())
+    })
+    .unwrap();
+    let mut told = Vec::new();
+    while told.len() < 51 {
+        told.extend(b.take_progress());
+    }
+    go.send(()).unwrap();
+    assert_eq!(wait(&mut b), Ok(()));
+    told.extend(b.take_progress());
+    assert_eq!(told, (0..100).collect::<Vec<u32>>());
+    assert!(b.take_progress().is_empty(), "each event once");
+}
+
+#[test]
+fn a_stopped_job_gives_the_result_that_it_has_by_then() {
+    let (started, starts) = mpsc::channel();
+    let mut b = Background::once("test", "the test", Arc::new(|| ()), move |control: &Control<()>| {
+        let flag = control.cancel_flag();
+        started.send(()).unwrap();
+        while !flag.load(Ordering::Relaxed) {
+            thread::sleep(Duration::from_millis(1));
+        }
+        Ok(control.is_cancelled())
+    })
+    .unwrap();
+    starts.recv().unwrap();
+    assert!(b.is_busy() && !b.is_stopping());
+    b.stop();
+    assert!(b.is_stopping());
+    assert_eq!(wait(&mut b), Ok(true));
+    assert!(!b.is_busy() && !b.is_stopping());
+}
+
+#[test]
+fn a_thread_of_one_job_ends_with_it() {
+    let mut b = Background::once("test", "the test", Arc::new(|| ()), |_: &Control<()>| Ok(3)).unwrap();
+    assert_eq!(wait(&mut b), Ok(3));
+    let end = Instant::now() + Duration::from_secs(10);
+    while !b.thread.as_ref().is_some_and(JoinHandle::is_finished) {
+        assert!(Instant::now() < end, "the thread waits for another job");
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn nobody_waits_for_a_detached_job() {
+    let (_never, waits) = mpsc::channel::<()>();
+    let work = move |_: &Control<()>| waits.recv().map_err(|e| e.to_string());
+    drop(Background::once("test", "the test", Arc::new(|| ()), work).unwrap().detached());
 }

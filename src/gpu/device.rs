@@ -278,9 +278,9 @@ impl Gpu {
         }
     }
 
-    /// Makes the device one that was lost, which refuses everything: what is to happen then can be tried.
-    pub fn lose(&self) {
-        self.device.destroy();
+    /// Marks the device as lost.
+    #[cfg(feature = "testing")]
+    pub(super) fn mark_lost(&self) {
         self.state.lost.store(true, Ordering::Relaxed);
     }
 

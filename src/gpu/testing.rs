@@ -19,6 +19,12 @@ pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
     None
 }
 
+/// Makes a device refuse everything from now on, as one does that the driver has reset.
+pub fn lose(gpu: &Gpu) {
+    gpu.device.destroy();
+    gpu.mark_lost();
+}
+
 /// Says that a test is left out as a program is not installed. Where `EDDY_REQUIRE_GPU` is set that is a failure:
 /// `scripts/test` installs the program.
 pub fn missing(program: &str) {

@@ -4,7 +4,7 @@
 //! an event, the session or egui asks for one.
 
 use super::{
-    GuiError, Options,
+    GuiError, Opened, Options,
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
@@ -18,13 +18,13 @@ use super::{
 use crate::{
     audio::host::AudioHost,
     control::{midi::host::MidiHost, pads::PadHost},
+    gpu::Gpu,
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
 };
 use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{
-    path::PathBuf,
     sync::{Arc, mpsc::Receiver},
     time::{Duration, Instant},
 };
@@ -55,8 +55,14 @@ impl From<accesskit_winit::Event> for AppEvent {
 
 /// Opens the window and returns when it is closed.
 pub fn run(options: Options) -> Result<(), GuiError> {
+    run_with(options, |_| ())
+}
+
+/// As [`run`]. Once the window is open, calls `opened` with its first graphics device.
+pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result<(), GuiError> {
     let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(no_display)?;
-    let mut app = App { proxy: event_loop.create_proxy(), options, running: None, failed: None };
+    let opened: Option<Opened> = Some(Box::new(opened));
+    let mut app = App { proxy: event_loop.create_proxy(), options, opened, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(no_display)?;
     let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
     // Its own end would wait for what the driver's threads are at.
@@ -84,6 +90,8 @@ const FIRST_FRAME: Duration = Duration::from_millis(250);
 struct App {
     proxy: EventLoopProxy<AppEvent>,
     options: Options,
+    /// `None` after the call.
+    opened: Option<Opened>,
     running: Option<Running>,
     failed: Option<GuiError>,
 }
@@ -95,8 +103,6 @@ struct Running {
     input: egui_winit::State,
     surface: Surface,
     losses: DeviceLosses,
-    /// A file that makes the device one that was lost, when it appears.
-    lose_device: Option<PathBuf>,
     proxy: EventLoopProxy<AppEvent>,
     wake: Arc<dyn Fn() + Send + Sync>,
     session: Session,
@@ -124,7 +130,12 @@ impl ApplicationHandler<AppEvent> for App {
             return;
         }
         match Running::new(event_loop, &self.proxy, &self.options) {
-            Ok(running) => self.running = Some(running),
+            Ok(running) => {
+                if let Some(opened) = self.opened.take() {
+                    opened(running.surface.gpu());
+                }
+                self.running = Some(running);
+            }
             Err(e) => {
                 self.failed = Some(e);
                 event_loop.exit();
@@ -273,7 +284,6 @@ impl Running {
             input,
             surface,
             losses: DeviceLosses::default(),
-            lose_device: options.lose_device.clone(),
             proxy: proxy.clone(),
             wake,
             session,
@@ -414,10 +424,6 @@ impl Running {
             self.paint_soon();
         }
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
-        if let Some(file) = self.lose_device.take_if(|file| std::fs::remove_file(file).is_ok()) {
-            log::warn!("{} appeared: the device is lost", file.display());
-            self.surface.gpu().lose();
-        }
         if let Some(texture) = self.shell.take_new_texels(&self.session) {
             self.surface.touch(texture);
         }

@@ -4,6 +4,7 @@
 //! asked on a thread of its own: it may show a dialog, or never answer.
 
 use crate::{
+    background::{Background, Control},
     project::{make_private, write_into},
     session::{Command, Level},
 };
@@ -11,10 +12,7 @@ use std::{
     io::{self, Write},
     path::{Path, PathBuf},
     process::{self, Stdio},
-    sync::{
-        Arc,
-        mpsc::{Receiver, TryRecvError, channel},
-    },
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -27,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Pages on their way to the browser.
 #[derive(Default)]
 pub struct Browser {
-    opening: Vec<(PathBuf, Receiver<bool>)>,
+    opening: Vec<(PathBuf, Background<(), (), bool>)>,
 }
 
 impl Browser {
@@ -36,16 +34,10 @@ impl Browser {
         let folder = dirs::cache_dir().unwrap_or_else(std::env::temp_dir).join("eddy");
         let path =
             write(&folder).map_err(|e| format!("cannot write {} to {}: {e}", BOOKMARKLET_NAME, folder.display()))?;
-        let (sender, answer) = channel();
-        let (page, wake) = (path.clone(), wake.clone());
-        let ask = move || {
-            // A receiver that is gone no longer wants the answer.
-            let _ = sender.send(show(&page));
-            wake();
-        };
-        match std::thread::Builder::new().name("browser".into()).spawn(ask) {
-            Ok(_) => {
-                self.opening.push((path, answer));
+        let page = path.clone();
+        match Background::once("browser", "opening the page", wake.clone(), move |_: &Control<()>| Ok(show(&page))) {
+            Ok(opening) => {
+                self.opening.push((path, opening.detached()));
                 Ok(())
             }
             Err(e) => Err(format!("cannot start a thread for the browser: {e}; open {} in a browser", path.display())),
@@ -55,9 +47,9 @@ impl Browser {
     /// Returns what there is to say of pages for which the desktop has answered.
     pub fn take(&mut self) -> Vec<Command> {
         let mut notices = Vec::new();
-        self.opening.retain(|(path, answer)| match answer.try_recv() {
-            Err(TryRecvError::Empty) => true,
-            answer => {
+        self.opening.retain_mut(|(path, opening)| match opening.take() {
+            None => true,
+            Some(answer) => {
                 notices.push(opened(path.clone(), answer == Ok(true)));
                 false
             }

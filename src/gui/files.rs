@@ -9,15 +9,14 @@ use super::{
     theme,
     ui_output::{Pick, UiOutput},
 };
-use crate::project::{RECORDING, SOUNDS};
+use crate::{
+    background::{Background, Control},
+    project::{RECORDING, SOUNDS},
+};
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
-    panic::catch_unwind,
     path::{MAIN_SEPARATOR, PathBuf},
-    sync::{
-        Arc,
-        mpsc::{Receiver, TryRecvError, channel},
-    },
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -42,7 +41,7 @@ struct OpenDialog {
     pick: Pick,
     start: Option<PathBuf>,
     since: Instant,
-    answer: Receiver<Outcome>,
+    answer: Background<(), (), Outcome>,
 }
 
 /// Our own field for a path.
@@ -77,17 +76,13 @@ impl Files {
         if self.asked.is_some() || self.typing.is_some() {
             return;
         }
-        let (sender, answer) = channel();
-        let (wake, show) = (self.wake.clone(), self.desktop);
+        let show = self.desktop;
         let dialog = dialog(&pick, start.clone());
-        let spawned = std::thread::Builder::new().name("file dialog".into()).spawn(move || {
-            let end = catch_unwind(|| show(&dialog)).unwrap_or(Outcome::Unavailable);
-            // A receiver that is gone no longer wants the answer.
-            let _ = sender.send(end);
-            wake();
-        });
-        match spawned {
-            Ok(_) => self.asked = Some(OpenDialog { pick, start, since: Instant::now(), answer }),
+        let show = move |_: &Control<()>| Ok(show(&dialog));
+        match Background::once("file dialog", "the file dialog", self.wake.clone(), show) {
+            Ok(answer) => {
+                self.asked = Some(OpenDialog { pick, start, since: Instant::now(), answer: answer.detached() });
+            }
             Err(_) => self.type_path(pick, start),
         }
     }
@@ -113,16 +108,16 @@ impl Files {
         if let Some(id) = self.gets_keyboard.take() {
             ui.memory_mut(|m| m.request_focus(id));
         }
-        if let Some(asked) = self.asked.take() {
-            match asked.answer.try_recv() {
-                Err(TryRecvError::Empty) if asked.wants_to_type(ui, out) => self.type_path(asked.pick, asked.start),
-                Err(TryRecvError::Empty) => {
+        if let Some(mut asked) = self.asked.take() {
+            match asked.answer.take() {
+                None if asked.wants_to_type(ui, out) => self.type_path(asked.pick, asked.start),
+                None => {
                     self.asked = Some(asked);
                     return None;
                 }
-                Ok(Outcome::Path(path)) => return Some(Picked::Path(asked.pick, path)),
-                Ok(Outcome::Cancelled) => return Some(Picked::Cancelled(asked.pick)),
-                Ok(Outcome::Unavailable) | Err(TryRecvError::Disconnected) => self.type_path(asked.pick, asked.start),
+                Some(Ok(Outcome::Path(path))) => return Some(Picked::Path(asked.pick, path)),
+                Some(Ok(Outcome::Cancelled)) => return Some(Picked::Cancelled(asked.pick)),
+                Some(Ok(Outcome::Unavailable) | Err(_)) => self.type_path(asked.pick, asked.start),
             }
         }
         self.path_field(ui, out)

@@ -73,10 +73,17 @@ mod value_range;
 mod viewport;
 mod window_identity;
 
-pub use app::run;
+pub use app::{run, run_with};
 
-use crate::{gpu::GpuError, session::SessionError, video::CameraSource};
-use std::{net::SocketAddr, path::PathBuf, time::Duration};
+use crate::{
+    gpu::{Gpu, GpuError},
+    session::SessionError,
+    video::CameraSource,
+};
+use std::{net::SocketAddr, time::Duration};
+
+/// Called with the first device of a window that has opened.
+type Opened = Box<dyn FnOnce(&Gpu)>;
 
 /// The project to open, and how.
 #[derive(Clone, Debug, Default)]
@@ -101,8 +108,6 @@ pub struct Options {
     pub webcam: Option<CameraSource>,
     /// OSC is listened to at this address, whatever the settings say.
     pub osc: Option<SocketAddr>,
-    /// The window's device is lost when this file appears: for tests.
-    pub lose_device: Option<PathBuf>,
 }
 
 /// The window cannot open, or cannot go on.

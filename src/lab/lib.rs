@@ -6,7 +6,7 @@
 //! Owns no window, no argument and no environment variable: the command line hands them in. Reads the clock only to
 //! measure what a frame costs ([`cost`]).
 
-pub mod background;
+pub mod background_run;
 pub mod cost;
 pub mod difference;
 mod error;

@@ -11,6 +11,11 @@ use std::sync::{
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
+    /// Returns the stop that this flag is.
+    pub fn of(flag: Arc<AtomicBool>) -> Stop {
+        Stop(flag)
+    }
+
     /// The run ends at its next frame.
     pub fn now(&self) {
         self.0.store(true, Ordering::Relaxed);

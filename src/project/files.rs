@@ -31,7 +31,8 @@ pub(super) struct Files<'a> {
 
 enum Storage<'a> {
     Disk(&'a Path),
-    Embedded(&'a include_dir::Dir<'a>),
+    /// Folders in the binary: a file is taken from the first that has it.
+    Embedded(Vec<&'a include_dir::Dir<'a>>),
     /// A folder as it will be once it is saved.
     Memory(&'a BTreeMap<String, Vec<u8>>),
 }
@@ -50,8 +51,9 @@ impl<'a> Files<'a> {
         Self::of(Storage::Disk(folder))
     }
 
-    pub fn embedded(folder: &'a include_dir::Dir<'a>) -> Self {
-        Self::of(Storage::Embedded(folder))
+    /// The files of several folders as if they lay in one. Where two have a file of the same name, the first one's counts.
+    pub fn embedded(folders: Vec<&'a include_dir::Dir<'a>>) -> Self {
+        Self::of(Storage::Embedded(folders))
     }
 
     pub fn in_memory(files: &'a BTreeMap<String, Vec<u8>>) -> Self {
@@ -94,8 +96,9 @@ impl<'a> Files<'a> {
                 }
                 names
             }
-            Storage::Embedded(dir) => {
-                dir.files().filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
+            Storage::Embedded(ref folders) => {
+                let files = folders.iter().flat_map(|dir| dir.files());
+                files.filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
             }
             Storage::Memory(files) => files.keys().cloned().collect(),
         };
@@ -134,10 +137,12 @@ impl<'a> Files<'a> {
                     Err(e) => return Read::Refused(e),
                 }
             }
-            Storage::Embedded(dir) => match dir.get_file(dir.path().join(name)) {
-                Some(file) => file.contents().to_vec(),
-                None => return Read::Missing,
-            },
+            Storage::Embedded(ref folders) => {
+                match folders.iter().find_map(|dir| dir.get_file(dir.path().join(name))) {
+                    Some(file) => file.contents().to_vec(),
+                    None => return Read::Missing,
+                }
+            }
             Storage::Memory(files) => match files.get(&confine::relative("", name).unwrap_or_default()) {
                 Some(bytes) => bytes.clone(),
                 None => return Read::Missing,
@@ -153,7 +158,9 @@ impl<'a> Files<'a> {
         match self.place {
             Storage::Disk(_) if self.in_editor(name).is_some() => true,
             Storage::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
-            Storage::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
+            Storage::Embedded(ref folders) => {
+                folders.iter().flat_map(|dir| dir.files()).any(|f| f.path().file_name() == Some(OsStr::new(name)))
+            }
             Storage::Memory(files) => files.contains_key(name),
         }
     }

@@ -75,11 +75,11 @@ impl Project {
         }
     }
 
-    fn first_stage(&self) -> usize {
+    pub(super) fn first_stage(&self) -> usize {
         1 + self.passes.len()
     }
 
-    fn first_included(&self) -> usize {
+    pub(super) fn first_included(&self) -> usize {
         self.first_stage() + self.stages().count()
     }
 }

@@ -252,7 +252,7 @@ impl Session {
     pub(super) fn play_recording(&mut self, file: PathBuf) {
         self.settled(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
-        match Reading::begin(file, self.wake.clone()) {
+        match Reading::start(file, self.wake.clone()) {
             Ok(reading) => self.playback.replay.reading = Some(reading),
             Err(e) => {
                 self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
@@ -262,7 +262,7 @@ impl Session {
 
     /// Begins with a recording that has been read.
     pub(super) fn take_recording(&mut self) {
-        let Some(read) = self.playback.replay.reading.as_ref().and_then(Reading::take) else { return };
+        let Some(read) = self.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
         let Some(Reading { file, .. }) = self.playback.replay.reading.take() else { return };
         let recording = match read {
             Ok(recording) => recording,

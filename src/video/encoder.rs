@@ -10,7 +10,7 @@ use std::{
     io::{self, Write},
     path::{self, Path},
     process::{ChildStdin, Command, Stdio},
-    thread::{self, JoinHandle},
+    thread::JoinHandle,
 };
 
 /// Lines of messages that are kept: the last ones.
@@ -20,7 +20,7 @@ const MESSAGES: usize = 12;
 pub struct Encoder {
     program: String,
     stdin: Option<ChildStdin>,
-    messages: Option<JoinHandle<Vec<String>>>,
+    messages: Option<JoinHandle<VecDeque<String>>>,
     stop: Stop,
 }
 
@@ -45,17 +45,13 @@ impl Encoder {
         command.args(arguments).stdin(Stdio::piped());
         let program = tools.ffmpeg.display().to_string();
         let Pipes { stdin, stderr, .. } = process::spawn(&mut command, stop)?;
-        let messages = thread::spawn(move || {
-            let mut last = VecDeque::new();
-            process::lines(stderr, |line| {
-                if !line.trim().is_empty() {
-                    last.push_back(process::reason(line));
-                    if last.len() > MESSAGES {
-                        last.pop_front();
-                    }
+        let messages = process::read_messages(stderr, |last: &mut VecDeque<String>, line| {
+            if !line.trim().is_empty() {
+                last.push_back(process::reason(line));
+                if last.len() > MESSAGES {
+                    last.pop_front();
                 }
-            });
-            last.into()
+            }
         });
         Ok(Encoder { program, stdin, messages: Some(messages), stop: stop.clone() })
     }
@@ -86,7 +82,7 @@ impl Encoder {
     fn failure(&mut self) -> VideoError {
         self.stdin = None;
         let status = self.stop.wait();
-        let lines = self.messages.take().and_then(|messages| messages.join().ok()).unwrap_or_default();
+        let lines = Vec::from(self.messages.take().and_then(|messages| messages.join().ok()).unwrap_or_default());
         let said = match (lines.is_empty(), status) {
             (false, _) => lines.join("\n"),
             (true, Some(Ok(status))) => format!("it ended with {status}"),

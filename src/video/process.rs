@@ -6,7 +6,7 @@ use std::{
     path::PathBuf,
     process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio},
     sync::{Arc, Mutex, PoisonError},
-    thread,
+    thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
 
@@ -118,19 +118,27 @@ pub(crate) fn lines(stderr: ChildStderr, mut each: impl FnMut(&str)) {
     }
 }
 
+/// Reads a program's messages on a thread that ends with the program. Returns what `each` has made of the lines.
+pub(crate) fn read_messages<T: Default + Send + 'static>(
+    stderr: ChildStderr,
+    mut each: impl FnMut(&mut T, &str) + Send + 'static,
+) -> JoinHandle<T> {
+    thread::spawn(move || {
+        let mut made = T::default();
+        lines(stderr, |line| each(&mut made, line));
+        made
+    })
+}
+
 /// Runs a program to its end. Returns what it wrote, at most `most` bytes, and the last line of its messages.
 pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<(Vec<u8>, String), VideoError> {
     let program = command.get_program().to_string_lossy().into_owned();
     let stop = Stop::default();
     let Pipes { stdout, stderr, .. } = spawn(command, &stop)?;
-    let messages = thread::spawn(move || {
-        let mut last = String::new();
-        lines(stderr, |line| {
-            if !line.trim().is_empty() {
-                last = reason(line);
-            }
-        });
-        last
+    let messages = read_messages(stderr, |last: &mut String, line| {
+        if !line.trim().is_empty() {
+            *last = reason(line);
+        }
     });
     let reader = thread::spawn(move || {
         let mut bytes = Vec::new();
@@ -153,14 +161,10 @@ pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<
 pub(crate) fn messages_of(command: &mut Command, tools: &Tools) -> Result<Vec<String>, VideoError> {
     let stop = Stop::default();
     let Pipes { stderr, .. } = spawn(command, &stop)?;
-    let messages = thread::spawn(move || {
-        let mut all = Vec::new();
-        lines(stderr, |line| {
-            if all.len() < 10_000 {
-                all.push(line.to_owned());
-            }
-        });
-        all
+    let messages = read_messages(stderr, |all: &mut Vec<String>, line| {
+        if all.len() < 10_000 {
+            all.push(line.to_owned());
+        }
     });
     let give_up = Instant::now() + tools.patience;
     while !messages.is_finished() {

@@ -101,7 +101,7 @@ fn a_probe_costs_a_tenth_of_a_frame_at_most() {
     let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let buffered =
         project(vec![pass(buffer("A"), &text, Default::default()), image(show, [nearest("A"), None, None, None])]);
-    let fluid = project::load(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/fluid")).unwrap().project;
+    let fluid = project::presets::load("fluid").unwrap().project;
     let of = |name: &str| buffer(name);
     let mut late = Vec::new();
     for (what, project, pass, size, expression) in [

@@ -6,7 +6,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs},
     lab::{
         Extent, Results, Rig, Shard,
-        background::{Background, Event},
+        background_run::{BackgroundRun, Event},
         open::{self, Opened},
         run::Options,
         studies,
@@ -87,7 +87,7 @@ fn heard(gpu: &eddy::gpu::Gpu, out: &Path, is_enough: impl Fn(&[Event]) -> bool)
     let study = studies::named(&["blur".into()]).unwrap();
     let options = Options { out: out.to_owned(), extent: Extent::Quick, repeats: 7, shard: Shard::WHOLE };
     let gpu = gpu.clone();
-    let run = Background::start(move || Ok(gpu), study, options, Arc::new(|| ())).unwrap();
+    let mut run = BackgroundRun::start(move || Ok(gpu), study, options, Arc::new(|| ())).unwrap();
     let (mut events, end) = (Vec::new(), Instant::now() + Duration::from_secs(120));
     while !matches!(events.last(), Some(Event::Ended(_))) {
         assert!(Instant::now() < end, "{events:?}");

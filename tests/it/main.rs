@@ -7,7 +7,8 @@
 //! - `damage` counts what is allocated, by an allocator of its own, and has a panic hook;
 //! - `driver_uniforms` measures the memory of its process;
 //! - `costs` compares milliseconds of passes, which are drawn while nothing else is;
-//! - `window` opens windows on displays of their own, with real keys and clicks, and waits for what they show.
+//! - `window` opens windows on displays of their own, with real keys and clicks, and waits for what they show;
+//! - `lost_device` opens such a window itself, on its first thread, and loses its device.
 //!
 //! All share `support`. Times that a test here asks of the compiler are those of its thread ([`support::clock`]).
 

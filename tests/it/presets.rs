@@ -6,99 +6,48 @@ use eddy::{
     media::{Keyboard, MediaSet},
     project::{PassId, Project, presets},
 };
+use std::collections::BTreeMap;
 
 const LEFT_ARROW: u8 = 37;
 const SPACE: u8 = 32;
 
-/// A project is copied as one folder, so what several need lies in each.
+/// What several projects need is in a folder of `shared/`, once.
 #[test]
-fn what_projects_share_is_the_same_in_each() {
+fn no_text_in_the_binary_is_a_copy_of_another() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let texts = |folder: &str, projects: &[&str], file: &str| -> Vec<String> {
-        let paths = projects.iter().map(|p| root.join(folder).join(p).join(file));
-        paths.map(|p| std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display()))).collect()
-    };
-    let are_same = |all: &[String]| all.iter().all(|t| *t == all[0]);
-    const LAB: &str = "assets/lab";
-    for (folder, projects, files) in [
-        ("presets", &["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
-        ("presets", &["bloom", "bloom-sized"], &["buffer_a.glsl"]),
-        ("presets", &["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl", "buffer_a.glsl"]),
-        (
-            "presets",
-            &["fluid-accurate", "mip-fluid", "particles", "reaction-diffusion", "self-advection"],
-            &["buffer_mouse.glsl"],
-        ),
-        (LAB, &["poisson_cycle", "poisson_jacobi"], &["common.glsl", "image.glsl"]),
-        (
-            LAB,
-            &["poisson_mips", "poisson_sor", "poisson_jacobi", "poisson_chebyshev", "poisson_cg", "poisson_fft"],
-            &["image.glsl"],
-        ),
-        (LAB, &["poisson_mips", "poisson_fft"], &["buffer_source.glsl"]),
-        (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
-        (
-            LAB,
-            &[
-                "fluid_guay",
-                "fluid_projection",
-                "fluid_strang",
-                "fluid_reflection",
-                "fluid_covector",
-                "fluid_weno",
-                "fluid_particles",
-            ],
-            &["image.glsl"],
-        ),
-        (LAB, &["fluid_strang", "fluid_reflection"], &["common.glsl"]),
-        (
-            LAB,
-            &["fluid_strang", "fluid_reflection", "fluid_weno", "fluid_particles"],
-            &["buffer_field.glsl", "divergence.glsl", "pressure.glsl", "spread_x.glsl"],
-        ),
-        (LAB, &["fluid_strang", "fluid_covector"], &["buffer_field.glsl", "pressure.glsl", "spread_x.glsl"]),
-        (LAB, &["fluid_strang", "fluid_reflection", "fluid_covector", "fluid_particles"], &["buffer_drift.glsl"]),
-        (LAB, &["fluid_reflection", "fluid_covector", "fluid_weno"], &["spread_y.glsl"]),
-        (LAB, &["fluid_strang", "fluid_particles"], &["pushed.glsl", "buffer_held.glsl"]),
-        (LAB, &["gray_scott_blur", "gray_scott_stencil", "gray_scott_etd"], &["image.glsl"]),
-        (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
-    ] {
-        for file in files {
-            assert!(are_same(&texts(folder, projects, file)), "{file} differs among {projects:?}");
+    let (mut files, mut functions) = (BTreeMap::new(), BTreeMap::new());
+    let mut folders = vec![root.join("presets"), root.join("assets/lab")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "glsl") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                // A preset is an example to read, so small functions may be repeated in presets.
+                for function in long_functions(&text).filter(|_| path.starts_with(root.join("assets/lab"))) {
+                    if let Some(first) = functions.insert(function.to_owned(), path.clone()) {
+                        panic!("{} and {} have the same function:\n{function}", first.display(), path.display());
+                    }
+                }
+                // Of one line is a text that only includes another.
+                if text.lines().count() > 1
+                    && let Some(first) = files.insert(text, path.clone())
+                {
+                    panic!("{} is a copy of {}: share one (see CONTRIBUTING.md)", path.display(), first.display());
+                }
+            }
         }
     }
-    let lobes = ["presets/sky-spheres", "assets/lab/lobe"];
-    assert!(are_same(&texts("", &lobes, "lobe.glsl")), "lobe.glsl differs between the preset and its study");
-    // The scene and the equation of peers that solve them in different ways.
-    for (projects, begins) in [
-        (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
-        (&["fluid_projection", "fluid_strang"], &["vec2 vortex(", "float pressureAt(", "vec2 bilinear("]),
-        (&["fluid_strang", "fluid_weno"], &["vec2 at(", "float pressureAt("]),
-        (&["fluid_strang", "fluid_covector", "fluid_weno", "fluid_particles"], &["vec2 vortex(", "vec2 spreadAlong("]),
-        (&["fluid_strang", "fluid_weno", "fluid_particles"], &["vec2 gradient("]),
-        (&["fluid_covector", "fluid_particles"], &["float pressureAt("]),
-        (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
-        (
-            &["gray_scott_blur", "gray_scott_stencil", "gray_scott_etd"],
-            &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
-        ),
-        (&["gray_scott_etd", "poisson_fft"], &["vec2 turn(", "vec2 times("]),
-        (&["poisson_cycle", "poisson_jacobi", "poisson_sor", "poisson_chebyshev"], &["vec2 at(", "float solved("]),
-    ] {
-        for begin in begins {
-            let all = texts(LAB, projects, "common.glsl");
-            let parts: Vec<String> = all.iter().map(|text| definition(text, begin)).collect();
-            assert!(are_same(&parts), "`{begin}` differs among {projects:?}: {parts:#?}");
-        }
-    }
+    assert!(files.len() > 300 && functions.len() > 50, "{} files, {} functions", files.len(), functions.len());
 }
 
-/// What begins so at the start of a line: to the end of the line, or of the function.
-fn definition(text: &str, begin: &str) -> String {
-    let lines: Vec<&str> = text.lines().skip_while(|line| !line.starts_with(begin)).collect();
-    let first = lines.first().unwrap_or_else(|| panic!("there is no `{begin}`"));
-    let last = if first.ends_with('{') { lines.iter().position(|l| *l == "}").unwrap() } else { 0 };
-    lines[..=last].join("\n")
+/// The functions of a text that have five lines or more. Each pass has its own `mainImage`.
+fn long_functions(text: &str) -> impl Iterator<Item = &str> {
+    let starts = text.match_indices(") {\n").map(|(at, _)| text[..at].rfind('\n').map_or(0, |line| line + 1));
+    let heads = starts.filter(|start| text[*start..].starts_with(char::is_alphanumeric));
+    let functions = heads.filter_map(|start| Some(&text[start..start + text[start..].find("\n}")? + 2]));
+    functions.filter(|function| function.lines().count() >= 5 && !function.starts_with("void mainImage"))
 }
 
 #[test]

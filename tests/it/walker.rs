@@ -8,7 +8,7 @@ use eddy::{
     debugger::trace::{self, Event, Extent},
     engine::{BuildOptions, Engine, FrameInputs, Sources},
     media,
-    project::{self, PassId, Project, presets},
+    project::{PassId, Project, presets},
 };
 
 const SIZE: (u32, u32) = (64, 36);
@@ -255,7 +255,7 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
     let Some(gpu) = gpu() else { return };
     let mut seen = 0;
     for name in presets::names() {
-        let mut project = project::load(&format!("presets/{name}")).unwrap().project;
+        let mut project = presets::load(name).unwrap().project;
         // Nothing runs for the texels of a pass that is off.
         project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
         let (media, _) = media::gather(&project, None);
@@ -307,7 +307,7 @@ fn what_a_probe_and_a_traced_pixel_cost() {
     let inputs = |frame: i32| FrameInputs::at_fixed_step(frame, 60.0);
     let mut projects: Vec<(String, Project)> = ["taa", "gallery-of-tricks", "fluid", "brick-breaker", "bloom"]
         .iter()
-        .map(|name| ((*name).to_owned(), project::load(&format!("presets/{name}")).unwrap().project))
+        .map(|name| ((*name).to_owned(), presets::load(name).unwrap().project))
         .collect();
     projects.push(("long marcher".into(), project(vec![image(&long_marcher(), Default::default())])));
     for (name, project) in projects {

@@ -227,7 +227,7 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
     for (name, passes) in
         [("ssao", &["geometry", "backs", "occlusion", "lighting"][..]), ("toon-outline", &["scene"][..])]
     {
-        let project = project::load(&format!("presets/{name}")).unwrap().project;
+        let project = project::presets::load(name).unwrap().project;
         for pass in passes.iter().map(|name| buffer(name)) {
             let settings = &project.pass(&pass).unwrap().settings;
             assert!(settings.meshes().is_some());

@@ -183,7 +183,7 @@ fn judge(preset: &str, id: &PassId, found: &Found) -> Vec<String> {
 
 /// Draws a preset, and walks through its passes at each of the frames.
 fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassId, Found)> {
-    let mut project = project::load(&format!("presets/{name}")).unwrap().project;
+    let mut project = project::presets::load(name).unwrap().project;
     // Nothing runs for the texels of a pass that is off.
     project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
     let (media, _) = media::gather(&project, None);
@@ -247,7 +247,7 @@ fn walk_presets(first: usize) {
 #[test]
 fn a_preset_that_is_not_what_is_drawn_is_seen() {
     let Some(gpu) = gpu() else { return };
-    let project = project::load("presets/feedback").unwrap().project;
+    let project = project::presets::load("feedback").unwrap().project;
     let mut engine = ran(&gpu, &project, SIZE, 4);
     let index = project.passes.iter().position(|pass| pass.id == PassId::Image).unwrap();
     let mut other = project.clone();

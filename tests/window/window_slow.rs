@@ -1,5 +1,4 @@
-//! End to end: code that the device does not come back from, and a device that is lost, in the real window, by real key
-//! events.
+//! End to end: code that the device does not come back from, in the real window, by real key events.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{
@@ -147,59 +146,4 @@ fn a_paused_start_draws_nothing_before_one_says_so() {
     display.shot("opened-paused.png");
     window.click_on("halt:go-on");
     window.wait_until("frames", "frame", |e| e["playing"] == true && e["frame"].as_u64() > Some(2));
-}
-
-#[test]
-fn a_window_whose_device_is_lost_goes_on_with_another() {
-    let Some((display, home)) = Display::with_home() else { return };
-    let (file, loss) = (home.path().join("image.glsl"), home.path().join("lose-it"));
-    fs::write(&file, GREEN).unwrap();
-    let arguments = [file.to_str().unwrap(), "--lose-device", loss.to_str().unwrap()];
-    let mut window = Window::open(&display, home.path(), &arguments);
-    window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
-    window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
-    // What is shown while paused is to be shown again, and what is not saved is to be kept.
-    window.pause();
-    window.click_on("editor");
-    window.keys(&["ctrl+End"]);
-    window.type_text("// not saved");
-    window.wait_until("the change", "dirty", |e| e["dirty"] == true);
-    window.wait_until("its compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
-    let (picture, editor) = (window.picture_point(0.5, 0.5), window.rect("editor"));
-    let away = window.picture_point(0.2, 0.2);
-    let shot = |name: &str| {
-        let path = home.path().join(name);
-        display.photograph(&path);
-        image::open(&path).unwrap().to_rgb8()
-    };
-    window.move_to(away);
-    std::thread::sleep(Duration::from_millis(500));
-    let before = shot("before.png");
-
-    fs::write(&loss, "").unwrap();
-    window.move_to((away.0 + 1, away.1));
-    window.wait_for("the word of it", |e| {
-        e["event"] == "notice" && e["text"].as_str().unwrap().contains("the window has switched to a new one")
-    });
-    std::thread::sleep(Duration::from_millis(500));
-    let after = shot("after.png");
-    display.shot("device-lost.png");
-    let at = |image: &image::RgbImage| *image.get_pixel(picture.0 as u32, picture.1 as u32);
-    assert_eq!((at(&before), at(&after)), (image::Rgb([0, 255, 0]), image::Rgb([0, 255, 0])));
-    // The lines of code; below them the warning has its place.
-    let [left, top, width, _] = editor.map(|x| x as u32);
-    let pixels = || (top + 4..top + 60).flat_map(|y| (left + 4..left + width - 20).map(move |x| (x, y)));
-    let written = pixels().filter(|&(x, y)| before.get_pixel(x, y).0[1] > 128).count();
-    let differ = pixels().filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y)).count();
-    // The cursor blinks.
-    assert!(written > 500 && differ < 100, "{written} pixels of code, of which {differ} differ");
-
-    window.keys(&["Return"]);
-    window.type_text("// and more");
-    window.save();
-    assert!(fs::read_to_string(&file).unwrap().ends_with("// not saved\n// and more"));
-    window.click_on("button:play");
-    window.wait_until("it to play", "frame", |e| e["playing"] == true);
-    window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0), "{}", window.complaints());
 }

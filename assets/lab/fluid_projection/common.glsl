@@ -5,33 +5,9 @@
 #endif
 // Of a step.
 #iUniform float dt = 0.15 in { 0.0, 4.0 }
-// Texels^2 for a unit of time.
-#iUniform float viscosity = 0.55 in { 0.0, 2.0 }
-// Texels for a unit of time.
-#iUniform float speed = 0.5 in { 0.0, 2.0 }
 // In a box (CAVITY) the speed of its upper wall, texels for a unit of time.
 #iUniform float lid = 0.0 in { -2.0, 2.0 }
-// Amplitude of noise on top of the vortex.
-#iUniform float noise = 0.0 in { 0.0, 1.0 }
-
-// Two numbers in 0..1 for a point of the grid of half texels, of integers alone and so the same on every GPU: pcg2d (M.
-// Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020).
-vec2 hash(vec2 p) {
-    uvec2 v = uvec2(ivec2(floor(2.0 * p + 0.25))) * 1664525u + 1013904223u;
-    v.x += v.y * 1664525u;
-    v.y += v.x * 1664525u;
-    v ^= v >> 16u;
-    v.x += v.y * 1664525u;
-    v.y += v.x * 1664525u;
-    v ^= v >> 16u;
-    return vec2(v >> 8u) / 16777216.0;
-}
-
-// A Taylor-Green vortex of one wave in the box.
-vec2 vortex(vec2 p) {
-    vec2 a = 6.2831853071795865 * p / iResolution.xy;
-    return speed * vec2(sin(a.x) * cos(a.y), -cos(a.x) * sin(a.y)) + 2.0 * noise * (hash(p) - 0.5);
-}
+#include "vortex.glsl"
 
 // Velocity. Beyond a wall lies what makes that on the wall the wall's own.
 vec2 at(sampler2D field, ivec2 p) {
@@ -45,23 +21,6 @@ vec2 at(sampler2D field, ivec2 p) {
 #endif
 }
 
-// Pressure, without a gradient at a wall.
-float pressureAt(sampler2D field, ivec2 p) {
-    ivec2 size = ivec2(iResolution.xy);
-#ifdef CAVITY
-    return texelFetch(field, clamp(p, ivec2(0), size - 1), 0).x;
-#else
-    return texelFetch(field, (p + size) % size, 0).x;
-#endif
-}
+#include "pressure_at.glsl"
 
-vec2 bilinear(sampler2D field, vec2 p) {
-#ifdef CAVITY
-    p = clamp(p, vec2(0.0), iResolution.xy - 1e-3);
-#endif
-    vec2 base = floor(p - 0.5), t = p - 0.5 - base;
-    ivec2 i = ivec2(base);
-    vec2 a = at(field, i), b = at(field, i + ivec2(1, 0)), c = at(field, i + ivec2(0, 1)), d = at(field, i + ivec2(1, 1));
-    vec2 low = a + t.x * (b - a), high = c + t.x * (d - c);
-    return low + t.y * (high - low);
-}
+#include "bilinear.glsl"

@@ -26,10 +26,4 @@ float scene(vec2 p, float h, float t) {
     return float(distance(q, mix(vec2(0.15, 0.3), vec2(0.85, 0.7), t) * h) < 1.5);
 }
 
-// PCG of three integers (Jarzynski and Olano, JCGT 9(3), 2020).
-uvec3 pcg(uvec3 v) {
-    v = v * 1664525u + 1013904223u;
-    v += v.yzx * v.zxy;
-    v ^= v >> 16;
-    return v + v.yzx * v.zxy;
-}
+#include "pcg.glsl"

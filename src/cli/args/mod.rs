@@ -71,9 +71,6 @@ pub struct Window {
     /// Print events of the window to standard output, one JSON object per line
     #[arg(long)]
     pub json: bool,
-    /// Development only: lose the window's device when FILE appears, and remove FILE
-    #[arg(long, value_name = "FILE", hide = true)]
-    pub lose_device: Option<PathBuf>,
 }
 
 impl Window {

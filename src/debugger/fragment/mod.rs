@@ -17,5 +17,6 @@ mod weights;
 mod writer;
 
 pub use pass::{PassFragments, WalkError};
-pub use pixel::{Fragment, MeshFragment, Origin, PixelContent};
+pub(crate) use pixel::{Fragment, PixelContent};
+pub use pixel::{MeshFragment, Origin};
 pub use writer::own_texels;

@@ -1,15 +1,13 @@
 //! The figures and pictures of a comparison, made on a thread of their own: FLIP of a large picture takes a second.
 
 use crate::{
+    background::{Background, Control, Wake},
     engine::Pixels,
     lab::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
 };
 use egui::ColorImage;
-use std::sync::{
-    Arc,
-    mpsc::{Receiver, channel},
-};
+use std::sync::Arc;
 
 /// A comparison as the window shows it.
 pub struct Figures {
@@ -39,19 +37,11 @@ impl Figures {
     }
 }
 
-/// Makes them beside the window, which is woken when they are there.
-pub fn begin(comparison: Arc<Comparison>, wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<Figures> {
-    let (sender, receiver) = channel();
-    let work = move || {
-        if let Some(figures) = Figures::new(comparison) {
-            // Nobody waits for figures that newer ones have overtaken.
-            let _ = sender.send(figures);
-            wake();
-        }
-    };
-    // Without a thread there are no figures, and the pictures stay what they were.
-    let _ = std::thread::Builder::new().name("figures of a comparison".into()).spawn(work);
-    receiver
+/// Makes them beside the window, which is woken when they are there: `None` where the pictures have different sizes. Without
+/// a thread there are no figures.
+pub fn start(comparison: Arc<Comparison>, wake: Wake) -> Option<Background<(), (), Option<Figures>>> {
+    let work = move |_: &Control<()>| Ok(Figures::new(comparison));
+    Some(Background::once("figures of a comparison", "the comparison's figures", wake, work).ok()?.detached())
 }
 
 /// A picture as the window shows it: without its alpha, as the site's canvas is.

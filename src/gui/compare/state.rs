@@ -2,15 +2,13 @@
 
 use super::figures::{self, Figures};
 use crate::{
+    background::Background,
     lab::difference,
     playback::comparing::{Baseline, Comparison},
     session::{Session, Status},
 };
 use egui::{TextureHandle, TextureOptions};
-use std::{
-    path::Path,
-    sync::{Arc, mpsc::Receiver},
-};
+use std::{path::Path, sync::Arc};
 
 /// Says what the project is held against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +59,7 @@ pub struct Compare {
     /// Compare again after each edit.
     pub(super) follows: bool,
     pub(super) seen: Option<Pictures>,
-    coming: Option<Receiver<Figures>>,
+    coming: Option<Background<(), (), Option<Figures>>>,
     /// The comparison whose figures are made, or there.
     of: Option<Arc<Comparison>>,
     pub(super) under: Option<HoveredPixel>,
@@ -113,12 +111,13 @@ impl Compare {
             None => (self.seen, self.coming, self.of) = (None, None, None),
             Some(Status::Ended(Ok(done))) if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, done)) => {
                 self.of = Some(done.clone());
-                self.coming = Some(figures::begin(done.clone(), self.wake.clone()));
+                self.coming = figures::start(done.clone(), self.wake.clone());
             }
             Some(_) => {}
         }
-        let Some(figures) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) else { return };
+        let Some(made) = self.coming.as_mut().and_then(Background::take) else { return };
         self.coming = None;
+        let Ok(Some(figures)) = made else { return };
         let load = |name: &str, image: &egui::ColorImage| ctx.load_texture(name, image.clone(), options());
         self.seen = Some(Pictures {
             ours: load("ours", &figures.ours),

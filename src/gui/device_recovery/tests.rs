@@ -35,7 +35,7 @@ fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
         (watched, renewed)
     };
     assert!(matches!(watch(0, &mut session), (Ok(()), 0)));
-    gpu.lose();
+    testing::lose(&gpu);
     assert!(matches!(watch(1, &mut session), (Ok(()), 1)));
     assert!(matches!(watch(12, &mut session), (Ok(()), 1)), "eleven seconds later is another accident");
     let warned = |n: &&crate::session::Notice| n.text.contains("Your texts are unchanged");
@@ -53,7 +53,7 @@ fn a_window_that_gets_no_other_device_saves_what_was_not() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
     session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
-    gpu.lose();
+    testing::lose(&gpu);
     let none = |_: &mut Session| Err(GuiError::Surface("planted".into()));
     let error = DeviceLosses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
     assert!(error.to_string().contains("Your unsaved work is in"), "{error}");

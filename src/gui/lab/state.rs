@@ -2,11 +2,12 @@
 
 use super::model::{ExtentResults, PlotData};
 use crate::{
+    background::{Background, Control},
     gpu::{Gpu, GpuOptions},
     gui::ui_output::{Pick, ShellCommand, UiOutput},
     lab::{
         self, Extent, LabError, Point, Results, Shard, Study,
-        background::{Background, Event, Progress},
+        background_run::{BackgroundRun, Event, Progress},
         cost,
         open::Opened,
         report,
@@ -19,10 +20,7 @@ use crate::{
 use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        mpsc::{Receiver, channel},
-    },
+    sync::Arc,
 };
 
 /// The panel's state.
@@ -38,7 +36,7 @@ pub struct Lab {
     pub(super) run: Option<Run>,
     pub(super) folder: Folder,
     /// A report that is being written.
-    pub(super) saving: Option<(Extent, Receiver<Result<PathBuf, String>>)>,
+    pub(super) saving: Option<(Extent, Background<(), (), PathBuf>)>,
     /// Says what the last thing came to, and whether it went wrong.
     pub(super) message: Option<(String, bool)>,
     /// The point whose project was opened last.
@@ -52,7 +50,7 @@ pub struct Lab {
 
 /// A run under way.
 pub(super) struct Run {
-    pub(super) background: Background,
+    pub(super) background: BackgroundRun,
     pub(super) study: usize,
     pub(super) extent: Extent,
     pub(super) progress: Progress,
@@ -99,7 +97,7 @@ impl Lab {
 
     /// Takes in what the run has said since the last frame.
     pub fn update(&mut self) {
-        if let Some((extent, Ok(saved))) = self.saving.as_ref().map(|(extent, saved)| (*extent, saved.try_recv())) {
+        if let Some((extent, Some(saved))) = self.saving.as_mut().map(|(extent, saving)| (*extent, saving.take())) {
             self.saving = None;
             self.message = Some(match saved {
                 Ok(path) => {
@@ -111,7 +109,7 @@ impl Lab {
             });
         }
         let Some(run) = &mut self.run else { return };
-        let (extent, events) = (run.extent, run.background.events().collect::<Vec<Event>>());
+        let (extent, events) = (run.extent, run.background.events());
         let mut is_new = false;
         for event in events {
             is_new |= self.known_mut(extent).take(&event);
@@ -180,7 +178,7 @@ impl Lab {
         let adapter = self.adapter.clone();
         let open = move || Gpu::another(&adapter, &GpuOptions::default());
         let options = Options { out, extent, repeats: cost::MIN_REPEATS, shard: Shard::WHOLE };
-        let background = Background::start(open, vec![study], options, self.wake.clone());
+        let background = BackgroundRun::start(open, vec![study], options, self.wake.clone());
         let background = background.map_err(|e| format!("cannot start a thread for the lab: {e}"))?;
         self.run = Some(Run { background, study: self.study, extent, progress: Progress::Begins });
         Ok(())
@@ -229,16 +227,13 @@ impl Lab {
     pub fn save_report(&mut self, folder: PathBuf) {
         let results = self.known(self.extent).results.clone();
         let is_own = matches!(&self.folder, Folder::Chosen(path) if *path == folder);
-        let (sender, saved) = channel();
-        let (studies, wake) = (self.studies.clone(), self.wake.clone());
-        let write = move || {
-            // Nobody waits where the window is gone.
-            let _ = sender.send(write_report(&folder, &studies, &results, is_own).map(|()| folder));
-            wake();
-        };
-        match std::thread::Builder::new().name("lab report".into()).spawn(write) {
-            Ok(_) => {
-                (self.saving, self.message) = (Some((self.extent, saved)), Some(("writing the report…".into(), false)))
+        let studies = self.studies.clone();
+        let write = move |_: &Control<()>| write_report(&folder, &studies, &results, is_own).map(|()| folder);
+        match Background::once("lab report", "the report", self.wake.clone(), write) {
+            Ok(saving) => {
+                let saving = saving.detached();
+                (self.saving, self.message) =
+                    (Some((self.extent, saving)), Some(("writing the report…".into(), false)));
             }
             Err(e) => self.message = Some((format!("cannot start a thread for the report: {e}"), true)),
         }

@@ -6,12 +6,14 @@ use eddy_engine::BuildOptions;
 use eddy_media::{MediaSet, Texels};
 use eddy_project::{
     self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassId, Project,
-    Sampler, TexelFormat, Wrap,
+    Sampler, TexelFormat, Wrap, presets::Library,
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
 
 static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/lab");
+
+static LIBRARY: Library = Library::new(&METHODS);
 
 /// Says how the texels of all passes are to be stored, where that is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -209,9 +211,9 @@ impl Setup {
     /// The project as the engine gets it.
     pub fn project(&self) -> Result<(Project, MediaSet), LabError> {
         let lacks = |what: String| LabError::Setup { method: self.folder.into(), what };
-        let mut project = match METHODS.get_dir(self.folder) {
-            Some(dir) => project::presets::load_embedded(self.folder, dir)?.project,
-            None => project::presets::load(self.folder)?.project,
+        let mut project = match LIBRARY.has(self.folder) {
+            true => project::presets::load_embedded(&LIBRARY, self.folder)?.project,
+            false => project::presets::load(self.folder)?.project,
         };
         if let Some(build) = &self.built {
             build(&mut project);

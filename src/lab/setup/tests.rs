@@ -1,51 +1,20 @@
 use super::*;
 
-/// Functions of a text by their first line, each to its closing brace.
-fn functions(text: &str) -> Vec<(&str, &str)> {
-    let begins = text.match_indices(") {\n").filter_map(|(at, _)| {
-        let line = text[..at].rfind('\n').map_or(0, |n| n + 1);
-        let is_function = text[line..].starts_with(|c: char| c.is_ascii_lowercase()) && !text[line..at].contains('=');
-        is_function.then_some(line)
-    });
-    begins
-        .filter_map(|from| {
-            let body = &text[from..];
-            let body = &body[..body.find("\n}\n")? + 3];
-            Some((body.split('\n').next()?, body))
-        })
-        .collect()
-}
-
-/// Projects of methods stand by themselves, as they are opened and saved; what they have in common is copied.
 #[test]
-fn what_methods_have_in_common_is_the_same() {
-    let mut compared = 0;
-    for family in [
-        &["diffusion_stencil/common.glsl", "diffusion_blur/common.glsl"][..],
-        &["gray_scott_stencil/common.glsl", "gray_scott_blur/common.glsl"],
-        &[
-            "poisson_jacobi/common.glsl",
-            "poisson_sor/common.glsl",
-            "poisson_cycle/common.glsl",
-            "poisson_chebyshev/common.glsl",
-        ],
-        &["blur_taps/buffer_source.glsl", "blur_pyramid/buffer_source.glsl"],
-    ] {
-        let text = |name: &str| METHODS.get_file(name).and_then(|f| f.contents_utf8()).unwrap();
-        let first = functions(text(family[0]));
-        assert!(!first.is_empty(), "{}", family[0]);
-        for other in &family[1..] {
-            let others = functions(text(other));
-            let both = first.iter().filter_map(|(head, body)| {
-                others.iter().find(|(other, _)| other == head).map(|(_, other)| (head, body, other))
-            });
-            for (head, one, another) in both {
-                assert_eq!(one, another, "`{head}` of {} and {other}", family[0]);
-                compared += 1;
-            }
+fn every_method_has_all_its_files() {
+    let mut sharing = 0;
+    for dir in METHODS.dirs() {
+        let name = dir.path().file_name().unwrap().to_str().unwrap();
+        if !LIBRARY.has(name) {
+            continue;
         }
+        let loaded = project::presets::load_embedded(&LIBRARY, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let lines = loaded.project.include_lines();
+        assert!(lines.missing.is_empty() && lines.diagnostics.is_empty(), "{name}: {lines:?}");
+        let has = |source: &project::Source| dir.get_file(dir.path().join(&source.name)).is_some();
+        sharing += usize::from(!loaded.project.tab_sources().all(has) || !lines.lines.is_empty());
     }
-    assert!(compared >= 10, "{compared}");
+    assert!(sharing > 20, "{sharing} methods share files");
 }
 
 #[test]
@@ -68,7 +37,7 @@ fn a_fingerprint_is_of_texts_settings_texels_and_size() {
         base(),
         base().define("OTHER", 1),
         base().uniform("feed", 0.03),
-        base().edit("common", "feed", "food"),
+        base().edit("common", "SPLIT 0", "SPLIT 1"),
         base().initial("field", "vec4(0.5)"),
         base().state("field", &texels),
         base().state("field", &[[0.25; 4]; 64]),

@@ -22,7 +22,7 @@ const METHODS: &[Method] = &[
     },
 ];
 
-const SCENE: &str = include_str!("../../../assets/lab/pixel_samples/common.glsl");
+const SCENE: &str = include_str!("../../../assets/lab/pixel_samples/scene.glsl");
 
 /// The picture that filters read, in place of the project's own.
 const ONE_SAMPLE: &str = "

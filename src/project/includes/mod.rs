@@ -159,8 +159,8 @@ impl Project {
     pub fn read_includes(&mut self) {
         match &self.origin {
             super::Origin::Preset(name) => {
-                let dir = embedded::folder(name);
-                read(self, dir.map(Files::embedded).as_ref());
+                let files = embedded::LIBRARY.files(name);
+                read(self, files.as_ref());
             }
             other => {
                 let base = other.base_dir().map(Path::to_owned);
@@ -174,7 +174,7 @@ impl Project {
     pub fn read_included(&mut self, names: impl IntoIterator<Item = String>) {
         let base = self.origin.base_dir().map(Path::to_owned);
         let files = match &self.origin {
-            super::Origin::Preset(name) => embedded::folder(name).map(Files::embedded),
+            super::Origin::Preset(name) => embedded::LIBRARY.files(name),
             _ => base.as_deref().map(Files::on_disk),
         };
         let Some(files) = files else { return };
@@ -342,13 +342,13 @@ impl Project {
     }
 
     fn source_text(&self, id: SourceId) -> &str {
-        match (usize::from(id.0), &self.common) {
-            (0, common) => common.as_ref().map_or("", |c| &c.text),
-            (i, _) => match self.passes.get(i - 1) {
-                Some(pass) => &pass.source.text,
-                None => self.included(id).map_or("", |i| &i.source.text),
-            },
-        }
+        let source = match usize::from(id.0) {
+            0 => self.common.as_ref(),
+            i if i < self.first_stage() => self.passes.get(i - 1).map(|pass| &pass.source),
+            i if i < self.first_included() => self.stages().nth(i - self.first_stage()).map(|(_, stage)| stage),
+            _ => self.included(id).map(|included| &included.source),
+        };
+        source.map_or("", |source| &source.text)
     }
 }
 

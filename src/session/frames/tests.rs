@@ -110,13 +110,13 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let first = session.drawing.device().wait().unwrap();
-    first.lose();
+    testing::lose(&first);
     tick_until(&mut session, "the loss to be told of", |s| s.notices().iter().any(|n| n.text.contains("lost")));
     tick_until(&mut session, "frames of the fresh device", |s| s.drawing.has_program() && s.transport().frame > 2);
     assert!(session.drawing.device().wait().unwrap().take_trouble("it").is_ok());
     assert!(session.transport().playing && matches!(session.compile_state().last, Some(Outcome::Ok { .. })));
 
-    session.drawing.device().wait().unwrap().lose();
+    testing::lose(&session.drawing.device().wait().unwrap());
     tick_until(&mut session, "the end of drawing", |s| s.halting.is_device_gone());
     let count = session.notices().len();
     for _ in 0..20 {

@@ -10,8 +10,10 @@ mod replay;
 mod seek;
 
 pub use record::Recorder;
-pub use replay::{Reading, Replay, ReplayView, ReplayedFrame, name};
-pub use seek::{Reach, SeekTarget, Seeking, TimeRange};
+pub use replay::ReplayView;
+pub(crate) use replay::{Reading, Replay, ReplayedFrame, name};
+pub use seek::{Reach, TimeRange};
+pub(crate) use seek::{SeekTarget, Seeking};
 
 use clock::{Clock, FrameTime};
 use eddy_audio::Timeline;

@@ -11,16 +11,14 @@ use super::{
     Playback,
     seek::{Reach, SeekTarget},
 };
+use eddy_background::{Background, Control, Wake};
 use eddy_playback::recording::{Change, ReadError, RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 use std::{
     fs::File,
     io::BufReader,
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        mpsc::{Receiver, TryRecvError, channel},
-    },
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -51,30 +49,25 @@ pub struct Replay {
 /// A file that is being read.
 pub struct Reading {
     pub file: PathBuf,
-    result: Receiver<Result<Recording, ReadError>>,
+    result: Background<(), (), Result<Recording, ReadError>>,
 }
 
 impl Reading {
-    /// Begins to read, on a thread of its own: a long recording takes seconds. `wake` is called when it is there.
-    pub fn begin(file: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let (sender, result) = channel();
+    /// Starts to read, on a thread of its own: a long recording takes seconds. `wake` is called when it is there.
+    pub fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
         let path = file.clone();
-        std::thread::Builder::new().name("recording".into()).spawn(move || {
-            let read = File::open(&path).map_err(ReadError::Io).and_then(|file| Recording::read(BufReader::new(file)));
-            // A receiver that is gone no longer wants it.
-            let _ = sender.send(read);
-            wake();
-        })?;
+        let read = move |_: &Control<()>| {
+            let read = |file| Recording::read(BufReader::new(file));
+            Ok(File::open(&path).map_err(ReadError::Io).and_then(read))
+        };
+        let result = Background::once("recording", "reading the recording", wake, read)?.detached();
         Ok(Self { file, result })
     }
 
     /// Returns what was read, once it is.
-    pub fn take(&self) -> Option<Result<Recording, ReadError>> {
-        match self.result.try_recv() {
-            Ok(read) => Some(read),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(ReadError::Io(std::io::Error::other("reading it failed")))),
-        }
+    pub fn take(&mut self) -> Option<Result<Recording, ReadError>> {
+        let read = self.result.take()?;
+        Some(read.unwrap_or_else(|why| Err(ReadError::Io(std::io::Error::other(why)))))
     }
 }
 

@@ -9,6 +9,7 @@ mod docs;
 mod pages;
 mod paths;
 mod texts;
+mod threads;
 
 use paths::Named;
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};

@@ -75,84 +75,47 @@ fn expanded(text: &str, made: &HashMap<String, String>) -> String {
     out + rest
 }
 
-/// What a function consists of. Places, constants and parameters are no operations.
-#[derive(Default)]
-struct Digest {
-    name: String,
-    /// Of the function's text, so that an operand in another's place shows.
-    hash: Fnv,
-    operations: u32,
-    branches: u32,
-    loops: u32,
-    loads: u32,
-    stores: u32,
-    calls: u32,
-    texture_reads: u32,
-}
-
-/// FNV-1a in 32 bits: the same on each machine.
-struct Fnv(u32);
-
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0x811c_9dc5)
-    }
-}
-
-impl Fnv {
-    fn line(&mut self, line: &str) {
-        for byte in line.bytes().chain([b'\n']) {
-            self.0 = (self.0 ^ u32::from(byte)).wrapping_mul(0x0100_0193);
-        }
-    }
-}
-
-/// Returns a line for each function of a program, with counts of what it consists of and a hash of its text. The
-/// globals before the first function are a line of their own.
-pub fn digest(program: &str) -> String {
-    let mut functions: Vec<Digest> = Vec::new();
-    for line in program.lines().filter(|line| !line.is_empty()) {
-        let declares = line.starts_with("fn ") || line.starts_with("entry ");
-        if declares || functions.is_empty() {
-            let name = if declares { line.split('(').next().expect("a name") } else { "globals" };
-            functions.push(Digest { name: name.to_owned(), ..Digest::default() });
-        }
-        let function = functions.last_mut().expect("one was added");
-        function.hash.line(line);
-        if declares || function.name == "globals" {
-            continue;
-        }
-        let statement = line.trim_start();
-        let expression = statement.strip_prefix('%').and_then(|text| text.split_once(" = "));
-        let word = |text: &str| text.split(' ').next().unwrap_or_default().to_owned();
-        match expression {
-            Some((_, made)) => {
-                function.operations += 1;
-                match word(made).as_str() {
-                    "load" => function.loads += 1,
-                    "call" => function.calls += 1,
-                    "sample" | "fetch" => function.texture_reads += 1,
-                    _ => {}
+/// Returns the text of several programs, each behind its title. A function, or all globals of a program, whose text is that
+/// of one before is a line that names the place of that one.
+///
+/// The text after a function's number is compared as it is. What it calls, and which globals it uses, it says by
+/// number, so functions that only look the same may do different things.
+pub fn without_repeats(programs: &[(String, String)]) -> String {
+    let mut seen: HashMap<&str, String> = HashMap::new();
+    let mut out = String::new();
+    for (title, program) in programs {
+        let _ = writeln!(out, "=== {title}");
+        for part in parts(program) {
+            let part = part.trim_end();
+            // The name is to the first parenthesis; globals have none.
+            let (name, text) = match part.starts_with("fn ") || part.starts_with("entry ") {
+                true => part.split_at(part.find('(').expect("a function's parameters")),
+                false => ("globals", part),
+            };
+            match seen.get(text) {
+                Some(place) => {
+                    let _ = writeln!(out, "{name}: as {place}\n");
+                }
+                None => {
+                    let _ = writeln!(out, "{part}\n");
+                    seen.insert(text, format!("{name} of {title}"));
                 }
             }
-            None => match word(statement).as_str() {
-                "if" | "switch" => function.branches += 1,
-                "loop" => function.loops += 1,
-                "call" => function.calls += 1,
-                _ if statement.contains(" <- ") => function.stores += 1,
-                _ => {}
-            },
         }
-    }
-    let mut out = String::new();
-    for f in functions {
-        let numbers = [f.operations, f.branches, f.loops, f.loads, f.stores, f.calls, f.texture_reads];
-        let columns = numbers.map(|number| format!("{number:>10}")).concat();
-        let _ = writeln!(out, "{:<10}{columns}  {:08x}", f.name, f.hash.0);
     }
     out
 }
 
-/// The names of [`digest`]'s columns.
-pub const DIGEST_HEADER: &str =
-    "function  operations  branches     loops     loads    stores     calls  textures      hash";
+/// Splits a program in its globals, if it has any, and its functions.
+fn parts(program: &str) -> impl Iterator<Item = &str> {
+    let declares = |line: &str| line.starts_with("fn ") || line.starts_with("entry ");
+    let lines = program.split_inclusive('\n').scan(0, |at, line| {
+        *at += line.len();
+        Some((*at - line.len(), line))
+    });
+    let mut starts: Vec<usize> = lines.filter(|(_, line)| declares(line)).map(|(at, _)| at).collect();
+    starts.insert(0, 0);
+    starts.push(program.len());
+    let spans: Vec<&str> = starts.windows(2).map(|ends| &program[ends[0]..ends[1]]).collect();
+    spans.into_iter().filter(|part| !part.trim().is_empty())
+}

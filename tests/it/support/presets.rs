@@ -5,12 +5,11 @@ use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::MediaSet,
-    project::{CustomUniformValues, PassId, Project, load},
+    project::{CustomUniformValues, PassId, Project, presets},
 };
 
-/// Read from the source tree and not from the binary, so that a preset can be worked on without building Eddy anew.
 pub fn preset(name: &str) -> Project {
-    load(&format!("{}/presets/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap_or_else(|e| panic!("{e}")).project
+    presets::load(name).unwrap_or_else(|e| panic!("{e}")).project
 }
 
 /// A preset with its sliders set.

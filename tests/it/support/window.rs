@@ -3,6 +3,7 @@
 pub use super::{display::Display, folder_of};
 use serde_json::Value;
 use std::{
+    ffi::OsStr,
     io::{BufRead, BufReader},
     path::Path,
     process::{Child, Command, Stdio},
@@ -65,14 +66,26 @@ impl<'a> Window<'a> {
         environment: &[(&str, &str)],
         arguments: &[&str],
     ) -> Window<'a> {
+        // `EDDY_BINARY` is another build of it, as one that is optimised.
+        let program = std::env::var_os("EDDY_BINARY").unwrap_or_else(|| env!("CARGO_BIN_EXE_eddy").into());
+        Self::start_program(&program, display, home, size, environment, arguments)
+    }
+
+    /// The same by another program, which takes the arguments of `eddy`.
+    pub fn start_program(
+        program: &OsStr,
+        display: &'a Display,
+        home: &Path,
+        size: Option<&str>,
+        environment: &[(&str, &str)],
+        arguments: &[&str],
+    ) -> Window<'a> {
         let runtime = home.join("runtime");
         std::fs::create_dir_all(&runtime).unwrap();
         // A busy machine's slow frame is no reason to pause.
         let has_limit = arguments.contains(&"--frame-timeout");
         let patient: &[&str] = if has_limit { &[] } else { &["--frame-timeout", "60"] };
-        // `EDDY_BINARY` is another build of it, as one that is optimised.
-        let binary = std::env::var_os("EDDY_BINARY").unwrap_or_else(|| env!("CARGO_BIN_EXE_eddy").into());
-        let mut process = Command::new(binary)
+        let mut process = Command::new(program)
             .arg("--json")
             .args(size.into_iter().flat_map(|size| ["--size", size]))
             .args(patient)

@@ -3,7 +3,7 @@
 
 use crate::lab::{
     ErrorRecord, Extent, Method, Point, Results, Study,
-    background::{Event, Progress},
+    background_run::{Event, Progress},
     report::{Look, Row, Table},
 };
 use egui::Pos2;

@@ -1,3 +1,0 @@
-void mainImage(out vec4 source, in vec2 fragCoord) {
-    source = texelFetch(iChannel0, ivec2(fragCoord), 0);
-}
