@@ -1,4 +1,4 @@
-//! The choices that a file's format leaves: names as people write them.
+//! The options of file formats, with their names on the command line.
 
 /// The format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Format {
         Format::Raw,
     ];
 
-    /// Returns its name, which a file's name ends in.
+    /// Returns its name, which is also the file extension.
     pub fn name(self) -> &'static str {
         match self {
             Format::Png => "png",
@@ -48,34 +48,34 @@ impl Format {
         }
     }
 
-    /// Returns the most frames per second that the format has, where that is less than any film asks for. Browsers show no frame
-    /// of a GIF for less than two hundredths of a second.
+    /// Returns the maximum frames per second of the format, where it is lower than a film may request. Browsers show
+    /// each frame of a GIF for at least two hundredths of a second.
     pub fn fastest(self) -> Option<f64> {
         (self == Format::Gif).then_some(50.0)
     }
 
-    /// Returns the format of a name, whatever the case of its letters.
+    /// Returns the format with this name, ignoring case.
     pub fn of_name(name: &str) -> Option<Format> {
         Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
-    /// Returns whether a file holds one picture.
+    /// Returns whether a file contains one picture.
     pub fn is_still(self) -> bool {
         matches!(self, Format::Png | Format::Exr | Format::Npy)
     }
 
-    /// Returns whether a file may hold sound.
+    /// Returns whether a file may contain sound.
     pub fn holds_sound(self) -> bool {
         matches!(self, Format::Webm | Format::Mp4 | Format::Mov | Format::Mkv)
     }
 
-    /// Returns whether the format can be written to a pipe, where nothing is written twice.
+    /// Returns whether the format can be written to a pipe, that is, without seeking.
     pub fn is_for_pipes(self) -> bool {
         self.is_still() || matches!(self, Format::Y4m | Format::Raw | Format::Apng)
     }
 }
 
-/// The form in which a film's pictures are compressed.
+/// The codec of a film's pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Codec {
     H264,
@@ -118,15 +118,15 @@ impl Codec {
     }
 }
 
-/// The trade of size against likeness.
+/// The trade-off between file size and fidelity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     Low,
     Medium,
     High,
-    /// Every pixel has the bytes that a PNG of 8 bits has.
+    /// Every pixel has the bytes that an 8-bit PNG has.
     Lossless,
-    /// The encoder's own number: the constant rate factor, or ProRes' quantiser.
+    /// The encoder's own number: the constant rate factor, or the quantiser of ProRes.
     Number(u32),
 }
 
@@ -142,10 +142,10 @@ impl Quality {
     }
 }
 
-/// The resolution of the colour differences against that of the brightness.
+/// The resolution of the chroma planes relative to luma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chroma {
-    /// Half across and down, which every player shows.
+    /// Half across and down, which every player supports.
     C420,
     /// Half across.
     C422,
@@ -172,7 +172,7 @@ impl Chroma {
     }
 }
 
-/// The codes that black and white have.
+/// The codes of black and white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColorRange {
     /// 16 and 235 of 8 bits (ITU-R BT.709-6, section 4.6).
