@@ -8,11 +8,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Frames a second of a sequence that says nothing else.
+/// The default frames per second of a sequence.
 const FRAME_RATE: f64 = 25.0;
 
-/// Returns the frames a second that the folder of a sequence says at the end of its name: `walk-12fps`, `walk_29.97fps`. Others
-/// have 25.
+/// Returns the frames per second from the end of the name of a sequence's folder: `walk-12fps`, `walk_29.97fps`. Other
+/// folders have 25.
 pub fn frame_rate_of(path: &Path) -> f64 {
     let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
     let number = folder.strip_suffix("fps").map(|rest| {
@@ -104,7 +104,7 @@ impl Run {
 impl Decode for Run {
     fn next(&mut self) -> Result<Option<(f64, Vec<u8>)>, VideoError> {
         let Some(path) = self.path.take().filter(|_| self.next < self.count) else { return Ok(None) };
-        // An image that cannot be read leaves the one before it.
+        // An image that cannot be read is replaced by the previous one.
         let texels = match (self.decode(&path), self.last.take()) {
             (Ok(texels), _) => texels,
             (Err(error), Some(last)) => {
