@@ -44,11 +44,11 @@ impl Animation {
             return Err(VideoError::TooMany);
         }
         let mut end = 0.0;
-        let begin = |delay: &f64| {
+        let start = |delay: &f64| {
             end += delay;
             end - delay
         };
-        let times: Arc<[f64]> = delays.iter().map(begin).collect();
+        let times: Arc<[f64]> = delays.iter().map(start).collect();
         if end > f64::from(limits::VIDEO_SECONDS) {
             return Err(VideoError::TooLong { seconds: end });
         }

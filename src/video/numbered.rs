@@ -16,8 +16,8 @@ const FRAME_RATE: f64 = 25.0;
 pub fn frame_rate_of(path: &Path) -> f64 {
     let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
     let number = folder.strip_suffix("fps").map(|rest| {
-        let begin = rest.rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |at| at + 1);
-        &rest[begin..]
+        let start = rest.rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |at| at + 1);
+        &rest[start..]
     });
     let rate = number.and_then(|number| number.parse::<f64>().ok());
     rate.filter(|rate| (0.01..=1000.0).contains(rate)).unwrap_or(FRAME_RATE)
@@ -70,13 +70,13 @@ impl Film for Sequence {
     }
 
     fn start(&self, from: f64, _: &Stop) -> Result<Box<dyn Decode>, VideoError> {
-        let begin = ((from * self.info.frame_rate + 1e-6) as usize).min(self.count - 1);
+        let start = ((from * self.info.frame_rate + 1e-6) as usize).min(self.count - 1);
         let mut path = self.first.clone();
-        for _ in 0..begin {
+        for _ in 0..start {
             path = next_numbered(&path).ok_or(VideoError::NoPicture)?;
         }
         let Self { read, info, count, .. } = self;
-        Ok(Box::new(Run { path: Some(path), read: read.clone(), info: *info, next: begin, count: *count, last: None }))
+        Ok(Box::new(Run { path: Some(path), read: read.clone(), info: *info, next: start, count: *count, last: None }))
     }
 }
 

@@ -187,8 +187,8 @@ fn ratio(text: &str) -> Option<f64> {
 fn end_of_packets(csv: &str) -> f64 {
     let end = |line: &str| {
         let mut numbers = line.split(',').map(|n| n.trim().parse::<f64>().ok());
-        let begin = numbers.next()??;
-        Some(begin + numbers.next().flatten().unwrap_or(0.0))
+        let start = numbers.next()??;
+        Some(start + numbers.next().flatten().unwrap_or(0.0))
     };
     csv.lines().filter_map(end).fold(0.0, f64::max)
 }

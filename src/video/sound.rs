@@ -7,7 +7,7 @@ use std::{fs::File, path::Path, time::Duration};
 /// Sound-only containers, in addition to those of videos.
 const FORMATS: &str = "wav,w64,aiff,au,caf,mp3,aac,flac,ac3,eac3,dts,amr,wv,ape,tta,voc";
 
-/// Decodes at most this many seconds of the first sound of an opened file, and one frame more if the file continues.
+/// Decodes at most this many seconds of the first sound of an opened file, and one second more if the file continues.
 /// Frames are left and right, at `rate` frames per second; ffmpeg mixes down other channel layouts and resamples other
 /// rates.
 pub fn sound_of(

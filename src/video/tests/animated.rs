@@ -108,7 +108,7 @@ fn of(bytes: Vec<u8>) -> Video {
 #[test]
 fn frames_last_for_their_declared_delays() {
     // The second is shorter than browsers accept: it lasts 100 ms.
-    let begins = [0.0, 0.05, 0.15, 0.35, 0.38];
+    let starts = [0.0, 0.05, 0.15, 0.35, 0.38];
     for (what, video) in [
         ("gif", of(gif(&[50, 10, 200, 30, 120]))),
         ("apng", of(apng(&[50, 10, 200, 30, 120]))),
@@ -117,9 +117,9 @@ fn frames_last_for_their_declared_delays() {
         assert_eq!((video.info().width, video.info().height), SIDE, "{what}");
         assert!((video.info().seconds - 0.5).abs() < 1e-9, "{what}: {:?}", video.info());
         for round in [0.0, 0.5, 5.0, 0.0] {
-            for (n, begin) in begins.iter().enumerate() {
-                let end = begins.get(n + 1).unwrap_or(&0.5);
-                for at in [begin + 1e-6, end - 1e-4] {
+            for (n, start) in starts.iter().enumerate() {
+                let end = starts.get(n + 1).unwrap_or(&0.5);
+                for at in [start + 1e-6, end - 1e-4] {
                     assert_eq!(shown(&video, round + at), n, "{what} at {}", round + at);
                 }
             }

@@ -80,9 +80,9 @@ fn frames_of_a_variable_rate_last_as_long_as_their_times_say() {
     let video = open(&path).unwrap();
     assert!(video.info().seconds >= 1.21, "{:?}", video.info());
     for n in 0..11_usize {
-        let begin = (n * n) as f64 / 100.0;
+        let start = (n * n) as f64 / 100.0;
         let end = ((n + 1) * (n + 1)) as f64 / 100.0;
-        for at in [begin, begin + 1e-3, 0.5 * (begin + end), end - 1e-3] {
+        for at in [start, start + 1e-3, 0.5 * (start + end), end - 1e-3] {
             assert_eq!(shown(&video, at), n, "at {at}");
         }
     }
