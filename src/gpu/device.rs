@@ -74,8 +74,8 @@ pub struct Gpu {
     pub filters_float32: bool,
     /// Fragment shaders can read storage buffers.
     pub has_storage_buffers: bool,
-    /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's
-    /// Vulkan on the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
+    /// A program is recompiled for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's
+    /// Vulkan on the CPU, tries how much shorter it becomes with their values inlined (`lvp_inline_uniforms.c`).
     pub recompiles_for_uniforms: bool,
     /// Denormals are kept nondeterministically. After a fragment that fails the depth test was meant for a target of
     /// 16-bit floats, the thread that processed it no longer flushes denormal numbers to zero, and which texels that

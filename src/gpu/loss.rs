@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-/// How long to retry opening a device while the driver resets the lost one. An H100 (driver 580.159) returned
+/// Time for which opening a device is retried while the driver resets the lost one. An H100 (driver 580.159) returned
 /// `DEVICE_LOST` after a hang; the duration of a reset was not measured.
 pub const RESET: Duration = Duration::from_secs(5);
 /// The time between two attempts.

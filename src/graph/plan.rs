@@ -5,7 +5,7 @@ use eddy_project::{Condition, Filter, Input, PassId, PassSize, Project, Region, 
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
-/// How a compiled pass uses one channel.
+/// The use of one channel by a compiled pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChannelFacts {
     /// Some read of it is reachable.

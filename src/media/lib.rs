@@ -77,7 +77,7 @@ pub struct MediaSet {
     videos: HashMap<Media, Arc<Video>>,
     /// The camera, if the user has turned one on.
     camera: Option<Camera>,
-    /// How long drawing waits for a frame of a video.
+    /// The time that drawing waits for a frame of a video.
     pace: Pace,
     /// The reason why the picture of a fill is missing, and a hint for fixing it.
     missing_fills: HashMap<PathBuf, (String, String)>,

@@ -57,7 +57,7 @@ impl Component {
     }
 }
 
-/// How integers are interpreted.
+/// The interpretation of integers.
 #[derive(Clone, Copy)]
 enum Integers {
     /// As plain numbers.
