@@ -1,13 +1,13 @@
 use super::*;
 
-/// Functions of a text by their first line, each to its closing brace.
+/// Returns the functions of a text by their first line, each up to its closing brace.
 fn functions(text: &str) -> Vec<(&str, &str)> {
-    let begins = text.match_indices(") {\n").filter_map(|(at, _)| {
+    let starts = text.match_indices(") {\n").filter_map(|(at, _)| {
         let line = text[..at].rfind('\n').map_or(0, |n| n + 1);
         let is_function = text[line..].starts_with(|c: char| c.is_ascii_lowercase()) && !text[line..at].contains('=');
         is_function.then_some(line)
     });
-    begins
+    starts
         .filter_map(|from| {
             let body = &text[from..];
             let body = &body[..body.find("\n}\n")? + 3];
@@ -16,9 +16,9 @@ fn functions(text: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// Projects of methods stand by themselves, as they are opened and saved; what they have in common is copied.
+/// The projects of methods are self-contained, as they are opened and saved; their common parts are copied.
 #[test]
-fn what_methods_have_in_common_is_the_same() {
+fn common_parts_of_methods_are_identical() {
     let mut compared = 0;
     for family in [
         &["diffusion_stencil/common.glsl", "diffusion_blur/common.glsl"][..],
@@ -49,7 +49,7 @@ fn what_methods_have_in_common_is_the_same() {
 }
 
 #[test]
-fn steps_are_shared_out_exactly() {
+fn steps_are_split_exactly() {
     for (total, most) in [(2000, 32), (625, 32), (157, 32), (1, 1), (7, 0)] {
         let (frames, steps) = frames_of(total, most);
         assert_eq!(frames * steps, total);
@@ -59,7 +59,7 @@ fn steps_are_shared_out_exactly() {
 }
 
 #[test]
-fn a_fingerprint_is_of_texts_settings_texels_and_size() {
+fn fingerprints_depend_on_texts_settings_texels_and_size() {
     let base = || Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5);
     let print = |setup: Setup| setup.fingerprint().unwrap();
     assert_eq!(print(base()), print(base()));
@@ -87,7 +87,7 @@ fn a_fingerprint_is_of_texts_settings_texels_and_size() {
 }
 
 #[test]
-fn what_a_project_does_not_have_is_named() {
+fn errors_name_missing_parts_of_a_project() {
     let said = |setup: Setup| setup.project().unwrap_err().to_string();
     assert!(said(Setup::new("floor", (8, 8)).uniform("nope", 1.0)).contains("has no uniform nope"));
     let beyond = said(Setup::new("fluid_guay", (8, 8)).uniform("dt", 5.0));
