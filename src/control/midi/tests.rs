@@ -90,7 +90,7 @@ fn a_parameter_is_selected_by_two_controllers_and_set_by_one_or_two() {
     for (rest, wanted) in cases {
         assert_eq!(parameters(&[&select[..], rest].concat()), of(wanted), "{rest:?}");
     }
-    assert_eq!(parameters(&[0xb0, 6, 1, 99, 2, 6, 1]), [], "nothing assert_events selected yet");
+    assert_eq!(parameters(&[0xb0, 6, 1, 99, 2, 6, 1]), [], "nothing is selected yet");
     let other = parameters(&[0xb0, 99, 2, 98, 44, 6, 1, 38, 1, 98, 45, 6, 127]);
     assert_eq!(other.last(), Some(&("midi 1 nrpn 301".to_owned(), 1.0)), "another parameter has no fine part yet");
     // Each channel has its own selection, and the controllers themselves still make events.
